@@ -1,6 +1,6 @@
 """Folders of processes that Blender left behind as it died: a lock states whose are in use; the rest is removed.
 
-A folder is in use as long as Blender, or the process that works in it, lives: both hold its `said.txt` open.
+A folder is in use as long as Blender, or the process that works in it, lives: both hold its `output.txt` open.
 """
 
 import shutil
@@ -12,13 +12,13 @@ PREFIX = "grafu_blender_"
 _YOUNG = 60.0  # seconds in which a folder may not have its lock yet
 
 
-def hold(said) -> None:
+def hold(output) -> None:
     """Marks the folder of an open file as in use, for as long as the file is open here or in a process that has it."""
     try:
         import fcntl
     except ImportError:  # on Windows what is open cannot be moved
         return
-    fcntl.flock(said, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    fcntl.flock(output, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def clear() -> None:
@@ -36,10 +36,10 @@ def _is_held(folder) -> bool:
         import fcntl
     except ImportError:
         return _is_open(folder)
-    said = folder / "said.txt"
-    if not said.exists():
+    output = folder / "output.txt"
+    if not output.exists():
         return False
-    with open(said, "rb") as file:
+    with open(output, "rb") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:

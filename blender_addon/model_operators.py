@@ -48,8 +48,8 @@ class GRAFU_OT_open_result(bpy.types.Operator):
         session.source_file, session.fixed = str(found.source or ""), found.fixed
         objects.show_result(session, found.object, mathutils.Matrix.Translation(context.scene.cursor.location))
         store(session, found.settings, found.report.model_dump_json(by_alias=True), "", found.object)
-        said = found.fixed or f"{len(found.report.joints)} joints, read from {self.directory}"
-        session.status = visible(said)
+        message = found.fixed or f"{len(found.report.joints)} joints, read from {self.directory}"
+        session.status = visible(message)
         self.report({"INFO"}, session.status)
         return {"FINISHED"}
 

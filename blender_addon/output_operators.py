@@ -127,10 +127,10 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
             for source in objects.sources_of(session):
                 bpy.data.objects.remove(source)
             session.sources.clear()
-        said = visible(f"written to {self._target}: {_verdict(report)}")
+        message = visible(f"written to {self._target}: {_verdict(report)}")
         if session is not None:
-            session.status = said
-        self.report({"INFO"}, said)
+            session.status = message
+        self.report({"INFO"}, message)
         return {"FINISHED"}
 
     def _saved_blend(self) -> Path:

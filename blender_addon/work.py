@@ -44,8 +44,8 @@ class _Process:
     def __init__(self) -> None:
         leftovers.clear()
         self.folder = Path(tempfile.mkdtemp(prefix=leftovers.PREFIX))
-        self._said = open(self.folder / "said.txt", "wb")  # noqa: SIM115  closed in `end`
-        leftovers.hold(self._said)
+        self._output = open(self.folder / "output.txt", "wb")  # noqa: SIM115  closed in `end`
+        leftovers.hold(self._output)
         self._running = None
 
     def start(self, module, arguments) -> None:
@@ -53,7 +53,7 @@ class _Process:
         self._running = subprocess.Popen(
             [sys.executable, "-m", module, *arguments],
             stdin=subprocess.PIPE,
-            stdout=self._said,
+            stdout=self._output,
             stderr=subprocess.STDOUT,
             env={**os.environ, **PRIVATE, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
         )
@@ -71,24 +71,24 @@ class _Process:
         except OSError:
             self._running.wait()
 
-    def said(self, start: int) -> str:
-        """Returns what it has said from the `start`th byte on; nothing once it has been ended."""
-        if self._said.closed:
+    def printed_from(self, start: int) -> str:
+        """Returns what it has printed from the `start`th byte on; nothing once it has been ended."""
+        if self._output.closed:
             return ""
-        with open(self.folder / "said.txt", "rb") as said:
-            said.seek(start)
-            return said.read().decode(errors="replace")
+        with open(self.folder / "output.txt", "rb") as output:
+            output.seek(start)
+            return output.read().decode(errors="replace")
 
-    def said_so_far(self) -> int:
-        """Returns how many bytes it has said."""
-        return (self.folder / "said.txt").stat().st_size
+    def printed_so_far(self) -> int:
+        """Returns how many bytes it has printed."""
+        return (self.folder / "output.txt").stat().st_size
 
     def end(self) -> None:
         """Ends it at once, whatever it does, and clears away its folder."""
         if self._running is not None and self._running.stdin is not None:
             self._running.kill()
             self._running.communicate()
-        self._said.close()
+        self._output.close()
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
@@ -97,7 +97,7 @@ class _Run:
 
     def __init__(self, process) -> None:
         self._process = process
-        self._start = process.said_so_far()
+        self._start = process.printed_so_far()
         self._began = None
         self._is_late = False
         self.folder = process.folder
@@ -138,8 +138,8 @@ class _Run:
             raise Failed(f"it took longer than {SECONDS:g} s and was stopped")
         verdict = self._verdict()
         if verdict is None:
-            said = [line.strip() for line in self._process.said(0).splitlines() if line.strip()]
-            words = [line for line in said if not line.startswith("stage ") and line != "done"]
+            output = [line.strip() for line in self._process.printed_from(0).splitlines() if line.strip()]
+            words = [line for line in output if not line.startswith("stage ") and line != "done"]
             raise Failed(f"the process ended by itself ({self._process.code}): {words[-1] if words else 'no word'}")
         if verdict != "done":
             raise Failed(verdict.removeprefix("error "))
@@ -158,8 +158,8 @@ class _Run:
         return next((line for line in self._lines() if line == "done" or line.startswith("error ")), None)
 
     def _lines(self) -> list:
-        said = self._process.said(self._start).split("\n")[:-1]  # the last may be half said
-        return [line.rstrip("\r") for line in said]
+        output = self._process.printed_from(self._start).split("\n")[:-1]  # the last may be half printed
+        return [line.rstrip("\r") for line in output]
 
 
 class Run(_Run):
@@ -175,7 +175,7 @@ class Run(_Run):
         for old in (*self.folder.glob("*.glb"), *self.folder.glob("*.packed")):
             if old != self.source:
                 old.unlink()
-        self._start, self._began = self._process.said_so_far(), monotonic()
+        self._start, self._began = self._process.printed_so_far(), monotonic()
         self._process.ask(json.dumps([str(self.source), str(self.folder / "settings.json"), str(self.folder)]))
 
     def close(self) -> None:

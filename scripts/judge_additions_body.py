@@ -56,7 +56,7 @@ def _body_of(asset: Asset, source: MotionSource) -> StepResult:
 def _stated_to_move(asset: Asset) -> set[str]:
     """Returns the parts that the input lets move or carry, and those that are pieces of such."""
     stated = asset.as_annotated()
-    moving = {p.rides_on for p in stated.parts if p.rides_on} | {joint.part for joint in stated.joints}
+    moving = {p.carried_by for p in stated.parts if p.carried_by} | {joint.part for joint in stated.joints}
     pieces = {s.name for p in stated.parts if p.id in moving for s in p.surfaces if s.name}
     return {p.id for p in asset.parts if p.id in moving or {s.name for s in p.surfaces} & pieces}
 

@@ -109,7 +109,7 @@ def complete(rule: bool, asset: Asset) -> GraphCompletion:
 def without_some_still_parts(asset: Asset, bare: Asset, draw: int) -> Asset:
     """Returns the bare asset without a quarter of what neither moves, rides, nor is a handle."""
     moving = {part.id for part in counted_parts(asset)} | {joint.part for joint in asset.joints}
-    still = [p.id for p in asset.parts if p.id not in moving and not p.rides_on and p.label is not PartLabel.HANDLE]
+    still = [p.id for p in asset.parts if p.id not in moving and not p.carried_by and p.label is not PartLabel.HANDLE]
     rng = np.random.default_rng([draw, len(still)])
     gone = set(rng.choice(still, round(GONE * len(still)), replace=False).tolist()) if still else set()
     return replace(bare, parts=tuple(p for p in bare.parts if p.id not in gone))

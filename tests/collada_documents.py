@@ -58,8 +58,8 @@ def collada_text(
 
     Args:
         matrix: from the object frame in metres to the document's axes and units.
-        up: what the document says about its axes.
-        metres: metres per unit, as the document says.
+        up: what the document states about its axes.
+        metres: metres per unit, as the document states.
         materials: by part, `wood` (an image), `steel` or `glass`; wood for all others.
         below: by part, the name of a node above it, shared by parts of one drawer.
     """

@@ -10,7 +10,7 @@ SOON = 300.0
 
 
 def is_alive(process: int) -> bool:
-    """Whether a process runs; one that is dead and that nobody has asked about does not."""
+    """Whether a process runs; one that is dead and that no one has asked about does not."""
     try:
         os.kill(process, 0)
         stat = Path(f"/proc/{process}/stat").read_text()

@@ -1,4 +1,4 @@
-"""Scenes of made furniture in which every part moves by its own true joint: no hinges, no rails.
+"""Scenes of synthetic furniture in which every part moves by its own true joint: no hinges, no rails.
 
 Drawers wait for the doors that stand before them.
 """
@@ -17,7 +17,7 @@ from grafu.vocabulary import JointType, PartLabel
 
 
 def scene_of(asset: Asset) -> Scene:
-    attached = {j.part: tuple(p.id for p in asset.parts if p.rides_on == j.part) for j in asset.joints}
+    attached = {j.part: tuple(p.id for p in asset.parts if p.carried_by == j.part) for j in asset.joints}
     moving_bodies = {part: MovingBody(part, (part, *ids)) for part, ids in attached.items()}
     joint_motions = {j.part: JointMotion(j.axis, j.type, j.upper, after=doors_before(asset, j)) for j in asset.joints}
     return Scene({p.id: p for p in asset.parts}, moving_bodies, asset.extent, joint_motions=joint_motions)
@@ -44,7 +44,7 @@ def without_handles(asset: Asset) -> Asset:
 def with_handles_in_their_fronts(asset: Asset) -> Asset:
     """The same with every handle a piece of the front that carries it."""
     handles = [p for p in asset.parts if p.label is PartLabel.HANDLE]
-    more = {name: tuple(s for h in handles if h.rides_on == name for s in h.surfaces) for name in ids(asset)}
+    more = {name: tuple(s for h in handles if h.carried_by == name for s in h.surfaces) for name in ids(asset)}
     parts = (replace(p, surfaces=(*p.surfaces, *more[p.id])) for p in asset.parts if p not in handles)
     return replace(asset, parts=tuple(parts))
 

@@ -60,7 +60,7 @@ def swept_collisions(obj: ArticulatedObject, joint: Joint, poses: int = 50) -> d
     asset = _without_hardware(obj)
     others = frozenset(
         v.name for link in obj.links if link.id not in (obj.root, joint.child) for v in link.visuals
-    )  # other moving bodies: `after` says when they are out of the way
+    )  # other moving bodies: `after` states when they are out of the way
     return collisions(asset, joint.child, np.linspace(0.0, joint.limits.upper, poses), others)
 
 

@@ -1,4 +1,4 @@
-"""A network by hand: what it says about a graph is written down in words, and what is not said is unlikely.
+"""A network by hand: what it states about a graph is written down in words, and what is not said is unlikely.
 
 Asked about a graph, it answers by the ids of its nodes, so that added parts and the order of parts change nothing else.
 """
@@ -119,5 +119,5 @@ class _Blank:
 
 
 def silent(graph: FunctionalGraph) -> Scores:
-    """Returns the scores of a network that says nothing at all about a graph."""
+    """Returns the scores of a network that states nothing at all about a graph."""
     return Answers().about(graph)(graph_features(graph))

@@ -40,7 +40,9 @@ def predicted(asset: Asset, T_file_object: np.ndarray, boxes: bool = False, sour
         mesh = part.mesh.transformed(T_file_object)
         shape = TriangleMesh.box_mesh(mesh.box) if boxes else mesh
         label = part.label if labels else PartLabel.UNKNOWN
-        parts.append(ForeignPart(f"their_{part.id}", shape, boxes, label, part.rides_on and f"their_{part.rides_on}"))
+        parts.append(
+            ForeignPart(f"their_{part.id}", shape, boxes, label, part.carried_by and f"their_{part.carried_by}")
+        )
     scale = scale_of(T_file_object)
     joints = []
     for joint in asset.joints:
@@ -59,7 +61,7 @@ def way(rotation: np.ndarray, scale: float = 1.0, offset: tuple[float, float, fl
 
 def unlabelled(asset: Asset) -> Asset:
     """Returns the asset with no label at all, nor a joint nor an attached part."""
-    parts = tuple(replace(p, label=PartLabel.UNKNOWN, labelled_by="none", rides_on=None) for p in asset.parts)
+    parts = tuple(replace(p, label=PartLabel.UNKNOWN, labelled_by="none", carried_by=None) for p in asset.parts)
     return replace(asset, parts=parts, joints=())
 
 

@@ -28,9 +28,9 @@ def sketch(*pieces: Sketched) -> Asset:
     return Asset("sketch", "", "made", tuple(piece.part for piece in pieces), joints=joints)
 
 
-def board(name: str, label: PartLabel, low: Corner, high: Corner, rides_on: str | None = None) -> Sketched:
+def board(name: str, label: PartLabel, low: Corner, high: Corner, carried_by: str | None = None) -> Sketched:
     """Returns a still box."""
-    return Sketched(Part(name, label, (_surface(low, high),), PartSource(name), "annotation", rides_on))
+    return Sketched(Part(name, label, (_surface(low, high),), PartSource(name), "annotation", carried_by))
 
 
 def door(name: str, low: Corner, high: Corner, hinge: str) -> Sketched:

@@ -13,11 +13,11 @@ from grafu.vocabulary import JointType, PartLabel
 Point = tuple[float, float, float]
 
 
-def box(name: str, low: Point, high: Point, rides_on: str | None = None) -> Part:
+def box(name: str, low: Point, high: Point, carried_by: str | None = None) -> Part:
     """A board; doors, drawers and handles are known by how their names begin."""
     label = next((PartLabel(w) for w in ("door", "drawer", "handle") if name.startswith(w)), PartLabel.UNKNOWN)
     mesh = TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high)))
-    return Part(name, label, (Surface(mesh),), PartSource(name), "annotation", rides_on)
+    return Part(name, label, (Surface(mesh),), PartSource(name), "annotation", carried_by)
 
 
 # A door of 0.4 x 0.6 m in the plane y = 0 that hangs on its left edge, and the wall that it hangs on.

@@ -1,4 +1,4 @@
-"""Hypothesis strategies of several tests: specs of made furniture of every kind.
+"""Hypothesis strategies of several tests: specs of synthetic furniture of every kind.
 
 Draw a spec and call `made(spec)` in the test: a failure then shows the spec, and not thousands of vertices.
 """

@@ -1,4 +1,4 @@
-"""A plain judge of made furniture: moves each part by its own true joint and counts what it runs into.
+"""A plain judge of synthetic furniture: moves each part by its own true joint and counts what it runs into.
 
 It is written on trimesh's collision manager, apart from the product's own sweep, so that the two check each other.
 """
@@ -19,7 +19,7 @@ def joint_motion(joint: AnnotatedJoint, value: float) -> Mat4:
 
 
 def moving_bodies(asset: Asset, part_id: str) -> list[Part]:
-    return [p for p in asset.parts if p.id == part_id or p.rides_on == part_id]
+    return [p for p in asset.parts if p.id == part_id or p.carried_by == part_id]
 
 
 @lru_cache(maxsize=256)  # a part of furniture is asked for with each of its joints, and whether it is convex takes long

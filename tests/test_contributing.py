@@ -1,4 +1,4 @@
-"""CONTRIBUTING.md says which files to touch: they exist, and where a search can tell, none is missing."""
+"""CONTRIBUTING.md states which files to touch: they exist, and where a search can tell, none is missing."""
 
 import re
 from pathlib import Path
@@ -10,7 +10,7 @@ SOURCES = {path.relative_to(ROOT).as_posix(): path for name in FOLDERS for path 
 
 
 def row_of(what: str) -> str:
-    """Returns the row of the table that says what to touch for this."""
+    """Returns the row of the table that states what to touch for this."""
     return next(line for line in PAGE.splitlines() if line.startswith(f"| {what} |"))
 
 

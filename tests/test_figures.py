@@ -138,15 +138,15 @@ def test_a_command_that_fails_says_why(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 @pytest.mark.parametrize(
-    ("words", "says"), [(["--only", "nothing"], "there is no 'nothing'"), (["--quick", "--write"], "leave out")]
+    ("words", "states"), [(["--only", "nothing"], "there is no 'nothing'"), (["--quick", "--write"], "leave out")]
 )
 def test_wrong_choices_are_refused(
-    words: list[str], says: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    words: list[str], states: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys, "argv", ["figures.py", *words])
     with pytest.raises(SystemExit):
         figures.parse_arguments()
-    assert says in capsys.readouterr().err
+    assert states in capsys.readouterr().err
 
 
 def test_real_models_are_asked_for_by_name(monkeypatch: pytest.MonkeyPatch) -> None:

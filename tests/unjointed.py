@@ -40,7 +40,7 @@ def with_fixed_joints(path: Path, target: Path) -> Path:
 
 
 def without_joints(folder: Path, target: Path) -> Path:
-    """Returns a copy of a PartNet-Mobility folder that says that links move, but not how."""
+    """Returns a copy of a PartNet-Mobility folder that states that links move, but not how."""
 
     def bare(link: dict[str, Any]) -> dict[str, Any]:
         moves = link["joint"] in ("hinge", "slider", "slider+")
@@ -86,7 +86,15 @@ def agree(full: Asset, bare: Asset) -> None:
 
 def told(part: Any) -> tuple[Any, ...]:
     """Returns what is said of a part beside its shape."""
-    return part.id, part.label, part.labelled_by, part.source.name, part.source.file, part.rides_on, len(part.surfaces)
+    return (
+        part.id,
+        part.label,
+        part.labelled_by,
+        part.source.name,
+        part.source.file,
+        part.carried_by,
+        len(part.surfaces),
+    )
 
 
 def loaded_in_metres(path: Path) -> Asset:

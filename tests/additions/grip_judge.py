@@ -45,8 +45,8 @@ def assert_sound(before: Part, carved: Carved) -> None:
     """The part is what it was less one grip: nothing broke, nothing was added, nothing changed its look."""
     after = carved.part
     size = float(before.box.size.max())
-    assert (after.id, after.label, after.source, after.rides_on) == (
-        before.id, before.label, before.source, before.rides_on,
+    assert (after.id, after.label, after.source, after.carried_by) == (
+        before.id, before.label, before.source, before.carried_by,
     )  # fmt: skip
     assert np.abs(after.box.low - before.box.low).max() < 1e-6 * max(size, 1.0)
     assert np.abs(after.box.high - before.box.high).max() < 1e-6 * max(size, 1.0)

@@ -74,10 +74,10 @@ def test_what_is_taken_away_is_missed_and_closed_again(label, layout, mount):
     assert made.refused == ()
     for addition in made.additions:
         board = addition.part.mesh
-        assert addition.part.rides_on is None
+        assert addition.part.carried_by is None
         body = SweptBody(board, 5e-4)
         assert [p.id for p in asset.parts if body.penetrates(MeshCollider(p.mesh))] == []
-        still = [p for p in asset.parts if not p.label.is_movable and p.rides_on is None]
+        still = [p for p in asset.parts if not p.label.is_movable and p.carried_by is None]
         assert min(MeshCollider(board).distance(MeshCollider(p.mesh)) for p in still) < 1e-3
     whole = replace(asset, parts=(*asset.parts, *(a.part for a in made.additions)))
     assert missing(whole) == []

@@ -49,12 +49,12 @@ def completed(asset: Asset):
     """The asset realized with the boards that its drawers lacked."""
     plan, made = plan_from_annotation(asset), found(asset)
     whole = replace(asset, parts=(*asset.parts, *(a.part for a in made.additions)))
-    riding = [(a.part.rides_on, a.part.id) for a in made.additions]
+    riding = [(a.part.carried_by, a.part.id) for a in made.additions]
     return realize(plan.with_attached([*made.loose, *riding]), whole, GALLERY)
 
 
 def boards_of(made, drawer: str) -> dict[str, object]:
-    return {a.part.id.removeprefix(f"{drawer}_"): a.part for a in made.additions if a.part.rides_on == drawer}
+    return {a.part.id.removeprefix(f"{drawer}_"): a.part for a in made.additions if a.part.carried_by == drawer}
 
 
 @pytest.mark.parametrize("kind", ["whole", "shell", "floating", "four walls"])
@@ -166,20 +166,20 @@ def test_one_missing_board_is_replaced_where_it_was(gone):
         box("side", (-0.235, -0.18, 0.0), (-0.2125, 0.25, 0.2)),
         box("end", (0.2125, -0.18, 0.0), (0.235, 0.25, 0.2)),
     ]
-    attached = [box(f"board_{k}", *span, rides_on="drawer") for k, span in boards.items() if k != gone]
+    attached = [box(f"board_{k}", *span, carried_by="drawer") for k, span in boards.items() if k != gone]
     front = box("drawer", (-0.23, -0.2, 0.0), (0.23, -0.18, 0.2))
     asset = scene(*walls, front, *attached, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))
     (new,) = found(asset).additions
     low, high = boards[gone]
     np.testing.assert_allclose(new.part.box.low, low, atol=2e-3)
     np.testing.assert_allclose(new.part.box.high, high, atol=2e-3)
-    assert new.part.rides_on == "drawer"
+    assert new.part.carried_by == "drawer"
 
 
 def test_walls_are_set_on_a_mere_bottom():
     walls = [box("side", (-0.25, -0.18, 0.0), (-0.23, 0.25, 0.2)), box("end", (0.23, -0.18, 0.0), (0.25, 0.25, 0.2))]
     front = box("drawer", (-0.23, -0.2, 0.0), (0.23, -0.18, 0.2))
-    bottom = box("board", (-0.21, -0.18, 0.03), (0.21, 0.2, 0.036), rides_on="drawer")
+    bottom = box("board", (-0.21, -0.18, 0.03), (0.21, 0.2, 0.036), carried_by="drawer")
     asset = scene(*walls, front, bottom, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))
     made = found(asset)
     assert made.verdicts[0].missing == ("side_left", "side_right", "back")
@@ -193,8 +193,8 @@ def test_loose_boards_behind_a_front_are_its_box(label):
     asset = stack("whole")
     for drawer in ("drawer_1", "drawer_2"):
         asset = with_box_apart(asset, drawer)
-    boards = [p.id for p in asset.parts if p.rides_on and p.label is PartLabel.MISC]
-    asset = replace(asset, parts=tuple(replace(p, rides_on=None) if p.id in boards else p for p in asset.parts))
+    boards = [p.id for p in asset.parts if p.carried_by and p.label is PartLabel.MISC]
+    asset = replace(asset, parts=tuple(replace(p, carried_by=None) if p.id in boards else p for p in asset.parts))
     asset = asset.with_labels(dict.fromkeys(boards, label))
     made = found(asset)
     assert sorted(part_id for _, part_id in made.loose) == sorted(boards)
@@ -231,7 +231,7 @@ def with_walls_in_the_case(back: bool) -> Asset:
     ]
     merged = replace(case[0], surfaces=tuple(s for p in (*case, *walls[: 3 + back]) for s in p.surfaces))
     front = box("drawer", (-0.23, -0.2, 0.0), (0.23, -0.18, 0.2))
-    bottom = box("board", (-0.21, -0.18, 0.024), (0.21, 0.2, 0.03), rides_on="drawer")
+    bottom = box("board", (-0.21, -0.18, 0.024), (0.21, 0.2, 0.03), carried_by="drawer")
     return scene(merged, front, bottom, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))
 
 
@@ -296,7 +296,7 @@ def test_a_front_drawn_ajar_keeps_its_boards_with_it():
     plan = plan_from_annotation(asset)
     requests = tuple(replace(r, drawn_at=0.1) for r in plan.joints)
     T = translation(vec3(0.0, -0.1, 0.0))
-    moving = {r.moving for r in requests} | {p.id for p in asset.parts if p.rides_on}
+    moving = {r.moving for r in requests} | {p.id for p in asset.parts if p.carried_by}
     parts = tuple(
         replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) if p.id in moving else p for p in asset.parts
     )

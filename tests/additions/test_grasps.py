@@ -77,7 +77,7 @@ def test_a_small_part_that_sticks_out_is_a_handle_whatever_it_is_called(label):
 
 def test_a_handle_that_nothing_attaches_counts_for_the_front_that_it_sits_on():
     asset = cabinet(Pair())
-    loose = tuple(replace(p, rides_on=None) if p.label is PartLabel.HANDLE else p for p in asset.parts)
+    loose = tuple(replace(p, carried_by=None) if p.label is PartLabel.HANDLE else p for p in asset.parts)
     grasps = find_grasps(scene_of(replace(asset, parts=loose)))
     assert {g.kind for g in grasps.values()} == {"handle"}
     assert len({g.part for g in grasps.values()}) == 2

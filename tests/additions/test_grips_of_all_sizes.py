@@ -32,7 +32,7 @@ def test_a_grip_is_sound_and_keeps_its_margins_or_is_refused(size, grip, depth, 
         assert result.reason in (Reason.TOO_SMALL, Reason.TOO_THIN, Reason.TOO_THICK)
         return
     assert_sound(board, result)
-    assert result.part.mesh.is_closed
+    assert result.part.mesh.is_watertight
     assert np.all(result.size[:2] <= np.array(sorted(grip, reverse=True)) + 1e-9)
     half = np.array([result.size[0], result.size[1]]) / 2
     if abs(result.direction[2]) > 0.5:
@@ -63,7 +63,7 @@ def test_fronts_that_look_anywhere_and_slope_a_little_are_carved(turn, slope, ki
     result = carve_grip(scene_of(board, joint_motion), "drawer", GripConfig(kind=kind))
     assert isinstance(result, Carved), result
     assert_sound(board, result)
-    assert result.part.mesh.is_closed
+    assert result.part.mesh.is_watertight
     assert float(result.outward @ (R @ vec3(0.0, -1.0, 0.0))) > 0.99
 
 
@@ -83,4 +83,4 @@ def test_however_a_board_is_cut_into_triangles_the_same_is_taken(seed, kind):
     assert isinstance(other, Carved)
     assert abs(plain.volume - other.volume) < 1e-9 * plain.volume + 1e-12
     assert np.allclose(plain.centre, other.centre)
-    assert other.part.mesh.is_closed
+    assert other.part.mesh.is_watertight

@@ -35,7 +35,7 @@ def completed(asset: Asset, handles: Handles) -> Asset:
 
 
 def handle_of(handles: Handles, moving: str):
-    (part,) = [a.part for a in handles.additions if a.part.rides_on == moving]
+    (part,) = [a.part for a in handles.additions if a.part.carried_by == moving]
     return part
 
 
@@ -43,18 +43,18 @@ def assert_sits_and_stays_clear(asset: Asset, handles: Handles) -> None:
     """Every handle touches its front, hardly enters it, and neither hits nor is hit: by trimesh, not by the product."""
     whole = completed(asset, handles)
     for addition in handles.additions:
-        part, front = addition.part, asset.part(addition.part.rides_on)
+        part, front = addition.part, asset.part(addition.part.carried_by)
         assert MeshCollider(part.mesh).distance(MeshCollider(front.mesh)) < 1e-3
         still = trimesh.collision.CollisionManager()
         for other in whole.parts:
-            if other.id != front.id and other.rides_on != front.id:
+            if other.id != front.id and other.carried_by != front.id:
                 still.add_object(other.id, other.mesh.to_trimesh())
         assert not still.in_collision_single(part.mesh.to_trimesh())
     for joint in whole.joints:
         opened = (
             scene_of(asset).joint_motions[joint.part].after
         )  # with all that rides on them they are out of the way by then
-        ignored = frozenset(part.id for part in whole.parts if {part.id, part.rides_on} & {*opened})
+        ignored = frozenset(part.id for part in whole.parts if {part.id, part.carried_by} & {*opened})
         before = collisions(asset, joint.part, ignored=ignored)
         assert set(collisions(whole, joint.part, ignored=ignored)) <= set(before), joint.part
 
@@ -75,7 +75,7 @@ def test_every_front_style_gets_a_handle_on_something_solid(leaf):
     assert len(handles.additions) == 2
     assert_sits_and_stays_clear(asset, handles)
     for addition in handles.additions:
-        door = asset.part(addition.part.rides_on)
+        door = asset.part(addition.part.carried_by)
         clear = [s.mesh for s in door.surfaces if s.material.base_color[3] < 0.95]
         part = MeshCollider(addition.part.mesh)
         assert all(part.distance(MeshCollider(mesh)) > 1e-4 for mesh in clear)
@@ -106,7 +106,7 @@ def test_tall_doors_are_held_where_hands_are_and_low_ones_high():
 def test_drawers_are_held_in_their_middle_and_high_ones_above_it():
     asset = without_handles(cabinet(Stack((Drawer(), Drawer()), (3.0, 1.0)), width=0.6))
     for part in (a.part for a in added(asset).additions):
-        drawer = asset.part(part.rides_on).box
+        drawer = asset.part(part.carried_by).box
         assert part.box.center[0] == pytest.approx(drawer.center[0], abs=1e-3)
         off = (part.box.center[2] - drawer.center[2]) / drawer.half[2]
         assert off > 0.2 if drawer.size[2] > 0.25 else abs(off) < 0.3
@@ -115,7 +115,7 @@ def test_drawers_are_held_in_their_middle_and_high_ones_above_it():
 def test_wide_drawers_take_two():
     asset = without_handles(cabinet(Stack((Drawer(), Drawer())), width=1.2))
     handles = added(asset)
-    assert [sum(a.part.rides_on == m for a in handles.additions) for m in ("drawer_1", "drawer_2")] == [2, 2]
+    assert [sum(a.part.carried_by == m for a in handles.additions) for m in ("drawer_1", "drawer_2")] == [2, 2]
     assert_sits_and_stays_clear(asset, handles)
 
 
@@ -144,14 +144,14 @@ def test_behind_a_door_a_handle_is_flat_enough():
     doors = [asset.part(m) for m in ("door",)]
     for addition in handles.additions:
         part = MeshCollider(addition.part.mesh)
-        if addition.part.rides_on != "door":
+        if addition.part.carried_by != "door":
             assert all(part.distance(MeshCollider(d.mesh)) > 0 for d in doors)
 
 
 def test_one_lost_handle_is_like_the_others():
     asset = cabinet(Row((Door("left"), Door("right"), Door("left"))), width=1.2)
     lost, kept = (
-        next(p for p in asset.parts if p.label is PartLabel.HANDLE and p.rides_on == f"door_{k}") for k in (1, 3)
+        next(p for p in asset.parts if p.label is PartLabel.HANDLE and p.carried_by == f"door_{k}") for k in (1, 3)
     )
     rest = replace(asset, parts=tuple(p for p in asset.parts if p is not lost))
     handles = added(rest)
@@ -203,7 +203,7 @@ def test_models_of_another_scale_get_handles_that_fit(factor):
     asset = scaled(without_handles(cabinet(Pair(), width=0.9)), factor)
     handles = added(asset)
     for part in (a.part for a in handles.additions):
-        ratio = part.box.size.max() / asset.part(part.rides_on).box.size.max()
+        ratio = part.box.size.max() / asset.part(part.carried_by).box.size.max()
         assert 0.02 < ratio < 0.5
     assert len(handles.additions) + len(bodies_without(handles.scene, {})) == 2 or factor > 1
 

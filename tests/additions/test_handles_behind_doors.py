@@ -72,7 +72,7 @@ def test_a_drawers_handle_is_clear_of_a_door_that_opens_little():
     scene = with_way(with_way(scene, "drawer_1", upper=travel), "drawer_2", upper=travel)
     handles = add_handles(scene, find_grasps(scene))
     assert all(not meets(handles.scene, drawer, "door", radians(55)) for drawer in ("drawer_1", "drawer_2"))
-    held = {a.part.rides_on for a in handles.additions} | {refused.part for refused in handles.refused}
+    held = {a.part.carried_by for a in handles.additions} | {refused.part for refused in handles.refused}
     assert {"drawer_1", "drawer_2"} <= held
 
 
@@ -93,7 +93,7 @@ def test_a_doors_handle_sits_as_if_nothing_were_behind_the_door(layout):
     at_rest = []
     for asset in (plain, full):
         scene = scene_of(asset)
-        found = {a.part.rides_on: a.part.box for a in add_handles(scene, find_grasps(scene)).additions}
+        found = {a.part.carried_by: a.part.box for a in add_handles(scene, find_grasps(scene)).additions}
         at_rest.append([found[door] for door in doors])
     for alone, before in zip(*at_rest, strict=True):
         assert before.center[0] == pytest.approx(alone.center[0], abs=1e-3)  # its length is that of all fronts' median
@@ -106,12 +106,12 @@ def test_whole_furniture_opens_in_order_with_its_new_handles(kind):
     waiting = {moving: joint_motion.after for moving, joint_motion in scene.joint_motions.items() if joint_motion.after}
     assert waiting
     carved = {c.part.id for c in made.fittings.changes.carved}
-    assert waiting.keys() <= {a.part.rides_on for a in made.additions} | carved
+    assert waiting.keys() <= {a.part.carried_by for a in made.additions} | carved
     assert "none" not in {g.kind for g in find_grasps(scene).values()}
     for moving, before in waiting.items():
         for door in before:
             assert not meets(scene, moving, door, scene.joint_motions[door].upper)
-            handles = [a.part.mesh for a in made.additions if a.part.rides_on == moving]
+            handles = [a.part.mesh for a in made.additions if a.part.carried_by == moving]
             closed = [MeshCollider(mesh) for mesh in meshes_of(scene, door)]
             assert all(MeshCollider(h).distance(c) > 0 for h in handles for c in closed)
 

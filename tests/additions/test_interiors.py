@@ -148,7 +148,7 @@ def test_shelves_stand_back_from_what_a_door_swings_inwards() -> None:
 
 
 def test_what_a_door_carries_inside_is_kept_clear() -> None:
-    rack = box("rack", (-0.3, -0.18, 0.3), (0.3, -0.08, 0.8), rides_on="door")
+    rack = box("rack", (-0.3, -0.18, 0.3), (0.3, -0.08, 0.8), carried_by="door")
     joint_motions = {"door": swinging(-0.378, -0.2)}
     scene = scene_of(*CASE, INSET_DOOR, rack)
     scene = Scene(

@@ -69,4 +69,4 @@ def test_ids_are_free() -> None:
 
 def test_what_was_added_says_so() -> None:
     made = added_part("worktop", PartLabel.TOP_PANEL, [Surface(board(1.0), OAK)])
-    assert (made.labelled_by, made.rides_on, made.source.name) == ("added", None, "")
+    assert (made.labelled_by, made.carried_by, made.source.name) == ("added", None, "")

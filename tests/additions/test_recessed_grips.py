@@ -65,7 +65,7 @@ def with_material(part: Part, material: Material) -> Part:
 def test_a_plain_door_takes_every_kind_opposite_its_hinge(kind, profile):
     result = carved(scene_of(DOOR, DOOR_MOTION, SIDE), "door", of_kind(kind, profile=profile))
     assert_sound(DOOR, result)
-    assert result.part.mesh.is_closed
+    assert result.part.mesh.is_watertight
     assert result.centre[0] > 0.34  # of 0.4
     assert result.outward == pytest.approx([0.0, -1.0, 0.0])
     assert abs(result.direction @ LEFT_EDGE.direction) == pytest.approx(1.0)
@@ -117,7 +117,7 @@ def test_a_spot_is_kept_where_it_is_good_and_left_where_it_is_not():
     scene = scene_of(DOOR, DOOR_MOTION)
     wanted = vec3(0.2, -0.02, 0.45)
     assert carved(scene, "door", of_kind(GripKind.GROOVE), wanted).centre == pytest.approx(wanted)
-    knob = box("handle", (0.18, -0.05, 0.43), (0.22, -0.02, 0.47), rides_on="door")
+    knob = box("handle", (0.18, -0.05, 0.43), (0.22, -0.02, 0.47), carried_by="door")
     taken = scene_of(DOOR, DOOR_MOTION, knob, members=("handle",))
     elsewhere = carved(taken, "door", of_kind(GripKind.GROOVE), wanted)
     assert np.linalg.norm(elsewhere.centre - wanted) > 0.04
@@ -224,7 +224,7 @@ def test_auto_falls_back_to_what_a_front_bears():
 
 def test_the_front_is_carved_where_it_rides_on_its_drawer():
     tray = box("drawer", (-0.18, -0.2, 0.02), (0.18, 0.2, 0.1))
-    board = box("front", (-0.2, -0.22, 0.0), (0.2, -0.2, 0.17), rides_on="drawer")
+    board = box("front", (-0.2, -0.22, 0.0), (0.2, -0.2, 0.17), carried_by="drawer")
     result = carved(scene_of(tray, DRAWER_MOTION, board, members=("front",)), "drawer", of_kind(GripKind.GROOVE))
     assert result.part.id == "front"
     assert_sound(board, result)

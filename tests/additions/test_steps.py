@@ -23,11 +23,11 @@ def planned(asset) -> tuple[Scene, Request]:
     return planned_scene(asset, plan), Request(plan, names=("made",))
 
 
-def adding(name: str, rides_on: str | None = None, removed: frozenset[str] = frozenset(), is_chosen=False) -> Step:
+def adding(name: str, carried_by: str | None = None, removed: frozenset[str] = frozenset(), is_chosen=False) -> Step:
     """A step that adds a board, and tells by the board's reason what was attached to the door before."""
 
     def add(scene: Scene, request: Request, _: AdditionConfig) -> StepResult:
-        part = added_part(name, PartLabel.MISC, [Surface(OLD.mesh)], rides_on)
+        part = added_part(name, PartLabel.MISC, [Surface(OLD.mesh)], carried_by)
         told = ",".join(request.plan.joints[0].attached)
         return StepResult(scene.without_parts(removed).with_parts([part]), (Addition(part, told),), Changes(removed))
 
@@ -43,7 +43,7 @@ def test_the_scene_of_a_step_is_the_old_one_with_its_additions(step):
     before, request = planned(drawer())
     made = step.add(before, request, AdditionConfig())
     assert set(made.scene.parts) - {a.part.id for a in made.additions} == set(before.parts) - made.changes.removed
-    riding = {a.part.id: a.part.rides_on for a in made.additions if a.part.rides_on}
+    riding = {a.part.id: a.part.carried_by for a in made.additions if a.part.carried_by}
     assert all(part in made.scene.moving_bodies[moving].members for part, moving in riding.items())
 
 

@@ -1,4 +1,4 @@
-"""Interiors of furniture that stands turned about Z: the same panels as unturned, carried, and in nobody's way."""
+"""Interiors of furniture that stands turned about Z: the same panels as unturned, carried, and in no one's way."""
 
 from math import radians
 

@@ -1,4 +1,4 @@
-"""`grafu.load` and `grafu.functionalize`: what they take, what they refuse, and that they say what the command says."""
+"""`grafu.load` and `grafu.functionalize`: what they take, what they refuse, and that they do what the command does."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""Physics for which there is no time: boxes stand for parts, and it says so; where there is time nothing changes."""
+"""Physics for which there is no time: boxes stand for parts, and it states so; where there is time nothing changes."""
 
 import numpy as np
 import pytest

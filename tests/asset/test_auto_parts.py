@@ -101,12 +101,12 @@ def test_a_robot_of_several_links_is_left_alone_and_one_of_one_link_is_not():
 
 
 def test_what_rode_on_a_cut_object_rides_on_nothing_until_contact_says_on_what():
-    handle = replace(welded(("handle-8",), PartLabel.HANDLE, "handle"), rides_on="doors")
+    handle = replace(welded(("handle-8",), PartLabel.HANDLE, "handle"), carried_by="doors")
     found = {
         p.id: p for p in cut(welded([n for n in CABINET if n != "handle-8"], PartLabel.DOOR, "doors"), handle).parts
     }
 
-    assert found["handle"].rides_on is None
+    assert found["handle"].carried_by is None
     assert found["handle"].surfaces == handle.surfaces
 
 
@@ -177,7 +177,7 @@ def test_handles_of_fronts_that_were_cut_are_split_between_them(tmp_path):
     found = load_asset(path, AUTO)
 
     parts = {part.id: part for part in found.parts}
-    assert {part.rides_on for part in parts.values() if part.label is PartLabel.HANDLE} >= {"fridge_front"}
+    assert {part.carried_by for part in parts.values() if part.label is PartLabel.HANDLE} >= {"fridge_front"}
 
 
 def test_objects_without_names_that_are_one_drawer_are_joined(tmp_path):

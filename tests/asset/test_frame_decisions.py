@@ -29,7 +29,7 @@ def cabinet() -> Asset:
 
 def reading_of(asset: Asset, T: np.ndarray) -> Reading:
     parts = tuple(
-        type(p)(p.id, p.label, tuple(s.transformed(T) for s in p.surfaces), p.source, p.labelled_by, p.rides_on)
+        type(p)(p.id, p.label, tuple(s.transformed(T) for s in p.surfaces), p.source, p.labelled_by, p.carried_by)
         for p in asset.parts
     )
     return Reading("made", parts, UNKNOWN)
@@ -73,7 +73,7 @@ def test_the_estimate_ignores_quarter_turns(turns):
 @given(cabinet_specs)
 def test_made_cabinets_are_estimated_within_a_factor_of_two(spec):
     asset = make_cabinet(spec)
-    # the specs also draw what no joiner makes: one drawer as high as a wardrobe says nothing about size
+    # the specs also draw what no joiner makes: one drawer as high as a wardrobe states nothing about size
     assume(all(part.box.size[2] < 0.9 for part in asset.parts if part.label is PartLabel.DRAWER))
     assert 0.5 < estimate_scale(asset.parts, asset.box, 2, None).scale < 2.0
 
@@ -122,8 +122,8 @@ def test_a_front_on_the_upright_axis_is_refused():
 @given(cabinet_specs)
 def test_handles_are_found_on_what_carries_them(spec):
     asset = make_cabinet(spec)
-    stated = {p.id: p.rides_on for p in asset.parts}
-    found = {p.id: p.rides_on for p in with_attached(asset.without_annotation().parts)}
+    stated = {p.id: p.carried_by for p in asset.parts}
+    found = {p.id: p.carried_by for p in with_attached(asset.without_annotation().parts)}
     assert found == stated
 
 
@@ -131,6 +131,6 @@ def test_a_glb_that_was_written_reads_back_as_its_parts(tmp_path):
     asset = cabinet()
     write_files(export_glb(as_static_object(asset)), tmp_path / "m")
     back = load_asset(tmp_path / "m")
-    assert [(p.id, p.label, p.rides_on) for p in back.parts] == [(p.id, p.label, p.rides_on) for p in asset.parts]
+    assert [(p.id, p.label, p.carried_by) for p in back.parts] == [(p.id, p.label, p.carried_by) for p in asset.parts]
     for a, b in zip(asset.parts, back.parts, strict=True):
         np.testing.assert_allclose([b.box.low, b.box.high], [a.box.low, a.box.high], atol=1e-6)

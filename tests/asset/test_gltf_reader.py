@@ -31,8 +31,8 @@ def test_nodes_are_parts_in_metres_and_handles_ride_by_contact(tmp_path):
     assert asset.kind == "glb"
     assert len(asset.parts) == len(CABINET) - 1  # the drawer's bottom joins its front
     np.testing.assert_allclose(asset.box.size, [0.8, 0.43, 1.0], atol=1e-6)
-    assert asset.part("handle_8").rides_on == "cabinet_door_surface_7"
-    assert asset.part("handle_11").rides_on == "drawer_front_9"
+    assert asset.part("handle_8").carried_by == "cabinet_door_surface_7"
+    assert asset.part("handle_11").carried_by == "drawer_front_9"
     assert asset.frame.scale == 1.0
 
 
@@ -52,7 +52,7 @@ def test_hierarchy_makes_one_part_of_a_drawer_and_keeps_its_handle(tmp_path):
     drawer = asset.part("Drawer_1")
     assert drawer.label is PartLabel.DRAWER
     assert len(drawer.surfaces) == 2
-    assert asset.part("handle_11").rides_on == "Drawer_1"
+    assert asset.part("handle_11").carried_by == "Drawer_1"
 
 
 def test_a_group_of_whole_drawers_is_no_drawer(tmp_path):

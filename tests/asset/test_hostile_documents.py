@@ -186,7 +186,7 @@ def test_elements_without_end_are_refused(tmp_path):
 
 
 def huge_png():
-    """Returns a PNG whose header says 13,000 x 13,000 pixels, and that holds none."""
+    """Returns a PNG whose header states 13,000 x 13,000 pixels, and that holds none."""
     data = png_bytes(1, 1)
     return data[:16] + struct.pack(">II", 13_000, 13_000) + data[24:]
 

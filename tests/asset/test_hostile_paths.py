@@ -14,7 +14,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.errors import AssetError, UnreadableAsset
 from small_assets import CABINET, gltf_document, png_bytes, urdf_text, write_grouped_obj, write_obj_folder, write_urdf
 
-SECRET = b"\x89PNG\r\n\x1a\n of somebody else"
+SECRET = b"\x89PNG\r\n\x1a\n of another"
 NAMES = [
     "../secret",
     "sub/../../secret",

@@ -19,7 +19,7 @@ PAIR, CORNER, BEHIND = "overlay pair", "corner door at 45 degrees", "drawers beh
 
 
 def written(folder: Path, kind: str = PAIR, change=None, **options):
-    """Returns the made furniture and the path of its HSSD files, changed before they are saved."""
+    """Returns the synthetic furniture and the path of its HSSD files, changed before they are saved."""
     made = KINDS[kind]()
     model = hssd_model(made)
     if change is not None:
@@ -55,8 +55,8 @@ def test_what_was_made_is_read_back(tmp_path, kind, meshes):
         np.testing.assert_allclose(np.sort(after.mesh.triangles.reshape(-1, 3), 0), np.sort(corners, 0), atol=1e-6)
         assert after.label is (before.label if before.label in WORDS else PartLabel.MISC)  # `base` is nothing of ours
     ids = {b.id: a.id for b, a in zip(made.parts, asset.parts, strict=True)}
-    assert {ids[p.id]: ids[p.rides_on] for p in made.parts if p.rides_on} == {
-        p.id: p.rides_on for p in asset.parts if p.rides_on
+    assert {ids[p.id]: ids[p.carried_by] for p in made.parts if p.carried_by} == {
+        p.id: p.carried_by for p in asset.parts if p.carried_by
     }
     read = {joint.part: joint for joint in asset.joints}
     assert set(read) == {ids[joint.part] for joint in made.joints}
@@ -107,7 +107,7 @@ def test_a_model_without_articulations_has_parts_and_no_joints(tmp_path):
     asset = load_annotated(path)
     assert asset.joints == ()
     assert asset.part("door_6").label is PartLabel.DOOR
-    assert asset.part("handle_7").rides_on == "door_6"  # by contact
+    assert asset.part("handle_7").carried_by == "door_6"  # by contact
     assert any("no joint is stated" in note for note in asset.notes)
 
 
@@ -129,7 +129,7 @@ def test_triangles_of_no_part_stand_still_and_are_reported(tmp_path):
     path = hssd_model(KINDS[PAIR](), meshes=2, spare=3).save(tmp_path)
     asset = load_annotated(path)
     assert len(asset.part("rest").mesh.faces) == 6
-    assert asset.part("rest").rides_on is None
+    assert asset.part("rest").carried_by is None
     assert any("6 triangles belong to no annotated part" in note for note in asset.notes)
 
 
@@ -210,7 +210,7 @@ def test_what_moves_and_is_no_door_or_drawer_stays(tmp_path):
     assert asset.joints[0].upper == pytest.approx(radians(100))
     assert any("handle-7 is annotated to move" in note for note in asset.notes)
     assert any("door-6 has several motions" in note for note in asset.notes)
-    assert asset.part("handle_7").rides_on == "door_6"
+    assert asset.part("handle_7").carried_by == "door_6"
 
 
 def test_a_drawer_behind_a_door_that_is_its_base_rides_on_it(tmp_path):
@@ -220,7 +220,7 @@ def test_a_drawer_behind_a_door_that_is_its_base_rides_on_it(tmp_path):
 
     _, path = written(tmp_path, BEHIND, change=change)
     asset = load_annotated(path)
-    assert asset.part(asset.joints[2].part).rides_on == asset.joints[0].part
+    assert asset.part(asset.joints[2].part).carried_by == asset.joints[0].part
 
 
 def test_a_body_that_touches_only_a_door_does_not_ride_on_it(tmp_path):
@@ -235,7 +235,7 @@ def test_a_body_that_touches_only_a_door_does_not_ride_on_it(tmp_path):
             stated["base"] = []
 
     _, path = written(tmp_path, change=change)
-    attached = {p.id: p.rides_on for p in load_annotated(path).parts if p.rides_on}
+    attached = {p.id: p.carried_by for p in load_annotated(path).parts if p.carried_by}
     assert attached == {"handle_7": "door_6", "handle_9": "door_8"}  # the second by contact
 
 
@@ -265,7 +265,7 @@ def broken(name):
     def first(model):
         return model.parts["parts"][1]["partInfo"]["meshTri"][0]
 
-    ways = {
+    changes = {
         "range": (lambda m: first(m).update(triIndex=[[0, 99999]]), "names triangle 99998 of mesh 0, which has"),
         "mesh": (lambda m: first(m).update(meshIndex=7), "names mesh 7 of 3"),
         "negative": (lambda m: first(m).update(meshIndex=-1), "names mesh -1"),
@@ -281,7 +281,7 @@ def broken(name):
         "no parts": (lambda m: m.parts.update(parts="none"), "`parts` is no list"),
         "no list": (lambda m: m.articulations.update(annotation=[1]), "`annotation` is no object"),
     }
-    return ways[name]
+    return changes[name]
 
 
 BREAKS = ["range", "mesh", "negative", "words", "backwards", "pid", "repeated", "type", "axis", "origin", "infinite"]

@@ -30,7 +30,7 @@ def test_groups_of_one_file_are_parts(tmp_path):
     assert asset.name == "c"
     assert [p.source.name for p in asset.parts] == [n for n in CABINET if n != "drawer_bottom-10"]
     assert "drawer_bottom-10 joined to drawer_front_9" in asset.notes
-    assert asset.part("handle_8").rides_on == "cabinet_door_surface_7"
+    assert asset.part("handle_8").carried_by == "cabinet_door_surface_7"
 
 
 def test_a_folder_with_one_grouped_file_reads_its_groups(tmp_path):
@@ -65,7 +65,7 @@ def test_numbered_pieces_are_one_drawer_with_its_handle(tmp_path):
     asset = load_asset(write_grouped_obj(tmp_path / "c.obj", names=names))
     assert asset.part("drawer_1").label is PartLabel.DRAWER
     assert len(asset.part("drawer_1").surfaces) == 2
-    assert asset.part("handle_drawer_1_handle").rides_on == "drawer_1"
+    assert asset.part("handle_drawer_1_handle").carried_by == "drawer_1"
 
 
 def test_repeated_and_strange_names_give_safe_unique_ids(tmp_path):

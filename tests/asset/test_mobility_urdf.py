@@ -1,4 +1,4 @@
-"""`mobility.urdf` of the data set is Y up below its base joint; another maker's of that name is what it says."""
+"""`mobility.urdf` of the data set is Y up below its base joint; another maker's of that name is what it states."""
 
 import pytest
 import trimesh

@@ -13,9 +13,9 @@ from grafu.vocabulary import PartLabel
 WHOLE = Box(np.zeros(3), np.ones(3))
 
 
-def part(name, low, high, label=PartLabel.DRAWER, rides_on=None):
+def part(name, low, high, label=PartLabel.DRAWER, carried_by=None):
     mesh = TriangleMesh.box_mesh(Box(np.array(low, float), np.array(high, float)))
-    return Part(name, label, (Surface(mesh),), PartSource(name), rides_on=rides_on)
+    return Part(name, label, (Surface(mesh),), PartSource(name), carried_by=carried_by)
 
 
 def drawer(tag, low, high):
@@ -34,7 +34,7 @@ def test_pieces_join_the_front_that_covers_them():
     parts, notes = with_joined_pieces((*drawer("A", 0.0, 0.3), *drawer("B", 0.31, 0.6)), WHOLE)
     assert [p.id for p in parts] == ["drawer_frontA", "drawer_handleA", "drawer_frontB", "drawer_handleB"]
     assert [len(p.surfaces) for p in parts] == [4, 1, 4, 1]
-    assert parts[1].rides_on == "drawer_frontA"
+    assert parts[1].carried_by == "drawer_frontA"
     assert len(notes) == 2
 
 
@@ -110,6 +110,6 @@ def test_bar_and_posts_that_are_called_a_door_are_its_handle():
     bar = part("leftdoor.004", (0.3, -0.06, 0.15), (0.31, -0.05, 0.45), PartLabel.DOOR)
     small = part("flap", (0.42, 0, 0), (0.6, 0.02, 0.1), PartLabel.DOOR)
     parts, _ = with_joined_pieces((bar, *posts, leaf, small), WHOLE)
-    assert {p.id: p.rides_on for p in parts if p.label is PartLabel.HANDLE} == dict.fromkeys(
+    assert {p.id: p.carried_by for p in parts if p.label is PartLabel.HANDLE} == dict.fromkeys(
         ("leftdoor.004", "leftdoor.002", "leftdoor.003"), "leftdoor"
     )

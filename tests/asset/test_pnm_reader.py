@@ -23,8 +23,8 @@ def test_a_moving_link_is_one_part_and_its_handle_rides_on_it(tmp_path):
     labels = {p.id: p.label for p in asset.parts}
     assert labels["cabinet_door_0"] is PartLabel.DOOR
     assert labels["drawer_1"] is PartLabel.DRAWER
-    assert asset.part("handle_8").rides_on == "cabinet_door_0"
-    assert asset.part("handle_11").rides_on == "drawer_1"
+    assert asset.part("handle_8").carried_by == "cabinet_door_0"
+    assert asset.part("handle_11").carried_by == "drawer_1"
     assert len(asset.parts) == 10
 
 
@@ -79,7 +79,7 @@ def test_a_door_on_a_drawer_rides_on_it_and_keeps_its_joint(tmp_path):
     folder = write_pnm(tmp_path / "m")
     edit_json(folder / "mobility_v2.json", lambda links: links[0].update(parent=1))
     asset = load_annotated(folder)
-    assert asset.part("cabinet_door_0").rides_on == "drawer_1"
+    assert asset.part("cabinet_door_0").carried_by == "drawer_1"
     assert len(asset.joints) == 2
 
 
@@ -119,7 +119,7 @@ def test_reversed_limits_are_sorted_and_unlimited_ones_say_so(tmp_path):
 def test_masked_labels_leave_structure_and_no_label(tmp_path):
     asset = load_annotated(write_pnm(tmp_path / "m"), LoadOptions(labels="none"))
     assert {p.label for p in asset.parts} == {PartLabel.UNKNOWN}
-    assert asset.part("handle_8").rides_on == "cabinet_door_0"
+    assert asset.part("handle_8").carried_by == "cabinet_door_0"
     assert len(asset.joints) == 2
 
 

@@ -46,7 +46,7 @@ def test_the_urdf_alone_reads_as_the_json_does(folder, tmp_path):
         copy = shutil.copytree if (folder / name).is_dir() else shutil.copyfile
         copy(folder / name, tmp_path / name)  # links out of the folder are not followed
     full, alone = load_annotated(folder), load_annotated(tmp_path)
-    assert [(p.id, p.label, p.rides_on) for p in full.parts] == [(p.id, p.label, p.rides_on) for p in alone.parts]
+    assert [(p.id, p.label, p.carried_by) for p in full.parts] == [(p.id, p.label, p.carried_by) for p in alone.parts]
     np.testing.assert_allclose(alone.frame.input_to_output, full.frame.input_to_output, atol=1e-6)
     for a, b in zip(full.joints, alone.joints, strict=True):
         np.testing.assert_allclose(b.axis.direction, a.axis.direction, atol=1e-6)
@@ -55,7 +55,7 @@ def test_the_urdf_alone_reads_as_the_json_does(folder, tmp_path):
 
 def test_handles_ride_on_what_they_open():
     asset = load_annotated(MODELS / "pnm" / "44781")
-    riding = [p.rides_on for p in asset.parts if p.label is PartLabel.HANDLE]
+    riding = [p.carried_by for p in asset.parts if p.label is PartLabel.HANDLE]
     assert len(riding) == 3
     assert set(riding) == {j.part for j in asset.joints}
 

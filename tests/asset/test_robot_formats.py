@@ -19,7 +19,7 @@ IN_SDF = "<material><diffuse>0.6 0.4 0.2 1</diffuse></material>"
 
 
 def same(asset, urdf):
-    assert {p.id: (p.label, p.rides_on) for p in asset.parts} == {p.id: (p.label, p.rides_on) for p in urdf.parts}
+    assert {p.id: (p.label, p.carried_by) for p in asset.parts} == {p.id: (p.label, p.carried_by) for p in urdf.parts}
     for part in asset.parts:
         np.testing.assert_allclose(part.box.low, urdf.part(part.id).box.low, atol=1e-6)
         np.testing.assert_allclose(part.box.high, urdf.part(part.id).box.high, atol=1e-6)

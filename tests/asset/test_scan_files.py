@@ -1,4 +1,4 @@
-"""Arrays from NumPy files of anybody: what is written comes back, what lies takes no memory, nothing is unpickled."""
+"""Arrays from NumPy files: what is written comes back, what lies takes no memory, nothing is unpickled."""
 
 import io
 import pickle

@@ -20,7 +20,7 @@ BARS = [((x, -0.03, 0.4), (x + 0.02, 0, 0.6)) for x in (0.44, 0.54)]
 
 def test_handles_in_one_mesh_are_split_between_their_fronts():
     found, notes = with_split_handles((LEFT, RIGHT, part("handles", PartLabel.HANDLE, *BARS)))
-    assert [(p.id, p.rides_on) for p in found[2:]] == [("handles_1", "left"), ("handles_2", "right")]
+    assert [(p.id, p.carried_by) for p in found[2:]] == [("handles_1", "left"), ("handles_2", "right")]
     assert [p.label for p in found[2:]] == [PartLabel.HANDLE] * 2
     np.testing.assert_allclose(found[2].box.low, BARS[0][0])
     np.testing.assert_allclose(found[3].box.high, BARS[1][1])

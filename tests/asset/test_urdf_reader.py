@@ -20,7 +20,7 @@ def test_links_become_parts_and_joints_in_place(tmp_path):
     asset = load_annotated(write_urdf(tmp_path))
     assert asset.kind == "urdf"
     assert {p.id for p in asset.parts if p.label.is_movable} == {"door_link", "drawer_link"}
-    assert asset.part("handle_8").rides_on == "door_link"
+    assert asset.part("handle_8").carried_by == "door_link"
     np.testing.assert_allclose(asset.box.size, [0.8, 0.43, 1.0], atol=1e-6)
     np.testing.assert_allclose(asset.part("door_link").box.low, [-0.4, -0.185, 0.0], atol=1e-6)
     assert asset.joints[0].upper == 1.5
@@ -52,7 +52,7 @@ def test_which_joint_a_joint_follows_is_read(tmp_path):
     asset = load_annotated(write_urdf(tmp_path, coupled(mimic)))
     joint = next(joint for joint in asset.joints if joint.part == "leaf_door")
     assert joint.coupling == Coupling("door_link", -2.0, 0.1)
-    assert asset.part("leaf_door").rides_on == "door_link"
+    assert asset.part("leaf_door").carried_by == "door_link"
     (stated,) = (joint for joint in inspect(asset, parse_graph(asset)).joints if joint.follows)
     assert (stated.part, stated.follows.leader, stated.follows.multiplier) == ("leaf_door", "door_link", -2.0)
 
@@ -85,7 +85,7 @@ def test_a_link_fixed_to_a_moving_link_belongs_to_it(tmp_path):
     </visual></link><joint name="k" type="fixed"><parent link="door_link"/><child link="knob_link"/></joint>"""
     asset = load_annotated(write_urdf(tmp_path, urdf_text(extra)))
     knob = asset.part("handle_knob_link")
-    assert (knob.label, knob.rides_on) == (PartLabel.HANDLE, "door_link")
+    assert (knob.label, knob.carried_by) == (PartLabel.HANDLE, "door_link")
 
 
 def test_package_names_are_sought_upwards_and_absent_meshes_noted(tmp_path):

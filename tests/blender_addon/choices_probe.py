@@ -52,7 +52,7 @@ def main():
     step("no border", grafu.set_motion, part="door_1", moves="turns")
     step("broad face", grafu.set_motion, part="door_1", moves="turns", side="front")
     step("wall slides", grafu.set_motion, part="back_panel", moves="slides", side="back")
-    step("nobody", grafu.set_motion, part="nobody", moves="fixed")
+    step("no_one", grafu.set_motion, part="no_one", moves="fixed")
     step("as found", grafu.reset_motion, part="door_1")
     active = objects.visual(session(), "door_1")
     bpy.context.view_layer.objects.active = active

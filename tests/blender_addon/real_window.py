@@ -1,4 +1,4 @@
-"""A real Blender window on a screen that nobody sees: Xvfb, drawing in software. Pictures are taken from it."""
+"""A real Blender window on a screen that no one sees: Xvfb, drawing in software. Pictures are taken from it."""
 
 import os
 import shutil
@@ -63,7 +63,7 @@ def run_in_window(
             **{name: value for name, value in os.environ.items() if not name.startswith(("WAYLAND", "XDG_SESSION"))},
             "DISPLAY": display,
             "LIBGL_ALWAYS_SOFTWARE": "1",
-            "HOME": str(folder),  # no preferences of anybody's
+            "HOME": str(folder),  # no preferences of the user's
             "PYTHONPATH": os.pathsep.join([str(ROOT / "src"), str(Path(__file__).parent), *packages]),
         }
         flags = ["--factory-startup", "--python-use-system-env", "--enable-event-simulate", "--no-window-focus"]

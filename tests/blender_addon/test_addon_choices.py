@@ -13,7 +13,7 @@ REFUSED = {
     "no border": "choose the border",
     "broad face": "front is a broad face",
     "wall slides": "back_panel: ",
-    "nobody": "has no nobody",
+    "no_one": "has no no_one",
     "far mount": "on `back_panel`",
     "moving mount": "moves itself",
     "hinge supports": "for rails",

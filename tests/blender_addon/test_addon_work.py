@@ -83,9 +83,9 @@ def test_runs_share_a_process_and_each_says_how_far_it_is(work):
 
 
 def test_what_is_wrong_is_one_line_and_the_process_stays(work):
-    run = begun(work, SETTINGS.with_label("nobody", PartLabel.MISC))
+    run = begun(work, SETTINGS.with_label("no_one", PartLabel.MISC))
     run.wait()
-    with pytest.raises(work.Failed, match="has no nobody"):
+    with pytest.raises(work.Failed, match="has no no_one"):
         run.require_success()
     run.close()
     again = begun(work)
@@ -168,10 +168,10 @@ def test_folders_that_nobody_uses_are_cleared_at_the_next_start(work, tmp_path, 
     folders = dict(zip(names, [tmp_path / name for name in names], strict=True))
     for name, folder in folders.items():
         folder.mkdir()
-        (folder / "said.txt").write_text("stage load\n")
+        (folder / "output.txt").write_text("stage load\n")
         if name != "grafu_blender_young":
             os.utime(folder, (0, 0))
-    with open(folders["grafu_blender_held"] / "said.txt", "ab") as said:
+    with open(folders["grafu_blender_held"] / "output.txt", "ab") as said:
         leftovers.hold(said)
         leftovers.clear()
         assert sorted(path.name for path in tmp_path.iterdir()) == names[1:]
@@ -184,7 +184,7 @@ def test_a_folder_is_in_use_as_long_as_the_process_that_works_in_it_lives(work, 
     leftovers = work.leftovers
     folder = tmp_path / "grafu_blender_x"
     folder.mkdir()
-    with open(folder / "said.txt", "wb") as said:
+    with open(folder / "output.txt", "wb") as said:
         leftovers.hold(said)
         sleeper = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE, stdout=said)
     monkeypatch.setattr(leftovers.tempfile, "gettempdir", lambda: str(tmp_path))

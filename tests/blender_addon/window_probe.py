@@ -1,4 +1,4 @@
-"""Uses the add-on in a real Blender window as somebody would; writes what it saw. It asserts nothing."""
+"""Uses the add-on in a real Blender window as a user would; writes what it saw. It asserts nothing."""
 
 import json
 import os
@@ -60,7 +60,7 @@ def running():
 
 
 def hold(signal_number=signal.SIGSTOP):
-    """Lets the process stand still amid a run, or go on: what happens meanwhile does not hang on how fast it is."""
+    """Lets the process pause amid a run, or go on: what happens meanwhile does not hang on how fast it is."""
     os.kill(work._staying._running.pid, signal_number)
 
 

@@ -110,7 +110,7 @@ def test_a_file_in_place_of_the_folder_is_said_before_any_work(
 
 
 @pytest.mark.parametrize(
-    ("more", "says"),
+    ("more", "states"),
     [
         (["--methods", "magic"], "a method must be one of"),
         (["--methods", "particulate"], "particulate:DIR"),
@@ -124,11 +124,11 @@ def test_a_file_in_place_of_the_folder_is_said_before_any_work(
     ],
 )
 def test_bad_options_end_in_one_line(
-    data: Path, tmp_path: Path, more: list[str], says: str, capsys: pytest.CaptureFixture[str]
+    data: Path, tmp_path: Path, more: list[str], states: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(command(data, tmp_path / "out", *more)) == 2
     said = capsys.readouterr().err
-    assert says in said
+    assert states in said
     assert said.count("\n") == 1
     assert not (tmp_path / "out").exists()
 

@@ -1,4 +1,4 @@
-"""A job for another program: its stages, what the command writes, the object; or one line that says why not."""
+"""A job for another program: its stages, what the command writes, the object; or one line that states why not."""
 
 import json
 import subprocess

@@ -47,7 +47,7 @@ def test_it_goes_with_settings(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--move", "nobody=left"], "nobody"),
+        (["--move", "no_one=left"], "no_one"),
         (["--move", "door=left", "--motion", "urdf:x.urdf"], "exclude each other"),
     ],
 )

@@ -90,7 +90,7 @@ def wait_for_hidden(out: Path, count: int) -> None:
         if len(hidden(out)) == count:
             return
         sleep(0.02)
-    raise AssertionError(f"nobody wrote into {out}")
+    raise AssertionError(f"no one wrote into {out}")
 
 
 def models(tmp_path: Path, *names: str) -> list[Path]:

@@ -45,7 +45,7 @@ def test_options_win_over_the_settings_beside_them(tmp_path: Path) -> None:
     assert (reading.scale, reading.height, reading.parts) == (0.5, None, "input")
     assert (reading.limits.by_name()["faces"], reading.limits.by_name()["parts"]) == (500_000, 900)
     assert additions.top is None
-    assert additions.drawer_boxes is None  # no option says otherwise
+    assert additions.drawer_boxes is None  # no option states otherwise
     assert additions.handles is not None
     assert (additions.handles.style, additions.handles.length) == ("bar-round", 0.1)
     assert made.joints["door"].count == 3

@@ -1,4 +1,4 @@
-"""What `functionalize` says when it is done: short, and what a person would ask next."""
+"""What `functionalize` states when it is done: short, and what a person would ask next."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -26,7 +26,7 @@ def test_the_network_of_a_file_completes_the_graph(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "motion", "says"),
+    ("name", "content", "motion", "states"),
     [
         ("none.onnx", None, "auto", "must be a file that `grafu train` exported"),
         ("damaged.onnx", b"no network", "auto", "must be a network in ONNX form"),
@@ -34,13 +34,13 @@ def test_the_network_of_a_file_completes_the_graph(tmp_path: Path) -> None:
     ],
 )
 def test_wrong_weights_are_one_line(
-    name: str, content: bytes | None, motion: str, says: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    name: str, content: bytes | None, motion: str, states: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     if content is not None:
         (tmp_path / name).write_bytes(content)
     args = ["functionalize", str(write_cabinet(tmp_path)), "--weights", str(tmp_path / name), "--motion", motion]
     assert main([*args, "--out", str(tmp_path / "out")]) == 2
     said = capfd.readouterr().err
-    assert says in said
+    assert states in said
     assert said.count("\n") == 1
     assert not (tmp_path / "out").exists()

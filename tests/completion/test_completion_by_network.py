@@ -1,4 +1,4 @@
-"""From what a network says to a completed graph: exclusive choices, labels, added parts, refusals. No weights."""
+"""From what a network states to a completed graph: exclusive choices, labels, added parts, refusals. No weights."""
 
 from dataclasses import replace
 
@@ -78,7 +78,7 @@ def told() -> Answers:
 
 
 ONCE = DecodeConfig(mirror=False)
-"""What answers here is deaf to what it sees: it says the same of a mirror image."""
+"""What answers here is deaf to what it sees: it states the same of a mirror image."""
 
 
 def complete(graph: FunctionalGraph, said: Answers, config: DecodeConfig = ONCE) -> GraphCompletion:
@@ -175,7 +175,7 @@ def ratio_of(logit: float, codes: int) -> float:
     return float(np.exp(logit) / (np.exp(logit) + codes - 1))
 
 
-def test_the_network_overrules_the_carpenter() -> None:
+def test_the_network_overrules_the_rules() -> None:
     said = told()
     said.hinges = {"door": (0, 1)}
 
@@ -232,7 +232,7 @@ def test_an_unlikely_edge_is_taken_where_no_better_one_is() -> None:
     assert [(r.parent, r.child) for r in completion.completed.rails] == [("right", "drawer")]
 
 
-def test_what_nothing_seen_carries_moves_as_a_carpenter_finds() -> None:
+def test_what_nothing_seen_carries_moves_as_the_rules_find() -> None:
     completion = complete(cupboard(), Answers())
     scene = RuleScene(completion.completed)
     hung, run = (rule(completion.completed.node(i), scene) for rule, i in ((hang_door, "door"), (run_drawer, "drawer")))
@@ -244,7 +244,7 @@ def test_what_nothing_seen_carries_moves_as_a_carpenter_finds() -> None:
     assert {d.by for d in completion.decisions if d.question != "parent"} == {"rule"}
 
 
-def test_a_network_that_is_unsure_what_carries_a_door_leaves_its_side_to_the_carpenter() -> None:
+def test_a_network_that_is_unsure_what_carries_a_door_leaves_its_side_to_the_rules() -> None:
     def side(logit: float) -> int:
         said = replace(told(), kinds={("door", "right"): {HINGE: logit}}, mounts={("door", "right"): SURE})
         return complete(cupboard(), replace(said, hinges={"door": (1, 1)})).completed.hinges[0].border
@@ -321,7 +321,7 @@ def test_a_handle_of_nothing_is_decoration() -> None:
 
 @pytest.mark.parametrize(("touched", "is_attached"), [("panel", False), ("post", True)])
 def test_a_knob_on_a_static_panel_moves_with_nothing(touched: str, is_attached: bool) -> None:
-    """Whatever the network says; posts that are smaller than a handle are its own."""
+    """Whatever the network states; posts that are smaller than a handle are its own."""
     knob = box_of("knob")
     grown = float(knob.size.max()) * (2.0 if touched == "panel" else 0.1)
     node = PartNode(touched, PartLabel.MISC, Box(knob.center - grown, knob.center + grown))

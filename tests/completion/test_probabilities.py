@@ -74,7 +74,7 @@ def test_the_mean_is_of_seen_slots_alone() -> None:
 
 
 def test_with_the_image_left_and_right_weigh_the_same() -> None:
-    """A network that always says one thing, whatever it sees, says nothing about left and right when asked twice."""
+    """A network with one answer, whatever it sees, states nothing about left and right when asked twice."""
     graph = cabinet()
     stubborn = Answers(slides={"drawer_1": 0}).about(graph)
     inputs, once = forward(graph, stubborn, FEW)

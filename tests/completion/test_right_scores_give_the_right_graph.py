@@ -1,4 +1,4 @@
-"""A network that always says the truth about made furniture: the decode loses nothing that matters of what it says."""
+"""A network that knows the truth about synthetic furniture: the decode loses nothing that matters of it."""
 
 import numpy as np
 import pytest

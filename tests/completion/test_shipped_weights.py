@@ -1,4 +1,4 @@
-"""The weights that come with the package: they are what their card says, and they work."""
+"""The weights that come with the package: they are what their card states, and they work."""
 
 from hashlib import sha256
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Shards that somebody wrote to do harm, or by mistake: refused in one line, before memory is taken."""
+"""Shards that a user wrote to do harm, or by mistake: refused in one line, before memory is taken."""
 
 import io
 import struct

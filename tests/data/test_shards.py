@@ -1,4 +1,4 @@
-"""Shards: what is written comes back, from any place in the file; what is damaged says so in one line."""
+"""Shards: what is written comes back, from any place in the file; what is damaged states so in one line."""
 
 import json
 from dataclasses import replace
@@ -147,7 +147,7 @@ def test_a_shard_cut_short_is_one_error(shard: Path, tmp_path: Path, kept: int) 
         ShardReader(cut)
 
 
-@pytest.mark.parametrize(("offset", "value"), [(8, 1), (10, 97)])  # encrypted; packed in a way that nobody knows
+@pytest.mark.parametrize(("offset", "value"), [(8, 1), (10, 97)])  # encrypted; packed in a way that no one knows
 def test_what_no_reader_opens_is_one_error(shard: Path, tmp_path: Path, offset: int, value: int) -> None:
     data = bytearray(shard.read_bytes())
     for start in (data.index(b"PK\x03\x04") + offset - 2, data.index(b"PK\x01\x02") + offset):

@@ -1,4 +1,4 @@
-"""Made models laid out like the authors' release: it reads back, goes on where it was stopped, and never mixes."""
+"""Synthetic models laid out like the authors' release: it reads back, goes on where it was stopped, and never mixes."""
 
 from itertools import islice
 from pathlib import Path

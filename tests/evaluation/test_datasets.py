@@ -192,8 +192,8 @@ def test_made_furniture_is_what_the_generator_makes_with_its_true_joints(specime
         assert asset.joints == specimen.whole.joints
         assert [p.label for p in asset.parts] == [p.label for p in specimen.asset.parts]
         present = {p.id for p in asset.parts}
-        attached = {p.id: p.rides_on for p in specimen.whole.parts if p.id in present and p.rides_on in present}
-        assert {p.id: p.rides_on for p in asset.parts if p.rides_on} == attached
+        attached = {p.id: p.carried_by for p in specimen.whole.parts if p.id in present and p.carried_by in present}
+        assert {p.id: p.carried_by for p in asset.parts if p.carried_by} == attached
         assert not asset.without_annotation().joints
         assert category_of(ref) == specimen.family
 
@@ -252,7 +252,7 @@ def test_a_release_with_functional_graphs_states_how_parts_move(furfun, specimen
                 assert found.upper == pytest.approx(DRAWER_RANGE * size[slide] * asset.frame.scale, rel=1e-4)
             moved += 1
         attached = {e.child: e.parent for e in specimen.truth.attachments if e.child in sizes}
-        assert {p.id: p.rides_on for p in asset.parts if p.label is PartLabel.HANDLE and p.id in attached} == attached
+        assert {p.id: p.carried_by for p in asset.parts if p.label is PartLabel.HANDLE and p.id in attached} == attached
         assert any("states no ranges" in note for note in asset.notes)
     assert moved > 2
 
@@ -284,7 +284,7 @@ def test_a_part_without_a_mesh_is_left_out_with_its_joint_and_reported(release, 
     (release / "part_geometries" / specimens[0].id / f"{moving}.ply").unlink()
     asset = load_model(find_models(release)[0])
     assert moving not in {p.id for p in asset.parts} | {j.part for j in asset.joints} | {
-        p.rides_on for p in asset.parts
+        p.carried_by for p in asset.parts
     }
     assert any(note.startswith("1 of ") and "have no mesh" in note for note in asset.notes)
 

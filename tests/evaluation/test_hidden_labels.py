@@ -34,7 +34,7 @@ def test_what_is_hidden_at_a_lower_fraction_is_hidden_at_every_higher_one(seed: 
 def test_nothing_says_what_was_hidden() -> None:
     asset = masked(cabinet(), 1.0, 0)
     assert asset.joints == ()
-    assert {p.rides_on for p in asset.parts} == {None}
+    assert {p.carried_by for p in asset.parts} == {None}
     assert {p.label for p in asset.without_annotation().parts} == {PartLabel.UNKNOWN}
 
 

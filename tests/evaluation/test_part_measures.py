@@ -37,7 +37,7 @@ def test_what_is_small_narrow_or_carried_does_not_count() -> None:
     rod = door("rod", (-0.4, -0.26, 0.6), (0.4, -0.25, 0.615), "left")
     flap = door("flap", (-0.3, -0.28, 0.1), (0.3, -0.272, 0.4), "left")
     asset = sketch(*carcass(), door(DOOR, (-0.5, -0.271, 0.0), (0.5, -0.251, 0.6), "left"), knob, rod, flap)
-    carried = replace(asset, parts=tuple(replace(p, rides_on=DOOR) if p.id == "flap" else p for p in asset.parts))
+    carried = replace(asset, parts=tuple(replace(p, carried_by=DOOR) if p.id == "flap" else p for p in asset.parts))
 
     assert [part.id for part in counted_parts(asset)] == [DOOR, "flap"]
     assert [part.id for part in counted_parts(carried)] == [DOOR]

@@ -1,4 +1,4 @@
-"""What people could have meant is told from what leads inwards, hangs on nothing, jams or cannot be pulled."""
+"""What people could have meant is reported from what leads inwards, hangs on nothing, jams or cannot be pulled."""
 
 from dataclasses import replace
 
@@ -20,7 +20,7 @@ def judged(asset, plan, part: str = DOOR) -> Plausibility:
 
 
 def middled() -> Asset:
-    """Returns a cabinet whose door can be pulled from either side, and says nothing of which."""
+    """Returns a cabinet whose door can be pulled from either side, and states nothing of which."""
     return cabinet("left", handle_at=0.0)
 
 

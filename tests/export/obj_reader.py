@@ -1,4 +1,4 @@
-"""Reads OBJ and MTL text back, for tests: as the format says, faces in the order of the file."""
+"""Reads OBJ and MTL text back, for tests: as the format states, faces in the order of the file."""
 
 from dataclasses import dataclass, field
 

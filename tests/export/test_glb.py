@@ -143,7 +143,7 @@ def test_the_same_object_gives_the_same_bytes(cabinet):
     assert export_glb(cabinet)["model.glb"] == export_glb(replace(cabinet))["model.glb"]
 
 
-def test_untidy_surfaces_pass_the_validator(make_cube, sheet, tmp_path):
+def test_disordered_surfaces_pass_the_validator(make_cube, sheet, tmp_path):
     odd = Texture("ünïcode", png((1, 2, 3)), "image/png")
     wild = Material("mask", (2.0, -1.0, 0.5, 1.0), base_color_texture=odd, alpha_mode="MASK", emissive=(3.0, 0.0, 0.0))
     colors = np.full((4, 4), 128, np.uint8)

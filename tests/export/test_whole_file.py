@@ -46,7 +46,7 @@ def of_process(path: Path, process: int) -> Path:
     return path.with_name(path.name.replace(f"-{os.getpid()}-", f"-{process}-"))
 
 
-@pytest.mark.skipif(os.name != "posix", reason="nobody can ask there whether a process lives")
+@pytest.mark.skipif(os.name != "posix", reason="no one can ask there whether a process lives")
 def test_what_a_killed_process_was_writing_is_gone_after_the_next_run(tmp_path: Path) -> None:
     out = tmp_path / "out"
     killed = subprocess.run([sys.executable, "-c", _DIES, str(out / "cabinet")], check=False)
@@ -66,7 +66,7 @@ def test_what_a_killed_process_was_writing_is_gone_after_the_next_run(tmp_path: 
     assert os.listdir(out) == ["cabinet"]
 
 
-@pytest.mark.skipif(os.name != "posix", reason="nobody can ask there whether a process lives")
+@pytest.mark.skipif(os.name != "posix", reason="no one can ask there whether a process lives")
 def test_an_output_that_was_put_aside_comes_back_unless_its_place_is_taken(tmp_path: Path) -> None:
     dead = dead_process()
     for name in ("lost", "taken"):

@@ -45,7 +45,7 @@ def _emptied(folder: Path, cases: list[int]) -> Path:
 
 
 class _Progress:
-    """Says each case that broke a rule at once, and from time to time how far all are."""
+    """States each case that broke a rule at once, and from time to time how far all are."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan, self.done, self.broken = plan, 0, 0

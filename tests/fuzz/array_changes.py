@@ -148,7 +148,7 @@ def json_member(members: Members, rng: Random) -> Members:
 
 
 def lying_archive(files: Files, rng: Random) -> Files | None:
-    """A member says that it is encrypted, packed in another way, or of another size."""
+    """A member states that it is encrypted, packed in another way, or of another size."""
     names = plain(files, ".npz")
     if not names:
         return None

@@ -153,7 +153,7 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 
 @cache
 def png_of(width: int, height: int, filled: bool, depth: int = 1, color: int = 0) -> bytes:
-    """Returns a PNG of one colour; not `filled`: its header says so, but there is no more."""
+    """Returns a PNG of one colour; not `filled`: its header states so, but there is no more."""
     head = _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, color, 0, 0, 0))
     row = b"\0" * (1 + (width * depth * {0: 1, 2: 3, 6: 4}[color] + 7) // 8)
     rows = zlib.compress(row * height, 1) if filled else zlib.compress(row)
@@ -161,7 +161,7 @@ def png_of(width: int, height: int, filled: bool, depth: int = 1, color: int = 0
 
 
 def picture_bomb(files: Files, rng: Random) -> Files | None:
-    """A picture of many more pixels than bytes, or one that only says so."""
+    """A picture of many more pixels than bytes, or one that only states so."""
     names = plain(files, ".png", ".jpg")
     if not names:
         return None

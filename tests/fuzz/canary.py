@@ -1,4 +1,4 @@
-"""Whether anybody opened a file that lies outside the input's folder: native code is heard of only so. Linux alone."""
+"""Whether a file was opened that lies outside the input's folder: native code is heard of only so. Linux alone."""
 
 import ctypes
 import os

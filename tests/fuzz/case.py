@@ -24,7 +24,7 @@ class Reader:
 @final
 @dataclass(frozen=True)
 class Case:
-    """One case: `entry` is what is read of `files`, `by_command` says whether the whole command does it."""
+    """One case: `entry` is what is read of `files`, `by_command` states whether the whole command does it."""
 
     seed: int
     index: int

@@ -109,7 +109,7 @@ class Guard:
 
 
 def _of_this_process() -> tuple[str, ...]:
-    """Returns where the system says how much memory this process holds."""
+    """Returns where the system states how much memory this process holds."""
     return f"/proc/{os.getpid()}/statm", f"/proc/{os.getpid()}/status"
 
 

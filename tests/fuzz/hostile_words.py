@@ -38,5 +38,5 @@ def hostile_place(suffix: str, named: str, rng: Random) -> str:
 
 
 def hostile_name(rng: Random) -> str:
-    """Returns a name that somebody might give to a part: none may reach a terminal, a path or a page as it is."""
+    """Returns a name that a user might give to a part: none may reach a terminal, a path or a page as it is."""
     return rng.choice(_NAMES)

@@ -1,4 +1,4 @@
-"""What no case may do, whatever was read: rules on exceptions, on what a command says, and on what is written."""
+"""What no case may do, whatever was read: rules on exceptions, on what a command states, and on what is written."""
 
 import json
 import traceback
@@ -15,7 +15,7 @@ _NONE_OF_OURS = "site-packages"
 def of_exception(error: BaseException) -> list[str]:
     """Returns what is wrong with an exception: nothing, if it is one of our own with a message."""
     if isinstance(error, FunctionalizationError):
-        return [] if str(error).strip() else ["an exception says nothing"]
+        return [] if str(error).strip() else ["an exception states nothing"]
     frames = traceback.extract_tb(error.__traceback__)
     ours = [f for f in frames if "grafu" in Path(f.filename).parts and _NONE_OF_OURS not in f.filename]
     where = f"{Path(ours[-1].filename).name}:{ours[-1].lineno} {ours[-1].name}" if ours else "?"
@@ -30,7 +30,7 @@ def of_command(code: object, said: str, complained: str) -> list[str]:
     for word in ("internal error", "Traceback", "out of memory", "Warning:"):
         if word in complained + said:
             line = next(line for line in (complained + said).splitlines() if word in line)
-            broken.append(f"says {word!r}: {line[:400]}")
+            broken.append(f"states {word!r}: {line[:400]}")
     lines = complained.splitlines()
     if code and (len(lines) != 1 or not lines[0].startswith("grafu: ")):
         broken.append(f"exit code {code} with {len(lines)} lines on stderr: {complained[:300]!r}")
@@ -72,7 +72,7 @@ def _no_number(word: str) -> float:
 
 
 def _length(said: str) -> list[str]:
-    return [f"says {len(said)} characters: {said[:100]!r}"] if len(said) > _LONGEST else []
+    return [f"states {len(said)} characters: {said[:100]!r}"] if len(said) > _LONGEST else []
 
 
 def _control(said: str) -> list[str]:

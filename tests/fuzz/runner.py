@@ -1,4 +1,4 @@
-"""Runs cases in processes that may die, gathers what came of them, and says it as a table."""
+"""Runs cases in processes that may die, gathers what resulted from them, and states it as a table."""
 
 import json
 import os
@@ -35,7 +35,7 @@ class Plan:
 
 
 def run_cases(plan: Plan, tell: Callable[[Answer], None] = lambda _: None) -> list[Answer]:
-    """Returns what came of all cases, by index; `tell` hears of each as it ends."""
+    """Returns what resulted from all cases, by index; `tell` hears of each as it ends."""
     waiting, answers, lock = iter(plan.indices), list[Answer](), threading.Lock()
     faults: list[BaseException] = []
 
@@ -69,7 +69,7 @@ def _answers(plan: Plan, scratch: Path, take: Callable[[], int | None]) -> Itera
         with _Worker(plan, scratch) as worker:
             for _ in range(_PER_WORKER):
                 answer = worker.ask(index)
-                if answer.outcome == _SLOW:  # here nobody stopped the command; as a user runs it, somebody must
+                if answer.outcome == _SLOW:  # here no one stopped the command; as a user runs it, its user must
                     with _Worker(plan, scratch) as another:
                         answer = another.ask(index, supervised=True)
                 yield answer
@@ -104,7 +104,7 @@ class _Worker:
         self.log.close()
 
     def ask(self, index: int, supervised: bool = False) -> Answer:
-        """Returns what came of a case, also where it killed the process; a command that took too long is `slow`."""
+        """Returns the answer to a case, also where it killed the process; a command that took too long is `slow`."""
         self._say({"seed": self.plan.seed, "index": index, "supervised": supervised})
         line = self.process.stdout.readline() if self.process.stdout else ""
         if line:

@@ -1,4 +1,4 @@
-"""One process that runs cases, told by lines of JSON; its limits kill it, and the runner then says which case did it.
+"""One process that runs cases, told by lines of JSON; its limits kill it, and the runner then states which case did it.
 
 A case has a folder of its own: `input` with its files, `out` for results, `tmp`, an empty `cwd`, and `outside`, where
 files lie that must never be opened.
@@ -43,7 +43,7 @@ class Limits:
 @final
 @dataclass(frozen=True)
 class Answer:
-    """What came of a case: `outcome` is a word for the summary, `broken` says which rules it broke."""
+    """What resulted from a case: `outcome` is a word for the summary, `broken` states which rules it broke."""
 
     index: int
     case: str
@@ -75,7 +75,7 @@ def main() -> None:
 
 
 def run_case(provider: Any, asked: dict[str, Any], limits: Limits, scratch: Path, keep: bool) -> Answer:
-    """Returns what came of one case."""
+    """Returns what resulted from one case."""
     case = provider.make_case(asked["seed"], asked["index"])
     place = scratch / f"case_{case.index}"
     shutil.rmtree(place, ignore_errors=True)
@@ -110,7 +110,7 @@ def _run(case: Any, reader: Any, limits: Limits, place: Path, supervised: bool) 
             outcome, said, broken = _by_command(arguments) if arguments else _by_library(reader, entry, case.chance())
     seconds, peak = _processor() - started, _peak()
     broken += held.broken
-    if not held.broken:  # what Python opened is told already
+    if not held.broken:  # what Python opened is reported already
         heard = [name for name in canary.heard() if not held.may_read(place / "outside" / name)]
         broken += [f"opens outside/{name} by native code" for name in heard]
     canary.close()

@@ -1,4 +1,4 @@
-"""Values that hold arrays: nobody writes to them, and they compare by what they hold."""
+"""Values that hold arrays: no one writes to them, and they compare by what they hold."""
 
 import pickle
 from dataclasses import dataclass

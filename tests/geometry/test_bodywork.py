@@ -20,7 +20,7 @@ POCKET = Box(vec3(0.3, -0.01, 0.2), vec3(0.33, 0.01, 0.3))
 
 
 def textured(mesh: TriangleMesh, name: str = "oak") -> Surface:
-    """A surface whose texture coordinates, normals and colours are told by where its vertices are."""
+    """A surface whose texture coordinates, normals and colours are reported by where its vertices are."""
     v = mesh.vertices
     uv = np.stack([2 * v[:, 0] + v[:, 1], 3 * v[:, 2] - v[:, 1]], axis=1)
     colors = np.column_stack([np.round(100 * v), np.full(len(v), 255)]).astype(np.uint8)
@@ -69,7 +69,7 @@ def test_a_pocket_leaves_a_closed_body_without_its_volume(name):
     result = cut(*BODIES[name])
     assert result.volume == pytest.approx(0.03 * 0.01 * 0.1, rel=1e-9)
     mesh = whole(result)
-    assert mesh.is_closed
+    assert mesh.is_watertight
     assert mesh.to_trimesh().volume == pytest.approx(BOARD.volume - result.volume, rel=1e-9)
     assert result.is_whole
 
@@ -142,4 +142,4 @@ def test_any_box_cut_at_any_scale_takes_what_the_two_share(low, size, scale):
     shared = Box(np.maximum(board.low, tool.low), np.minimum(board.high, tool.high)).volume
     result = cut(textured(TriangleMesh.box_mesh(board)), box=tool)
     assert result.volume == pytest.approx(shared, rel=1e-6)
-    assert whole(result).is_closed
+    assert whole(result).is_watertight

@@ -50,7 +50,7 @@ def test_the_hull_of_a_box_has_its_corners_and_six_planes():
     hull = solid((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))
     assert hull.vertices.shape == (8, 3)
     assert hull.planes.shape == (6, 4)
-    assert hull.mesh.is_closed
+    assert hull.mesh.is_watertight
     assert volume(hull.mesh) == pytest.approx(6.0)  # faces look outwards
     assert np.all(hull.vertices @ hull.planes[:, :3].T <= hull.planes[:, 3] + 1e-9)
 
@@ -62,7 +62,7 @@ def test_the_hull_of_points_holds_them_all(seed):
     hull = ConvexSolid.around(points)
     assert hull is not None
     assert np.all(points @ hull.planes[:, :3].T <= hull.planes[:, 3] + 1e-8)
-    assert hull.mesh.is_closed
+    assert hull.mesh.is_watertight
 
 
 @pytest.mark.parametrize(
@@ -86,7 +86,7 @@ def test_a_closed_body_loses_the_shared_volume_and_stays_closed(corner, at_high_
     low, high = ((0.0,) * 3, corner) if not at_high_end else (corner, (1.0,) * 3)
     grown = solid(tuple(c - 0.5 * (c == 0) for c in low), tuple(c + 0.5 * (c == 1) for c in high))
     left = subtract(cube(), [grown])
-    assert left.mesh.is_closed
+    assert left.mesh.is_watertight
     assert volume(left.mesh) == pytest.approx(1.0 - np.prod(np.subtract(high, low)), abs=1e-5)
 
 
@@ -174,9 +174,9 @@ def test_a_closed_surface_is_clipped_open_and_cut_closed():
     corner = [solid((0.5, 0.5, 0.5), (2.0, 2.0, 2.0))]
     clipped = clip(cube(), corner)
     assert clipped.mesh.area == pytest.approx(6.0 - 0.75)  # three quarters of a square at the corner
-    assert not clipped.mesh.is_closed
+    assert not clipped.mesh.is_watertight
     cut = subtract(cube(), corner, clipped)
-    assert cut.mesh.is_closed
+    assert cut.mesh.is_watertight
     assert cut.mesh.area == pytest.approx(6.0)
 
 

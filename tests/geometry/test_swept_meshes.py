@@ -10,7 +10,7 @@ SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]) * 0.05
 
 
 def volume(mesh) -> float:
-    assert mesh.is_closed
+    assert mesh.is_watertight
     return float(mesh.to_trimesh().volume)
 
 

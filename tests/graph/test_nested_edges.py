@@ -72,7 +72,7 @@ def test_what_carries_what_is_known() -> None:
     ("edges", "why"),
     [
         ((SECOND,), "to a support or to what moves"),  # leaf 1 does not move
-        ((FIRST, replace(SECOND, coupling=Coupling("nobody"))), "must follow another part"),
+        ((FIRST, replace(SECOND, coupling=Coupling("no_one"))), "must follow another part"),
         ((FIRST, replace(SECOND, coupling=Coupling("leaf_2"))), "must follow another part"),
         ((Hinge("leaf_2", "leaf_1", 0, 0), Rail("leaf_1", "tray", 2), Hinge("tray", "leaf_2", 0, 0)), "in a circle"),
         ((FIRST, SECOND, Hinge("case", "leaf_2", 0, 1)), "must state one motion"),  # one edge follows, the other not

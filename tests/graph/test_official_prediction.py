@@ -81,7 +81,7 @@ def test_slots_count_even_where_parts_lie_too_close_to_be_told_apart(tmp_path: P
     require_decoded_on(CABINET, found)
     assert {p.id: p.label for p in found.parts} == {p.id: p.label for p in CABINET.parts}
     assert {p.labelled_by for p in found.parts} == {"prediction"}
-    assert {p.id: p.rides_on for p in found.parts} == {p.id: p.rides_on for p in CABINET.parts}
+    assert {p.id: p.carried_by for p in found.parts} == {p.id: p.carried_by for p in CABINET.parts}
 
 
 def test_parts_in_another_order_are_told_by_their_boxes(tmp_path: Path) -> None:

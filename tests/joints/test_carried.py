@@ -26,7 +26,7 @@ TURNS = Hinge("case", "door", face_to_border(1, 0), sign_for_opening(1, face_to_
 
 def carried(nodes, contacts, motion=TURNS, fixed_to=()):
     graph = FunctionalGraph("made", tuple(nodes), (motion, *(Contact(a, b) for a, b in contacts)))
-    return {part: mover for mover, part in carried_parts(graph, dict(fixed_to))}
+    return {part: moving_body for moving_body, part in carried_parts(graph, dict(fixed_to))}
 
 
 def test_posts_and_bar_go_with_the_door_whatever_they_are_called():

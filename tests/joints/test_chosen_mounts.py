@@ -37,7 +37,7 @@ def touches(result: Realized, asset: Asset, part: str, mount: str) -> bool:
 @pytest.mark.parametrize("kind", ["overlay pair", "chest with a lid"])
 def test_every_still_part_carries_the_joint_or_is_refused_by_name(kind):
     asset = made_kind(kind)
-    moving = {r.moving for r in plan_from_annotation(asset).joints} | {p.id for p in asset.parts if p.rides_on}
+    moving = {r.moving for r in plan_from_annotation(asset).joints} | {p.id for p in asset.parts if p.carried_by}
     part = next(j.part for j in asset.joints)
     carried = 0
     for mount in (p.id for p in asset.parts if p.id not in moving):

@@ -69,7 +69,7 @@ def test_parts_keep_their_materials_and_texture_coordinates(kind):
         before, after = asset.part(c.part).surfaces, visuals(result)[c.part].surfaces
         assert [s.material for s in after] == [s.material for s in before]
         assert [s.uv is None for s in after] == [s.uv is None for s in before]
-        assert all(s.mesh.is_closed for s in after)
+        assert all(s.mesh.is_watertight for s in after)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -200,7 +200,7 @@ def test_a_thin_bottom_of_a_drawer_is_raised_rather_than_pressed_flat():
 
 
 def test_a_door_that_fills_a_frame_of_one_piece_gets_a_gap_around_it():
-    """The frame's box is as large as the opening and more, so no single side of it says where the door touches."""
+    """The frame's box is as large as the opening and more, so no single side of it states where the door touches."""
     outside = trimesh.creation.box(bounds=[(-0.05, -0.03, 0.0), (0.75, 0.03, 1.85)])
     inside = trimesh.creation.box(bounds=[(0.0, -1.0, -1.0), (0.7, 1.0, 1.8)])
     whole = Surface(TriangleMesh.from_trimesh(trimesh.boolean.difference([outside, inside])))

@@ -31,7 +31,7 @@ def hollow_box(name: str = "shell") -> Part:
 
 
 def with_cavity() -> Part:
-    """The same with an inner cube that nobody sees: a wall of a tenth of a metre all round."""
+    """The same with an inner cube that no one sees: a wall of a tenth of a metre all round."""
     shell, inner = hollow_box(), box("inner", (0.1, 0.1, 0.1), (0.9, 0.9, 0.9))
     return replace(shell, surfaces=(*shell.surfaces, *(Surface(s.mesh) for s in inner.surfaces)))
 

@@ -219,7 +219,7 @@ def test_flaps_stop_level_and_lids_past_upright(leaf, axis, held_by, degrees):
 def test_nothing_swings_below_the_floor():
     """The handle of a flap whose lower edge is at the floor meets it before the flap is level."""
     leaf = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.4))
-    handle = box("handle", (0.15, -0.06, 0.3), (0.25, -0.02, 0.32), rides_on="door")
+    handle = box("handle", (0.15, -0.06, 0.3), (0.25, -0.02, 0.32), carried_by="door")
     case = box("bottom", (0.0, 0.0, 0.0), (0.4, 0.4, 0.02))
     axis = Axis(vec3(0.0, -0.02, 0.0), X)
     openings = [

@@ -118,9 +118,9 @@ def case_around(low: float, *, depth: float = 0.45) -> list[Part]:
 def test_a_container_of_parts_that_ride_behind_the_front_carries_the_rails():
     front = box("drawer", (-0.21, -0.22, 0.03), (0.21, -0.2, 0.25))
     walls = [
-        box("board_left", (-0.2, -0.2, 0.04), (-0.19, 0.2, 0.2), rides_on="drawer"),
-        box("board_right", (0.19, -0.2, 0.04), (0.2, 0.2, 0.2), rides_on="drawer"),
-        box("board_back", (-0.19, 0.19, 0.04), (0.19, 0.2, 0.2), rides_on="drawer"),
+        box("board_left", (-0.2, -0.2, 0.04), (-0.19, 0.2, 0.2), carried_by="drawer"),
+        box("board_right", (0.19, -0.2, 0.04), (0.2, 0.2, 0.2), carried_by="drawer"),
+        box("board_back", (-0.19, 0.19, 0.04), (0.19, 0.2, 0.2), carried_by="drawer"),
     ]
     result = realized(scene(*case_around(0.02), front, *walls, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)))
     moving, _ = hardware(result, "drawer")

@@ -1,4 +1,4 @@
-"""Every kind of made furniture, tidy or not: each door and drawer works, by a judge that is not realization's own."""
+"""Every kind of synthetic furniture, tidy or not: each door and drawer works, by an independent judge."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from grafu.vocabulary import JointType
 from judging import deepest_cut, hardware, installed, made_kind, realized_kind, swept_collisions, true_joints
 
 every_kind = pytest.mark.parametrize("kind", KINDS)
-CUT = 0.001  # of the object's largest side: what hardware is let in by where there is no room
+CUT = 0.001  # of the object's largest side: what hardware is inset by where there is no room
 TOUCH = 0.0008  # of the object's largest side: more is a collision
 
 
@@ -28,7 +28,7 @@ def test_no_part_is_lost_and_attached_parts_move_along(kind):
     asset, obj = made_kind(kind), realized_kind(kind).object
     link_of = {v.name: link.id for link in obj.links for v in link.visuals if v.role is not VisualRole.HARDWARE}
     moving_bodies = set(true_joints(asset))
-    assert link_of == {p.id: p.rides_on or (p.id if p.id in moving_bodies else obj.root) for p in asset.parts}
+    assert link_of == {p.id: p.carried_by or (p.id if p.id in moving_bodies else obj.root) for p in asset.parts}
 
 
 @every_kind

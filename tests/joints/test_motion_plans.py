@@ -18,7 +18,7 @@ from grafu.vocabulary import JointType
 from judging import GALLERY, installed, made_kind, realized
 from small_scenes import DOOR, LEFT_EDGE, SIDE, box, drawer, hinged, scene, sliding
 
-HANDLE = box("handle", (0.35, -0.05, 0.2), (0.37, -0.02, 0.4), rides_on="door")
+HANDLE = box("handle", (0.35, -0.05, 0.2), (0.37, -0.02, 0.4), carried_by="door")
 
 
 def request_of(joint: AnnotatedJoint):
@@ -64,13 +64,13 @@ def test_requests_say_where_they_come_from_and_what_rides():
 
 
 def test_parts_attached_to_attached_parts_move_too():
-    knob = box("handle_knob", (0.35, -0.06, 0.3), (0.37, -0.05, 0.32), rides_on="handle")
+    knob = box("handle_knob", (0.35, -0.06, 0.3), (0.37, -0.05, 0.32), carried_by="handle")
     (request,) = plan_from_annotation(scene(DOOR, SIDE, HANDLE, knob, joints=(hinged(),))).joints
     assert request.attached == ("handle", "handle_knob")
 
 
 def test_doors_without_a_joint_are_refused_unless_they_ride():
-    glass = box("door_glass", (0.1, -0.015, 0.1), (0.3, -0.005, 0.5), rides_on="door")
+    glass = box("door_glass", (0.1, -0.015, 0.1), (0.3, -0.005, 0.5), carried_by="door")
     other = box("door_2", (0.4, -0.02, 0.0), (0.8, 0.0, 0.6))
     plan = plan_from_annotation(scene(DOOR, SIDE, glass, other, joints=(hinged(),)))
     assert [(r.part, r.why) for r in plan.refused] == [("door_2", "the input states no joint for it")]

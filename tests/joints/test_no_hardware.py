@@ -1,4 +1,4 @@
-"""Doors and drawers that move freely where no hardware finds room: they get their joint, and the report says so."""
+"""Doors and drawers that move freely where no hardware finds room: they get their joint, and the report states so."""
 
 from dataclasses import replace
 

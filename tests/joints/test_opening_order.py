@@ -53,7 +53,7 @@ def test_the_report_and_the_object_state_the_same_order(kind):
 
 def overlapping_pair():
     """The left door carries a strip that covers the right door's edge: it must open first."""
-    strip = box("handle_strip", (0.39, -0.03, 0.0), (0.43, -0.02, 0.6), rides_on="door")
+    strip = box("handle_strip", (0.39, -0.03, 0.0), (0.43, -0.02, 0.6), carried_by="door")
     right = box("door_2", (0.405, -0.02, 0.0), (0.8, 0.0, 0.6))
     far = box("far_side", (0.8, 0.0, 0.0), (0.82, 0.4, 0.6))
     axis = Axis(vec3(0.8, 0.0, 0.0), vec3(0.0, 0.0, 1.0))

@@ -88,9 +88,9 @@ def test_a_plan_of_nothing_leaves_everything_as_it_was():
 
 
 def test_refusals_are_reported_in_their_own_words():
-    plan = RealizationPlan(refused=(Refusal("door", Reason.NO_MOTION, "nobody knows"),))
+    plan = RealizationPlan(refused=(Refusal("door", Reason.NO_MOTION, "no one knows"),))
     (outcome,) = realize(plan, scene(DOOR, SIDE), GALLERY).report.skipped
-    assert (outcome.part, outcome.reason, outcome.why) == ("door", Reason.NO_MOTION, "nobody knows")
+    assert (outcome.part, outcome.reason, outcome.why) == ("door", Reason.NO_MOTION, "no one knows")
 
 
 def test_the_first_of_two_requests_for_a_part_counts():

@@ -51,7 +51,7 @@ def test_a_door_hangs_on_the_side_of_its_pin_and_a_drawer_on_both(cabinet: Asset
 def test_handles_are_attached_to_what_they_ride_on(cabinet: Asset) -> None:
     completed = complete_by_annotation(cabinet, parse_graph(cabinet)).completed
 
-    riding = {(part.rides_on, part.id) for part in cabinet.parts if part.label is PartLabel.HANDLE}
+    riding = {(part.carried_by, part.id) for part in cabinet.parts if part.label is PartLabel.HANDLE}
     assert {(edge.parent, edge.child) for edge in completed.attachments} == riding
 
 

@@ -1,4 +1,4 @@
-"""What the input says of its joints is not read unless it is asked for: taken out of the files, all stays the same."""
+"""What the input states of its joints is not read unless asked for: taken out of the files, all stays the same."""
 
 import os
 import re

@@ -44,9 +44,9 @@ def node(name: str, label: PartLabel, center: Vec3) -> PartNode:
     return PartNode(name, label, Box.from_center(center, vec3(0.02, 0.02, 0.02)))
 
 
-def addition(name: str, label: PartLabel, center: Vec3, rides_on: str | None = None) -> Addition:
+def addition(name: str, label: PartLabel, center: Vec3, carried_by: str | None = None) -> Addition:
     mesh = TriangleMesh.box_mesh(Box.from_center(center, vec3(0.03, 0.02, 0.01)))
-    return Addition(added_part(name, label, [Surface(mesh)], rides_on), "it was missing")
+    return Addition(added_part(name, label, [Surface(mesh)], carried_by), "it was missing")
 
 
 def on_the_door(model: Asset, z: float = 0.0) -> Vec3:

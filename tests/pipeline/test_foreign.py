@@ -103,11 +103,12 @@ def test_what_is_read_without_its_joints_takes_those_of_a_robot_description(tmp_
     found = attach_motions(asset, read_foreign(write_urdf(tmp_path / "robot")))
 
     assert {joint.part for joint in found.joints} == {"cabinet_door_surface_7", "drawer_front_9"}
-    assert (found.part("handle_8").rides_on, found.part("handle_11").rides_on) == tuple(j.part for j in found.joints)
+    carriers = tuple(found.part(handle).carried_by for handle in ("handle_8", "handle_11"))
+    assert carriers == tuple(j.part for j in found.joints)
 
 
 def _wider(again, tmp_path: Path):  # type: ignore[no-untyped-def]
-    """Returns the joints that the URDF states, doors opening as far as the other file says."""
+    """Returns the joints that the URDF states, doors opening as far as the other file states."""
     by_part = {joint.part: joint for joint in again.joints}
     return tuple(replace(j, upper=by_part[j.part].upper) for j in load_annotated(tmp_path / "robot").joints)
 

@@ -45,11 +45,11 @@ def free():
 
 def test_a_front_that_runs_gets_a_box(free):
     assert {joint.child for joint in free.object.joints} == {"drawer"}
-    assert {a.part.rides_on for a in free.body.additions} >= {"drawer"}
+    assert {a.part.carried_by for a in free.body.additions} >= {"drawer"}
 
 
 def test_the_box_of_a_front_that_got_no_joint_is_taken_back(free):
-    boards = {a.part.id for a in free.body.additions if a.part.rides_on}
+    boards = {a.part.id for a in free.body.additions if a.part.carried_by}
     root = Link(free.object.root, tuple(v for link in free.object.links for v in link.visuals))
     still = replace(free.object, links=(root,), joints=())
     body, realized = without_idle(free.body, Realized(still, free.report, free.fittings.scene))

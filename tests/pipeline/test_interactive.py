@@ -1,4 +1,4 @@
-"""A run in a process of its own: stages as they begin, all files or one line that says why not."""
+"""A run in a process of its own: stages as they begin, all files or one line that states why not."""
 
 import json
 import subprocess

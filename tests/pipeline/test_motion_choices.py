@@ -1,4 +1,4 @@
-"""What somebody says of how a part moves is built, whoever completed the graph; what is rejected is static."""
+"""What a user states of how a part moves is built, whoever completed the graph; what is rejected is static."""
 
 import json
 from dataclasses import replace
@@ -74,7 +74,7 @@ def opened(result: Functionalized, part: str) -> np.ndarray:
 @pytest.mark.parametrize("source", SOURCES)
 def test_what_is_rejected_is_static_with_all_that_sits_on_it(asset, source):
     door = named(asset, PartLabel.DOOR)
-    attached = {p.id for p in asset.parts if p.rides_on == door}
+    attached = {p.id for p in asset.parts if p.carried_by == door}
     result = run(asset, Settings(source).with_motion(door, FIXED))
     report = report_of(result)
     assert door not in result.object.joint_of
@@ -99,7 +99,7 @@ def test_a_door_turns_about_the_border_that_is_stated(asset, source, side):
     assert opened(result, door)[1] < -0.05
     (edge,) = [h for h in result.completion.completed.hinges if h.child == door]
     assert result.asset.part(edge.parent).label.is_support
-    attached = {p.id for p in asset.parts if p.rides_on == door}
+    attached = {p.id for p in asset.parts if p.carried_by == door}
     assert attached <= {v.name for v in result.object.link(door).visuals}
 
 
@@ -134,7 +134,7 @@ def test_a_front_that_slides_along_the_case_has_an_edge_and_no_refusal(asset, so
 @pytest.mark.parametrize("source", SOURCES)
 def test_a_part_that_nobody_takes_for_a_door_becomes_one_with_the_handle_on_it(asset, source):
     door = named(asset, PartLabel.DOOR)
-    handle = next(p.id for p in asset.parts if p.rides_on == door)
+    handle = next(p.id for p in asset.parts if p.carried_by == door)
     blind = asset.without_annotation().with_labels({door: PartLabel.MISC})
     assert door not in run(blind, Settings(source)).object.joint_of
     result = run(blind, Settings(source).with_motion(door, MotionChoice(Moves.TURNS, Side.LEFT)))
@@ -144,7 +144,7 @@ def test_a_part_that_nobody_takes_for_a_door_becomes_one_with_the_handle_on_it(a
 
 def test_what_is_stated_of_all_parts_holds_where_one_rode_on_the_other(asset):
     door = named(asset, PartLabel.DOOR)
-    part = next(p.id for p in asset.parts if p.rides_on == door)
+    part = next(p.id for p in asset.parts if p.carried_by == door)
     chosen = Settings(MotionSource.ANNOTATION).with_motion(part, MotionChoice(Moves.SLIDES))
     result = run(asset, chosen)
     assert part not in {v.name for v in result.object.link(door).visuals}
@@ -161,14 +161,14 @@ def test_choices_for_the_joint_hold_on_a_stated_motion(asset):
 @pytest.mark.parametrize(
     ("part", "choice", "labels", "words"),
     [
-        ("nobody", FIXED, {}, "has no nobody"),
+        ("no_one", FIXED, {}, "has no no_one"),
         (PartLabel.DOOR, MotionChoice(Moves.TURNS, Side.FRONT), {}, "front is a broad face"),
         (PartLabel.DRAWER, MotionChoice(Moves.SLIDES, Side.TOP), {}, "must slide level"),
         (PartLabel.DOOR, MotionChoice(Moves.TURNS, Side.LEFT), PartLabel.MISC, "must not be misc"),
     ],
 )
 def test_a_motion_that_cannot_be_is_refused_in_one_line(asset, part, choice, labels, words):
-    name = part if part == "nobody" else named(asset, part)
+    name = part if part == "no_one" else named(asset, part)
     chosen = Settings(MotionSource.RULE, labels={name: labels} if labels else {}).with_motion(name, choice)
     with pytest.raises(OptionError, match=words) as error:
         run(asset, chosen)

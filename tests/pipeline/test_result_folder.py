@@ -1,4 +1,4 @@
-"""Folders of results read back, whole and broken: every refusal is one line that says what to do."""
+"""Folders of results read back, whole and broken: every refusal is one line that states what to do."""
 
 import json
 import re

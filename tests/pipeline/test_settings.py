@@ -154,10 +154,10 @@ def test_joints_are_built_as_chosen(asset):
 @pytest.mark.parametrize("style", ["knob-round", "bar-strip"])
 def test_a_drawer_gets_the_handles_that_are_chosen_instead_of_its_own(asset, style, count):
     drawer = moving_bodies(run(asset, BASE))["prismatic"]
-    own = [p.id for p in asset.parts if p.rides_on == drawer and p.label is PartLabel.HANDLE]
+    own = [p.id for p in asset.parts if p.carried_by == drawer and p.label is PartLabel.HANDLE]
     result = run(asset, BASE.with_front(drawer, HandleChoice(style, count)))
     names = {visual.name for visual in result.object.link(drawer).visuals}
-    new = [a.part for a in result.additions if a.part.rides_on == drawer and a.part.label is PartLabel.HANDLE]
+    new = [a.part for a in result.additions if a.part.carried_by == drawer and a.part.label is PartLabel.HANDLE]
     assert own
     assert not names & set(own)
     assert set(own).isdisjoint(node.id for node in result.completion.completed.nodes)
@@ -175,7 +175,7 @@ def test_offsets_move_a_handle_and_never_off_its_front(asset):
         (handle,) = [
             a.part
             for a in run(asset, BASE.with_front(door, HandleChoice("knob-round", offset=(0.0, up)))).additions
-            if a.part.rides_on == door
+            if a.part.carried_by == door
         ]
         places[up] = float(handle.box.center[2])
         assert box.low[2] < handle.box.low[2]
@@ -185,7 +185,7 @@ def test_offsets_move_a_handle_and_never_off_its_front(asset):
 def test_a_front_can_be_left_without_or_be_carved(asset):
     door = moving_bodies(run(asset, BASE))["revolute"]
     bare = run(asset, BASE.with_front(door, HandleChoice("none")))
-    assert not [a for a in bare.additions if a.part.rides_on == door]
+    assert not [a for a in bare.additions if a.part.carried_by == door]
     assert {j.part: j.grasp for j in report_of(bare).joints}[door] == "none"
     carved = run(asset, BASE.with_front(door, HandleChoice("hole")))
     assert [c.part.id for c in carved.fittings.changes.carved] == [door]
@@ -234,8 +234,8 @@ def test_corrected_labels_change_what_is_built_and_say_who_said_so(asset):
     result = run(blind, base.with_label(door, PartLabel.MISC))
     assert door not in {m.moving for m in result.report.installed}
     assert {p.id: p.labelled_by for p in report_of(result).parts}[door] == "user"
-    with pytest.raises(OptionError, match="nobody"):
-        run(blind, base.with_label("nobody", PartLabel.DOOR))
+    with pytest.raises(OptionError, match="no_one"):
+        run(blind, base.with_label("no_one", PartLabel.DOOR))
 
 
 def test_a_chosen_opening_is_no_wider_than_what_is_free(asset):

@@ -1,4 +1,4 @@
-"""The verdict on made furniture: green means that every door and drawer works, and each fault takes that away.
+"""The verdict on synthetic furniture: green means that every door and drawer works, and each fault takes that away.
 
 Faults are put into reports of furniture that works, in any number and mixture, and into the furniture itself.
 """
@@ -57,7 +57,7 @@ def with_joint(report: Report, part: str, **changes) -> Report:
 
 
 def without_joint(report: Report, part: str) -> Report:
-    """The part stands with the body, as it does where nobody moves it."""
+    """The part stands with the body, as it does where no one moves it."""
     parts = tuple(p.model_copy(update={"link": "body"}) if p.link == part else p for p in report.parts)
     joints = tuple(joint for joint in report.joints if joint.part != part)
     return report.model_copy(update={"joints": joints, "parts": parts})
@@ -196,8 +196,8 @@ def test_a_front_that_the_source_left_fixed_is_red_and_the_option_that_moves_it_
     assert {line.part for line in verdict.lines} == {joint.part for joint in sound(layout).joints}
     motions = {}
     for line in verdict.lines:
-        part, _, way = line.option.removeprefix("--move ").rpartition("=")
-        motions[part] = MotionChoice(Moves.SLIDES) if way == "slides" else MotionChoice(Moves.TURNS, Side(way))
+        part, _, motion = line.option.removeprefix("--move ").rpartition("=")
+        motions[part] = MotionChoice(Moves.SLIDES) if motion == "slides" else MotionChoice(Moves.TURNS, Side(motion))
     assert motions.keys() == {line.part for line in verdict.lines}
     assert verdict_of(reported(asset, motions=motions)).colour is Colour.GREEN
 

@@ -1,4 +1,4 @@
-"""The process that stays: what it keeps changes no byte of what comes out; it ends when nobody listens any more."""
+"""The process that stays: what it keeps changes no byte of what comes out; it ends when no one listens any more."""
 
 import json
 import subprocess

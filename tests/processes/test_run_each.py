@@ -47,7 +47,7 @@ def keep(_: object) -> int:
 
 
 def do(what: str) -> str:
-    """Stands in for work; the item says what happens."""
+    """Stands in for work; the item states what happens."""
     eaten = []
     match what:
         case "exit":
@@ -159,7 +159,7 @@ def test_workers_end_when_their_parent_is_killed(tmp_path: Path) -> None:
     workers, children = ({int(path.read_text().split()[i]) for path in reports} for i in (1, 0))
     assert workers <= set(started)
     assert survivors(set(started) - children, 5.0) == []
-    for child in children:  # the test's own, which nobody ends
+    for child in children:  # the test's own, which no one ends
         os.kill(child, signal.SIGKILL)
 
 
@@ -168,7 +168,7 @@ def wait_for(paths: list[Path]) -> None:
         if all(path.exists() and path.read_text().count("\n") == 3 for path in paths):
             return
         sleep(0.02)
-    raise AssertionError(f"nobody wrote {paths}")
+    raise AssertionError(f"no one wrote {paths}")
 
 
 def test_memory_is_what_is_touched() -> None:

@@ -30,9 +30,9 @@ def finely(mesh, times):
     return mesh
 
 
-def cut(*meshes, open_to=None, movers=None):
+def cut(*meshes, open_to=None, moving=None):
     """What the meshes are cut into: by number, the boxes of each role."""
-    found = divided(meshes, open_to or [True] * len(meshes), movers or [False] * len(meshes))
+    found = divided(meshes, open_to or [True] * len(meshes), moving or [False] * len(meshes))
     return {k: [(p.role, meshes[k].with_faces(p.faces).box) for p in pieces] for k, pieces in found.items()}
 
 
@@ -62,9 +62,9 @@ def test_a_welded_cabinet_gives_its_door_drawer_and_handles_back_from_whichever_
 def test_welded_samples_give_each_front_back_whole(sample):
     asset = sample()
     whole = merge_meshes([part.mesh for part in asset.parts])
-    movers = [part.mesh for part in asset.parts if part.label.is_movable]
+    moving = [part.mesh for part in asset.parts if part.label.is_movable]
 
-    assert boxes(cut(whole), "front") == rounded(movers)
+    assert boxes(cut(whole), "front") == rounded(moving)
 
 
 @pytest.mark.parametrize(
@@ -113,8 +113,8 @@ def test_what_is_divided_already_stays_as_it_is(sample):
     meshes = [part.mesh for part in asset.parts]
 
     assert any(shell_numbers(mesh).max() for mesh in meshes)
-    assert cut(*meshes, movers=[part.label.is_movable for part in asset.parts]) == {}
-    assert cut(*meshes) == {}, "nor where no name says what the parts are"
+    assert cut(*meshes, moving=[part.label.is_movable for part in asset.parts]) == {}
+    assert cut(*meshes) == {}, "nor where no name states what the parts are"
 
 
 def test_what_may_not_be_cut_stays_whole():
@@ -130,9 +130,9 @@ def test_two_doors_in_one_object_become_two_and_a_panel_beside_one_stays():
     wide = board((-0.4, -0.22, 0), (0.199, -0.2, 1))
     case = merge_meshes(CASE)
 
-    assert boxes(cut(case, merge_meshes([left, right]), movers=[False, True]), "front") == rounded([left, right])
+    assert boxes(cut(case, merge_meshes([left, right]), moving=[False, True]), "front") == rounded([left, right])
     assert boxes(cut(case, merge_meshes([wide, narrow])), "front")[0] == rounded([wide])[0]
-    assert cut(case, merge_meshes([wide, narrow.translated(np.array([0, 0.3, 0]))]), movers=[False, True]) == {}
+    assert cut(case, merge_meshes([wide, narrow.translated(np.array([0, 0.3, 0]))]), moving=[False, True]) == {}
 
 
 def test_bar_and_posts_of_one_handle_are_one_piece_and_panes_go_with_their_frame():
@@ -169,7 +169,7 @@ def roles(found, number):
 
 @pytest.mark.parametrize("is_named", [True, False], ids=["called a door", "without a name"])
 def test_a_handle_drawn_in_a_front_becomes_a_part_and_the_front_stays_one(is_named):
-    found = cut(merge_meshes(CASE), merge_meshes([PLATE, BAR]), movers=[False, is_named])
+    found = cut(merge_meshes(CASE), merge_meshes([PLATE, BAR]), moving=[False, is_named])
 
     assert list(found) == [1]
     assert roles(found, 1) == ["body", "handle"]
@@ -211,7 +211,7 @@ def test_a_handle_welded_to_its_front_is_known_by_its_material():
 def test_a_front_with_many_pieces_on_it_keeps_them():
     slats = [board((-0.3, -0.23, z), (0.3, -0.22, z + 0.01)) for z in (0.2, 0.4, 0.6, 0.8)]
 
-    assert cut(merge_meshes(CASE), merge_meshes([PLATE, *slats]), movers=[False, True]) == {}
+    assert cut(merge_meshes(CASE), merge_meshes([PLATE, *slats]), moving=[False, True]) == {}
 
 
 def test_a_handle_on_a_curved_front_stands_out_of_the_front_beside_it():
@@ -219,7 +219,7 @@ def test_a_handle_on_a_curved_front_stands_out_of_the_front_beside_it():
     bar = board((0.34, -0.28, 0.4), (0.36, -0.235, 0.6))
     assert bar.box.low[1] > front.box.low[1] + 0.02, "it lies behind the front's middle"
 
-    found = cut(merge_meshes(CASE), merge_meshes([front, bar]), movers=[False, True])
+    found = cut(merge_meshes(CASE), merge_meshes([front, bar]), moving=[False, True])
 
     assert boxes(found, "handle") == rounded([bar])
 
@@ -234,7 +234,7 @@ def test_a_speck_at_the_very_border_is_seen_by_the_last_ray():
 
 def test_marks_printed_on_a_front_are_no_handles():
     mark = board((-0.05, -0.2225, 0.8), (0.05, -0.2224, 0.85))
-    found = cut(merge_meshes(CASE), merge_meshes([PLATE, BAR, mark]), movers=[False, True])
+    found = cut(merge_meshes(CASE), merge_meshes([PLATE, BAR, mark]), moving=[False, True])
 
     assert boxes(found, "handle") == rounded([BAR])
 

@@ -1,4 +1,4 @@
-"""Objects without names are joined where they are one door, drawer or handle; what stands still stays out."""
+"""Objects without names are joined where they are one door, drawer or handle; what is static stays out."""
 
 import numpy as np
 import pytest

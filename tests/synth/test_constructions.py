@@ -68,8 +68,8 @@ def test_solids_are_closed_and_sheets_are_flat(name):
     for part in made(SPECS[name]).parts:
         for surface in part.surfaces:
             flat = surface.mesh.box.size.min() < 1e-9
-            assert flat or part.label is PartLabel.MISC or surface.mesh.is_closed, part.id
-            assert not surface.mesh.is_closed or surface.mesh.to_trimesh().volume > 0, part.id
+            assert flat or part.label is PartLabel.MISC or surface.mesh.is_watertight, part.id
+            assert not surface.mesh.is_watertight or surface.mesh.to_trimesh().volume > 0, part.id
 
 
 def labels(case):

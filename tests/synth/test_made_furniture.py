@@ -32,7 +32,7 @@ def steps(joint, count=5):
 def test_every_movable_part_has_one_joint_and_every_handle_rides(spec):
     asset = made(spec)
     assert sorted(j.part for j in asset.joints) == sorted(movable(asset))
-    assert all((p.rides_on is not None) == (p.label is PartLabel.HANDLE) for p in asset.parts)
+    assert all((p.carried_by is not None) == (p.label is PartLabel.HANDLE) for p in asset.parts)
 
 
 @quick
@@ -109,7 +109,7 @@ def test_an_inset_pair_without_gap_really_binds():
 def test_drawers_behind_doors_move_once_the_doors_are_open(mount):
     inner = Stack((Drawer(handle="knob-round"), Drawer(handle="knob-round")), between="nothing")
     asset = make_cabinet(Cabinet(layout=Pair(behind=inner), mount=mount))
-    fronts = frozenset(p.id for p in asset.parts if "door" in (p.label, str(p.rides_on)[:4]))
+    fronts = frozenset(p.id for p in asset.parts if "door" in (p.label, str(p.carried_by)[:4]))
     assert set(collisions(asset, "drawer_1")) <= fronts
     assert collisions(asset, "drawer_1") != {}
     for joint in asset.joints:

@@ -35,7 +35,7 @@ def test_what_lacks_nothing_is_left_alone() -> None:
 def test_bare_fronts_get_handles_that_fit(seed: int) -> None:
     added, whole = repair(Cabinet(case=Case(1.2), layout=BARE), seed)
 
-    held = [p.rides_on for p in whole.parts if p.label is PartLabel.HANDLE]  # type: ignore[attr-defined]
+    held = [p.carried_by for p in whole.parts if p.label is PartLabel.HANDLE]  # type: ignore[attr-defined]
     assert len(added) == 4
     assert sorted(map(str, held)) == ["door", "drawer_1", "drawer_2", "drawer_3", "drawer_4"]
 

@@ -55,7 +55,7 @@ SUNK = {"doors into the case": "door_1", "inset door into the side": "door", "dr
 @pytest.mark.parametrize("name", TIDY)
 def test_a_tidy_kind_moves_freely_about_its_true_joints(name):
     asset = TIDY[name]()
-    doors = frozenset(p.id for p in asset.parts if "door" in (p.label, str(p.rides_on)[:4]))
+    doors = frozenset(p.id for p in asset.parts if "door" in (p.label, str(p.carried_by)[:4]))
     for joint in asset.joints:
         behind = joint.part.startswith("drawer") and name.startswith("drawers behind")
         assert collisions(asset, joint.part, ignored=doors if behind else frozenset()) == {}

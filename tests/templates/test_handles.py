@@ -23,7 +23,7 @@ def test_there_are_eighteen_of_three_families():
 @every_handle
 def test_handles_are_closed_and_look_outwards(handle):
     for mesh in handle.build():
-        assert mesh.is_closed
+        assert mesh.is_watertight
         assert mesh.to_trimesh().volume > 0
     assert 50 <= sum(len(mesh.faces) for mesh in handle.build()) <= 400
 
@@ -34,7 +34,7 @@ def test_handles_fill_their_size_from_the_foot_plane_on(handle, ratio):
     length, protrusion = ratio * handle.natural.length, ratio**0.5 * handle.natural.protrusion
     meshes = handle.build(length, protrusion)
     low, high = box_of(meshes)
-    assert all(mesh.is_closed and mesh.to_trimesh().volume > 0 for mesh in meshes)
+    assert all(mesh.is_watertight and mesh.to_trimesh().volume > 0 for mesh in meshes)
     assert (high - low)[0] == pytest.approx(length)
     assert low[1] == pytest.approx(-protrusion)
     assert high[1] == pytest.approx(0.0, abs=1e-9)

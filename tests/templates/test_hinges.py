@@ -67,7 +67,7 @@ def test_every_surface_is_a_closed_outward_solid_with_normals(model):
     for size in (model.natural, *EXTREMES):
         template = model.build(size)
         for surface in (*template.static.surfaces, *template.dynamic.surfaces):
-            assert surface.mesh.is_closed
+            assert surface.mesh.is_watertight
             assert surface.mesh.to_trimesh().volume > 0
             assert surface.normals is not None
 
@@ -139,7 +139,7 @@ def test_any_proportions_build_closed_leaves_that_stay_apart(model, length, leaf
     radius = max(slimness * leaf, 6e-4)
     size = HingeSize(length, leaf, flatness * radius, radius)
     template = model.build(size)
-    assert all(s.mesh.is_closed for s in (*template.static.surfaces, *template.dynamic.surfaces))
+    assert all(s.mesh.is_watertight for s in (*template.static.surfaces, *template.dynamic.surfaces))
     assert closest_in_each_pose(template, turns(template, 3)).min() > 0
 
 

@@ -76,7 +76,7 @@ def test_a_rail_fills_exactly_its_size(model, size):
 def test_every_surface_is_a_closed_outward_solid(model, size):
     template = model.build(size)
     for surface in (*template.static.surfaces, *template.dynamic.surfaces):
-        assert surface.mesh.is_closed
+        assert surface.mesh.is_watertight
         assert surface.mesh.to_trimesh().volume > 0
 
 

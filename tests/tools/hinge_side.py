@@ -109,18 +109,18 @@ def _surroundings(front: MeasuredFront, graph: FunctionalGraph, extent: float) -
         [n for n in graph.nodes if n.label.is_support],
     )
     for nodes in groups:
-        for axis, way in ((across, -sign), (across, sign), (2, 1.0), (2, -1.0)):
-            numbers.append(min((_way_to(box, n.box, axis, way, extent) for n in nodes), default=_FAR))
+        for axis, direction in ((across, -sign), (across, sign), (2, 1.0), (2, -1.0)):
+            numbers.append(min((_distance_to(box, n.box, axis, direction, extent) for n in nodes), default=_FAR))
     return np.array(numbers)
 
 
-def _way_to(box, other, axis: int, way: float, extent: float) -> float:
+def _distance_to(box, other, axis: int, direction: float, extent: float) -> float:
     """Returns how far another box begins beyond one side of a door, where it stands beside it and near its plane."""
     gaps = box.axis_gaps(other)
     beside = [a for a in range(3) if a != axis]
     if max(gaps[a] for a in beside) > 0.02 * extent:
         return _FAR
-    middle = (other.center[axis] - box.center[axis]) * way
+    middle = (other.center[axis] - box.center[axis]) * direction
     if middle < 0.4 * box.size[axis]:  # it lies before, behind or on the other side
         return _FAR
     return float(gaps[axis] / extent)

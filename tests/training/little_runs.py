@@ -31,7 +31,7 @@ LITTLE = replace(
 @final
 @dataclass(frozen=True)
 class FewModels:
-    """Three small made models, over and over."""
+    """Three small synthetic models, over and over."""
 
     seed: int = 3
 

@@ -87,9 +87,9 @@ def test_a_door_on_two_parts_may_choose_either() -> None:
 def test_nobody_chooses_and_there_is_nothing_to_choose() -> None:
     scores = torch.zeros(1, 2, 2, requires_grad=True)
     nothing = torch.zeros(1, 2, 2, dtype=torch.bool)
-    nobody = torch.zeros(1, 2, dtype=torch.bool)
-    loss = choice_loss(scores, torch.zeros(()), nobody, nothing, nothing) + choice_loss(
-        scores, torch.zeros(()), ~nobody, nothing, nothing
+    no_one = torch.zeros(1, 2, dtype=torch.bool)
+    loss = choice_loss(scores, torch.zeros(()), no_one, nothing, nothing) + choice_loss(
+        scores, torch.zeros(()), ~no_one, nothing, nothing
     )
     loss.backward()
     assert loss.item() == 0.0

@@ -33,7 +33,7 @@ def colliding(made):
 
 
 def silent(made):
-    """The first moving body stands with the body, and nobody says why."""
+    """The first moving body stands with the body, and no one states why."""
     first, *rest = made.report.joints
     parts = (p.model_copy(update={"link": "body"}) if p.link == first.part else p for p in made.report.parts)
     return {"joints": tuple(rest), "parts": tuple(parts)}

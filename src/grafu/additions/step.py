@@ -27,7 +27,7 @@ GraspKind = Literal["handle", "recess", "edge", "none"]
 class Addition:
     """A new part at rest in the object frame, why it was added, and in which style (a template's id, an outline).
 
-    `part.rides_on` is the door or drawer that it is fixed to; None: it is static.
+    `part.carried_by` is the door or drawer that it is fixed to; None: it is static.
     """
 
     part: Part
@@ -35,9 +35,9 @@ class Addition:
     style: str = ""
 
 
-def added_part(part_id: str, label: PartLabel, surfaces: Sequence[Surface], rides_on: str | None = None) -> Part:
+def added_part(part_id: str, label: PartLabel, surfaces: Sequence[Surface], carried_by: str | None = None) -> Part:
     """Returns a part that the input did not have."""
-    return Part(part_id, label, tuple(surfaces), PartSource(""), "added", rides_on)
+    return Part(part_id, label, tuple(surfaces), PartSource(""), "added", carried_by)
 
 
 def free_ids(stem: str, count: int, taken: Collection[str]) -> tuple[str, ...]:
@@ -170,7 +170,7 @@ class StepResult:
     @property
     def attached(self) -> tuple[tuple[str, str], ...]:
         """What moves with a moving part from now on: of each pair the moving part, then what was found or added."""
-        riding = ((a.part.rides_on, a.part.id) for a in self.additions if a.part.rides_on is not None)
+        riding = ((a.part.carried_by, a.part.id) for a in self.additions if a.part.carried_by is not None)
         return (*self.changes.attached, *riding)
 
     def without(self, rejected: Collection[str], before: Scene) -> "StepResult":

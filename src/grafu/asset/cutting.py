@@ -58,7 +58,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
         return reading
     T = _turn(frame)
     meshes = [part.mesh.transformed(T) for part in reading.parts]
-    open_to = [_may_be_cut(part, config) and part.rides_on is None for part in reading.parts]
+    open_to = [_may_be_cut(part, config) and part.carried_by is None for part in reading.parts]
     whole = [part.label.is_movable for part in reading.parts]
     cuts = divided(meshes, open_to, whole, [_materials(part) for part in reading.parts])
     if not cuts:
@@ -84,7 +84,7 @@ def joined_where_nameless(reading: Reading, frame: Frame) -> Reading:
     if not reading.parts or _is_divided(reading):
         return reading
     T = _turn(frame)
-    nameless = [part.label is PartLabel.UNKNOWN and part.rides_on is None for part in reading.parts]
+    nameless = [part.label is PartLabel.UNKNOWN and part.carried_by is None for part in reading.parts]
     if sum(nameless) < 2:
         return reading
     groups = joined_objects([part.mesh.transformed(T) for part in reading.parts], nameless)
@@ -135,7 +135,7 @@ def _is_new(piece: Piece | None) -> bool:
 
 def _freed(part: Part, cut: set[str]) -> Part:
     """Returns the part attached to nothing where its carrier was cut: contact then decides on what."""
-    return replace(part, rides_on=None) if part.rides_on in cut else part
+    return replace(part, carried_by=None) if part.carried_by in cut else part
 
 
 def _stem(part: Part, piece: Piece | None) -> str:

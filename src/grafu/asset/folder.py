@@ -165,4 +165,4 @@ def _one_piece(path: Path, found: MeshFile) -> str:
 def _convention(files: list[Path]) -> Convention:
     suffix = files[0].suffix.lower()
     usual = "+Y" if suffix == ".obj" else "+Z"
-    return Convention(f"habit ({suffix[1:].upper()} files are mostly {usual[1]} up)", usual_up=usual)
+    return Convention(f"what is usual for {suffix[1:].upper()}: {usual[1]} up", usual_up=usual)

@@ -71,7 +71,7 @@ def _parts_of(reading: Reading, shells: Shells, chosen: np.ndarray) -> tuple[Par
         faces = np.sort(np.concatenate([shells.faces[s] for s in own.tolist()]))
         parts.append(part if is_whole else replace(part, surfaces=faces_of_part(part, faces)))
     known = {part.id for part in parts}
-    return tuple(replace(p, rides_on=None) if p.rides_on and p.rides_on not in known else p for p in parts)
+    return tuple(replace(p, carried_by=None) if p.carried_by and p.carried_by not in known else p for p in parts)
 
 
 def _left_out(reading: Reading, shells: Shells, number: np.ndarray, what: int) -> tuple[str, ...]:
@@ -121,7 +121,7 @@ def _annotation_of(annotation: Annotation, chosen: Sequence[bool]) -> Annotation
     )
     if not joints:
         return None
-    freed = tuple(replace(p, rides_on=None) if p.rides_on not in known else p for p in parts)
+    freed = tuple(replace(p, carried_by=None) if p.carried_by not in known else p for p in parts)
     return replace(annotation, parts=freed, joints=joints)
 
 

@@ -174,7 +174,7 @@ def with_split_handles(parts: tuple[Part, ...], config: LooseConfig = _DEFAULT) 
     for part in parts:
         pieces = (
             _split_handle(part, fronts, reach, taken)
-            if part.label is PartLabel.HANDLE and part.rides_on is None
+            if part.label is PartLabel.HANDLE and part.carried_by is None
             else []
         )
         found += pieces or [part]
@@ -197,7 +197,7 @@ def _split_handle(handle: Part, fronts: list[Part], reach: float, taken: Collect
         return []
     names = (name for k in range(1, 10_000) if (name := f"{handle.id}_{k}") not in taken)
     return [
-        replace(handle, id=name, surfaces=tuple(s for shell in of for s in shell.surfaces), rides_on=front)
+        replace(handle, id=name, surfaces=tuple(s for shell in of for s in shell.surfaces), carried_by=front)
         for name, (front, of) in zip(names, ratios.items(), strict=False)
     ]
 

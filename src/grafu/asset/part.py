@@ -49,7 +49,7 @@ class Part:
     """One part, its surfaces in the object frame (metres, Z up, front -Y).
 
     `id` is unique and safe in URDF and USD. `labelled_by` states what the label rests on ("joint": what the input
-    states about its motion; "added": the part is new). `rides_on` is the id of the moving part that carries this one,
+    states about its motion; "added": the part is new). `carried_by` is the id of the moving part that carries this one,
     where the input states it (a handle in a door's link, a knob on a drawer).
     """
 
@@ -58,7 +58,7 @@ class Part:
     surfaces: tuple[Surface, ...]
     source: PartSource
     labelled_by: Literal["name", "annotation", "joint", "user", "prediction", "added", "none"] = "none"
-    rides_on: str | None = None
+    carried_by: str | None = None
 
     def __repr__(self) -> str:
         return f"<Part {self.id}: {self.label}, {sum(len(s.mesh.faces) for s in self.surfaces):,} faces>"
@@ -102,7 +102,7 @@ class Annotation:
     The pieces of a body that moves are one part here, whatever they are called. `notes` states what was decided.
 
     Raises:
-        AssetError: if part ids repeat, or `rides_on` or a joint names a part that is not there.
+        AssetError: if part ids repeat, or `carried_by` or a joint names a part that is not there.
     """
 
     parts: tuple[Part, ...]
@@ -148,7 +148,7 @@ class Asset:
     Name, path and notes are kept as UTF-8 can hold them (`writable`).
 
     Raises:
-        AssetError: if part ids repeat, or `rides_on` or a joint names a part that is not there.
+        AssetError: if part ids repeat, or `carried_by` or a joint names a part that is not there.
     """
 
     name: str
@@ -236,7 +236,7 @@ def _check_names(parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...], wh
     known = {part.id for part in parts}
     if len(known) < len(parts):
         raise AssetError(f"part ids must be unique: {whose} repeats one")
-    named = {joint.part for joint in joints} | {p.rides_on for p in parts if p.rides_on}
+    named = {joint.part for joint in joints} | {p.carried_by for p in parts if p.carried_by}
     named |= {joint.coupling.leader for joint in joints if joint.coupling}
     if not named <= known:
         raise AssetError(f"joints and attached parts must name parts: {whose} lacks {sorted(named - known)}")
@@ -244,6 +244,6 @@ def _check_names(parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...], wh
 
 def _without_annotation(part: Part) -> Part:
     if part.labelled_by != "joint":
-        return replace(part, rides_on=None)
+        return replace(part, carried_by=None)
     label = label_of(part.source.name)
-    return replace(part, rides_on=None, label=label, labelled_by="none" if label is PartLabel.UNKNOWN else "name")
+    return replace(part, carried_by=None, label=label, labelled_by="none" if label is PartLabel.UNKNOWN else "name")

@@ -97,7 +97,7 @@ def with_joined_pieces(
     joined = {piece.id: host for host, members in hosts.items() for piece in members}
     kept = tuple(with_pieces(p, hosts.get(p.id, []), joined) for p in parts if p.id not in joined)
     held = _held(kept, whole.diagonal, config)
-    kept = tuple(replace(p, label=PartLabel.HANDLE, rides_on=held[p.id]) if p.id in held else p for p in kept)
+    kept = tuple(replace(p, label=PartLabel.HANDLE, carried_by=held[p.id]) if p.id in held else p for p in kept)
     notes = [f"{in_words(members)} joined to {host}" for host, members in hosts.items()]
     return kept, notes
 
@@ -193,7 +193,7 @@ def _face_area(box: Box) -> float:
 def with_pieces(part: Part, members: Sequence[Part], joined: Mapping[str, str]) -> Part:
     """Returns a part with its pieces; `joined` names for each piece of any part the part that it belongs to now."""
     surfaces = part.surfaces + tuple(s for m in members for s in m.surfaces)
-    return replace(part, surfaces=surfaces, rides_on=joined.get(part.rides_on or "", part.rides_on))
+    return replace(part, surfaces=surfaces, carried_by=joined.get(part.carried_by or "", part.carried_by))
 
 
 def in_words(members: Sequence[Part]) -> str:
@@ -211,12 +211,12 @@ def with_attached(parts: tuple[Part, ...], config: PieceConfig = _DEFAULT) -> tu
         parts: labelled parts in the object frame.
         config: the largest gap that counts as contact.
     """
-    loose = [p for p in parts if p.label is PartLabel.HANDLE and p.rides_on is None]
+    loose = [p for p in parts if p.label is PartLabel.HANDLE and p.carried_by is None]
     others = [p for p in parts if p.label is not PartLabel.HANDLE]
     if not loose or not any(p.label.is_movable for p in others):
         return parts
     carriers = {p.id: _carrier(p, others, config) for p in loose}
-    return tuple(replace(p, rides_on=carriers[p.id]) if p.id in carriers else p for p in parts)
+    return tuple(replace(p, carried_by=carriers[p.id]) if p.id in carriers else p for p in parts)
 
 
 def _carrier(handle: Part, others: list[Part], config: PieceConfig) -> str | None:

@@ -136,7 +136,7 @@ def _cleaned(given: tuple[Part, ...]) -> tuple[tuple[Part, ...], list[str]]:
     notes = [f"dropped {dropped_faces:,} faces without area in {mended} parts"] if dropped_faces else []
     notes += [f"part {part.source.name!r} has no faces and was left out" for part in empty]
     gone = {part.id for part in empty}
-    return tuple(replace(p, rides_on=None) if p.rides_on in gone else p for p in parts), notes
+    return tuple(replace(p, carried_by=None) if p.carried_by in gone else p for p in parts), notes
 
 
 def _without_degenerate(surfaces: tuple[Surface, ...]) -> tuple[tuple[Surface, ...], int]:

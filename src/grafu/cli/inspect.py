@@ -125,8 +125,8 @@ def _deficiencies_table(inspection: "Inspection") -> "Table":
     from grafu.cli.tables import plain_table
 
     table = plain_table("missing", "at", "detail")
-    for lack in inspection.deficiencies:
-        table.add_row(lack.kind, escape(lack.part or "the whole"), escape(lack.detail))
+    for missing in inspection.deficiencies:
+        table.add_row(missing.kind, escape(missing.part or "the whole"), escape(missing.detail))
     return table
 
 

@@ -1,4 +1,4 @@
-"""Models without end, for training: made on the spot by several processes, or read from shards.
+"""An endless stream of models for training: made on the spot by several processes, or read from shards.
 
 What is made for an index does not depend on the number of processes, and comes in the order of the indices.
 """
@@ -31,7 +31,7 @@ _AHEAD = 3  # chunks for each process that are made before they are asked for
 def stream_synth(
     seed: int, start: int = 0, jobs: int = 1, points: int = 512, stop: int | None = None
 ) -> Iterator[Record]:
-    """Yields the synthetic models of `seed` from index `start` on, without end or up to `stop` (not included).
+    """Yields the synthetic models of `seed` from index `start` on: an endless stream, or up to `stop` (not included).
 
     With `jobs` above 1 so many processes make them; a script must then start under `if __name__ == "__main__"`, as with
     every use of multiprocessing. They end with the iterator (close it, or let go of it).

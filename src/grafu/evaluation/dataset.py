@@ -201,8 +201,8 @@ def _specimen(ref: ModelRef) -> Specimen:
 def _made_asset(specimen: Specimen) -> Asset:
     """Returns the furniture as it was modelled, with the joints and attached parts of its repaired version."""
     present = {part.id for part in specimen.asset.parts}
-    carried = {p.id: p.rides_on for p in specimen.whole.parts if p.rides_on in present}
-    parts: tuple[Part, ...] = tuple(replace(p, rides_on=carried.get(p.id)) for p in specimen.asset.parts)
+    carried = {p.id: p.carried_by for p in specimen.whole.parts if p.carried_by in present}
+    parts: tuple[Part, ...] = tuple(replace(p, carried_by=carried.get(p.id)) for p in specimen.asset.parts)
     joints = tuple(joint for joint in specimen.whole.joints if joint.part in present)
     return replace(specimen.asset, name=specimen.id, parts=parts, joints=joints)
 

@@ -56,7 +56,7 @@ class MovingPart:
 def counted_parts(asset: Asset) -> tuple[MovingPart, ...]:
     """Returns the annotated parts that count: large enough, and carried by what is static."""
     requests = plan_from_annotation(asset).joints
-    found = (_moving_part(request, asset) for request in requests if asset.part(request.moving).rides_on is None)
+    found = (_moving_part(request, asset) for request in requests if asset.part(request.moving).carried_by is None)
     return tuple(part for part in found if part is not None)
 
 

@@ -57,8 +57,8 @@ def _badness(row: tuple[Cell, ...]) -> tuple[float, ...]:
 def _faults(outcomes: Sequence[PartOutcome]) -> str:
     if outcomes[0].error:
         return f"failed: {outcomes[0].error}"
-    said = [f"{o.truth.part}: {told}" for o in outcomes if (told := "; ".join(_faults_of(o)))]
-    return ". ".join(said)
+    sentences = [f"{o.truth.part}: {faults}" for o in outcomes if (faults := "; ".join(_faults_of(o)))]
+    return ". ".join(sentences)
 
 
 def _faults_of(outcome: PartOutcome) -> list[str]:
@@ -66,18 +66,18 @@ def _faults_of(outcome: PartOutcome) -> list[str]:
     fixed = outcome.record.fixed
     if fixed is None or fixed.found is None:
         return [f"is static ({outcome.record.skipped or 'no reason is known'})"]
-    told = []
+    faults = []
     if not fixed.aligned:
         kind = "reasonable" if outcome.reasonable else "wrong"
         why = f", {outcome.record.objection}" if outcome.record.objection and kind == "wrong" else ""
-        told.append(f"{kind} motion ({fixed.found.type.value} for {outcome.truth.motion.type.value}{why})")
+        faults.append(f"{kind} motion ({fixed.found.type.value} for {outcome.truth.motion.type.value}{why})")
     if fixed.collision:
-        told.append(f"collides in {fixed.collision:.0%} of the poses")
+        faults.append(f"collides in {fixed.collision:.0%} of the poses")
     if not fixed.connected:
-        told.append("comes loose")
+        faults.append("comes loose")
     if fixed.aligned and fixed.opening < OPENS:
-        told.append(f"opens to {fixed.opening:.0%}")
-    return told
+        faults.append(f"opens to {fixed.opening:.0%}")
+    return faults
 
 
 _STATIC = (

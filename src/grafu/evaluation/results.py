@@ -174,8 +174,9 @@ class _Gathered:
             self.alternatives.setdefault(model, {}).setdefault(part, []).append(record.motion())
 
     def _failure(self, task: Task, row: Row) -> Failure:
-        told = {name: text for name, text in task.facts().items() if name in ("method", "share", "seed", "other_model")}
-        what = ", ".join([task.facts()["task"], *(f"{name} {text}" for name, text in told.items())])
+        named = ("method", "share", "seed", "other_model")
+        facts = {name: text for name, text in task.facts().items() if name in named}
+        what = ", ".join([task.facts()["task"], *(f"{name} {text}" for name, text in facts.items())])
         return Failure(task.facts().get("model", ""), what, row.error)
 
 

@@ -19,7 +19,7 @@ from grafu.articulation.open_together import open_together
 from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.articulation.sweep import JointValues
 from grafu.export.files import ExportFiles
-from grafu.export.mjcf_looks import MjcfLooks, drawn_meshes
+from grafu.export.mjcf_materials import MjcfMaterials, drawn_meshes
 from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
@@ -84,7 +84,7 @@ class _MjcfWriter:
         self._physics = physics_of(articulated, config.physics)
         self._objs = obj_set(articulated, self._physics, config.crease_angle)
         self._asset = ET.Element("asset")
-        self._looks = MjcfLooks(self._asset, self._objs.folder)
+        self._materials = MjcfMaterials(self._asset, self._objs.folder)
         self._used: set[str] = set()
         self._geoms, self._sites = NameBook(case_counts=True), NameBook(case_counts=True)
         self._bodies = _names([link.id for link in articulated.links], taken="world")
@@ -112,7 +112,7 @@ class _MjcfWriter:
         ET.indent(model)
         text = ET.tostring(model, encoding="utf-8", xml_declaration=True) + b"\n"
         named = {name: data for name, data in self._objs.folder.files.items() if name in self._used}
-        meshes = {f"{MESHES}/{n}": d for n, d in (named | self._looks.images).items()}
+        meshes = {f"{MESHES}/{n}": d for n, d in (named | self._materials.images).items()}
         return ExportFiles({"model.xml": text} | meshes, notes=(*self._physics.notes, *self._notes))
 
     def _body(self, link: Link) -> ET.Element:
@@ -153,7 +153,12 @@ class _MjcfWriter:
         for drawn in drawn_meshes(visual, file, origin, self._objs.folder):
             mesh = self._mesh(drawn.file, "visual")
             name = self._geoms.unique(printable(visual.name))
-            attributes = {"class": "visual", "name": name, "mesh": mesh, "material": self._looks.name_of(drawn.look)}
+            attributes = {
+                "class": "visual",
+                "name": name,
+                "mesh": mesh,
+                "material": self._materials.name_of(drawn.material),
+            }
             ET.SubElement(body, "geom", attributes)
         if visual.label is PartLabel.HANDLE:
             site = self._sites.unique(f"{printable(visual.name)}_grasp")

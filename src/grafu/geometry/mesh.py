@@ -18,7 +18,7 @@ from grafu.geometry.transform import is_mirror, transform_points
 _UPRIGHT = 0.1  # most of a unit normal that may point up or down in an upright face
 _BINS = 90  # of one degree each
 _AS_WELL = 0.6  # of the largest area must lie along the axes for those to serve: a room's corner has two such pairs
-_KEPT = 20_000  # faces: of meshes up to this size, what is worked out of the faces is kept
+_CACHED_FACES = 20_000  # meshes of up to so many faces cache what is computed from the faces
 
 
 @final
@@ -61,8 +61,8 @@ class TriangleMesh(ArrayValue):
 
     @property
     def triangles(self) -> np.ndarray:
-        """The corners of each face, (faces, 3, 3); those of large meshes are not kept, they take more than the mesh."""
-        return self._triangles if len(self.faces) <= _KEPT else frozen_array(self.vertices[self.faces])
+        """The corners of each face, (faces, 3, 3); not cached for large meshes, they take more than the mesh."""
+        return self._triangles if len(self.faces) <= _CACHED_FACES else frozen_array(self.vertices[self.faces])
 
     @cached_property
     def _triangles(self) -> np.ndarray:
@@ -75,10 +75,10 @@ class TriangleMesh(ArrayValue):
 
     @property
     def _face_cross(self) -> np.ndarray:
-        return self._kept_cross if len(self.faces) <= _KEPT else _cross(self.triangles)
+        return self._cached_cross if len(self.faces) <= _CACHED_FACES else _cross(self.triangles)
 
     @cached_property
-    def _kept_cross(self) -> np.ndarray:
+    def _cached_cross(self) -> np.ndarray:
         return _cross(self.triangles)
 
     @property
@@ -89,14 +89,14 @@ class TriangleMesh(ArrayValue):
     @property
     def face_normals(self) -> Points:
         """The unit normal of each face; zero where the face has no area."""
-        return self._kept_normals if len(self.faces) <= _KEPT else _unit(self._face_cross)
+        return self._cached_normals if len(self.faces) <= _CACHED_FACES else _unit(self._face_cross)
 
     @cached_property
-    def _kept_normals(self) -> Points:
+    def _cached_normals(self) -> Points:
         return _unit(self._face_cross)
 
     @cached_property
-    def is_closed(self) -> bool:
+    def is_watertight(self) -> bool:
         """Whether every edge, vertices merged by position, is shared by two oppositely directed faces."""
         if not len(self.faces):
             return False

@@ -70,7 +70,7 @@ def subtract(surface: Surface, solids: Sequence[ConvexSolid], clipped: Surface |
     `clipped` is what `clip` gave of the same, where that is known.
     """
     near = _near(surface, solids)
-    if near and surface.mesh.is_closed:
+    if near and surface.mesh.is_watertight:
         cut = _subtract_closed(surface, near)
         if cut is not None:
             return cut

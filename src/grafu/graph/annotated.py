@@ -71,19 +71,19 @@ def _carriers_first(carriers: Mapping[str, str]) -> Iterable[str]:
 
 def _attachments(asset: Asset, graph: FunctionalGraph) -> Iterable[Attached]:
     for part in asset.parts:
-        parent = part.rides_on
+        parent = part.carried_by
         if parent and part.label is PartLabel.HANDLE and graph.node(parent).label.is_movable:
             yield Attached(parent, part.id)
 
 
 def carrying_part(moving: str, joints: Container[str], asset: Asset) -> str:
     """Returns the nearest part with a joint that a part rides on; "" where the static body carries it."""
-    seen, above = {moving}, asset.part(moving).rides_on
+    seen, above = {moving}, asset.part(moving).carried_by
     while above is not None and above not in joints:
         if above in seen:
             return ""
         seen.add(above)
-        above = asset.part(above).rides_on
+        above = asset.part(above).carried_by
     return "" if above is None or above == moving else above
 
 

@@ -18,9 +18,9 @@ from grafu.vocabulary import PartLabel
 
 
 def joined_groups(neighbours: Mapping[str, Iterable[str]]) -> list[frozenset[str]]:
-    """Returns the groups of nodes between which a way leads, in the order of their first nodes.
+    """Returns the groups of nodes that are connected by a path, in the order of their first nodes.
 
-    `neighbours` names for each node those that it is joined to, both ways.
+    `neighbours` names for each node those that it is joined to, in both directions.
     """
     groups: list[frozenset[str]] = []
     seen: set[str] = set()

@@ -45,7 +45,7 @@ def plan_from_annotation(asset: Asset, config: PlanConfig = PlanConfig()) -> Rea
     joints = {joint.part: joint for joint in reversed(asset.joints)}  # a part's first joint counts
     made = {part: _from_joint(_in_step(joint, joints), asset, config) for part, joint in joints.items()}
     requests = tuple(_linked(made[part], joints, made, asset) for part in dict.fromkeys(j.part for j in asset.joints))
-    stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.rides_on}
+    stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.carried_by}
     refused = tuple(
         Refusal(part.id, Reason.NO_MOTION, f"{who} states no joint for it")
         for part in asset.parts
@@ -60,7 +60,7 @@ def plan_from_completion(
     """Returns what a completed graph states: a request per hinged or railed part, and the refusals it carries."""
     graph = completion.completed
     known = {part.id for part in asset.parts}
-    fixed_to = {part.id: part.rides_on for part in asset.parts if part.rides_on}
+    fixed_to = {part.id: part.carried_by for part in asset.parts if part.carried_by}
     carried = [(moving, part) for moving, part in carried_parts(graph, fixed_to, config) if part in known]
     rides = [(edge.parent, edge.child) for edge in (*graph.attachments, *graph.motions) if _is_carried(edge, graph)]
     attached = attached_to(asset, [*rides, *carried])
@@ -92,7 +92,7 @@ def attached_to(asset: Asset, attachments: Iterable[tuple[str, str]]) -> dict[st
     """Returns the parts attached to each part, by the asset or by `attachments`, and those attached to these."""
     known = {part.id for part in asset.parts}
     below: dict[str, list[str]] = {}
-    for parent, child in [*((p.rides_on, p.id) for p in asset.parts if p.rides_on), *attachments]:
+    for parent, child in [*((p.carried_by, p.id) for p in asset.parts if p.carried_by), *attachments]:
         if child in known and child not in below.setdefault(parent, []):
             below[parent].append(child)
     return {parent: tuple(_descendants(parent, below)) for parent in below}
@@ -175,7 +175,7 @@ def _closed_end(joint: AnnotatedJoint, asset: Asset, lower: float, upper: float)
     moved = Joint("", joint.type, "", "", joint.axis, JointLimits(0.0, 0.0))
     corners = asset.part(joint.part).box.corners()
     others = {other.part for other in asset.joints}
-    body = [p.box for p in asset.parts if p.id not in others and p.rides_on is None]
+    body = [p.box for p in asset.parts if p.id not in others and p.carried_by is None]
     whole = Box.around(np.vstack([box.corners() for box in body])) if body else asset.box
     inside = {end: _shared(Box.around(transform_points(moved.motion(end), corners)), whole) for end in (lower, upper)}
     return max((lower, upper), key=lambda end: inside[end])

@@ -76,7 +76,7 @@ def _panel_hints(completion: GraphCompletion) -> tuple[PanelHint, ...]:
 def without_idle(made: StepResult, realized: Realized) -> tuple[StepResult, Realized]:
     """Returns both without what was added to a door or drawer that then got no joint: it would be static."""
     moving = {joint.child for joint in realized.object.joints}
-    idle = {a.part.id for a in made.additions if a.part.rides_on is not None and a.part.rides_on not in moving}
+    idle = {a.part.id for a in made.additions if a.part.carried_by is not None and a.part.carried_by not in moving}
     if not idle:
         return made, realized
     links = tuple(
@@ -93,7 +93,7 @@ def fitted_object(articulated: ArticulatedObject, made: StepResult) -> Articulat
     for addition in made.additions:
         part = addition.part
         visual = Visual(part.id, part.surfaces, VisualRole.ADDED, part.label)
-        riding.setdefault(part.rides_on or articulated.root, []).append(visual)
+        riding.setdefault(part.carried_by or articulated.root, []).append(visual)
     gone = made.changes.removed
     links = tuple(_fitted_link(link, carved, riding.get(link.id, []), gone) for link in articulated.links)
     return replace(articulated, links=links)

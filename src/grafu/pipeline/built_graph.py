@@ -113,7 +113,7 @@ def _stands_for(completion: GraphCompletion, new: Sequence[Part]) -> dict[str, s
     found: dict[str, str] = {}
     for name in completion.added:
         node = graph.node(name)
-        alike = [p for p in new if p.label is node.label and p.rides_on == parents.get(name)]
+        alike = [p for p in new if p.label is node.label and p.carried_by == parents.get(name)]
         free = [p for p in alike if p.id not in found.values()]
         if free:
             found[name] = min(free, key=lambda p: float(np.linalg.norm(p.box.center - node.box.center))).id
@@ -124,11 +124,11 @@ def _edges(old: Sequence[Part], new: Sequence[Part], extent: float, parsing: Par
     """Returns what new parts touch, and where handles are attached."""
     parts = [*old, *new]
     if parsing.contact == "none":
-        return [Attached(p.rides_on, p.id) for p in new if p.rides_on and p.label is PartLabel.HANDLE]
+        return [Attached(p.carried_by, p.id) for p in new if p.carried_by and p.label is PartLabel.HANDLE]
     pairs = [(a, b) for a, b in near_pairs([p.box for p in parts], parsing.box_tolerance * extent) if b >= len(old)]
     if parsing.contact == "mesh":
         pairs = touching_pairs([p.mesh for p in parts], pairs, parsing.mesh_tolerance * extent)
     contacts = [Contact(parts[a].id, parts[b].id) for a, b in pairs]
-    attached = [Attached(p.rides_on, p.id) for p in new if p.rides_on and p.label is PartLabel.HANDLE]
+    attached = [Attached(p.carried_by, p.id) for p in new if p.carried_by and p.label is PartLabel.HANDLE]
     joined = {frozenset(ends_of(edge)) for edge in attached}
     return [*(c for c in contacts if frozenset(ends_of(c)) not in joined), *attached]

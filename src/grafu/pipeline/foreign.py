@@ -40,7 +40,7 @@ def read_robot(path: Path, options: LoadOptions = LoadOptions()) -> ForeignMotio
     reading = read_partnet_mobility(path, options, files) if path.is_dir() else read_urdf(path, options, files)
     stated = reading.annotation or Annotation(reading.parts)
     check_parts(len(stated.parts), path, options.limits)
-    parts = tuple(ForeignPart(p.id, p.mesh, label=p.label, parent=p.rides_on) for p in stated.parts)
+    parts = tuple(ForeignPart(p.id, p.mesh, label=p.label, parent=p.carried_by) for p in stated.parts)
     joints = tuple(_joint(joint) for joint in stated.joints)
     named = [] if path.is_dir() else _JOINT_NAMES.findall(read_bytes(path, options.limits))
     is_particulate = bool(named) and all(_PARTICULATE.fullmatch(name) for name in named)

@@ -87,11 +87,11 @@ def _part(part: Part) -> InspectedPart:
         source=source_record(part.source),
         category=part.label,
         labelled_by=part.labelled_by,
-        rides_on=part.rides_on,
+        rides_on=part.carried_by,
         low=vector(part.box.low),
         high=vector(part.box.high),
         faces=len(part.mesh.faces),
-        closed=part.mesh.is_closed,
+        closed=part.mesh.is_watertight,
     )
 
 

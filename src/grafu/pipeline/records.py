@@ -97,7 +97,7 @@ def _without_handle(asset: Asset, graph: FunctionalGraph, grasps: Mapping[str, G
 
 def handled_parts(asset: Asset, graph: FunctionalGraph) -> frozenset[str]:
     """Returns the ids of the parts that a handle rides on, by the asset's own word or the graph's."""
-    riding = {part.rides_on for part in asset.parts if part.rides_on and part.label is PartLabel.HANDLE}
+    riding = {part.carried_by for part in asset.parts if part.carried_by and part.label is PartLabel.HANDLE}
     return frozenset(riding | {edge.parent for edge in graph.attachments})
 
 

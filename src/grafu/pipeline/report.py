@@ -124,7 +124,7 @@ def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
 def _grasps(result: Functionalized) -> dict[str, Grasp]:
     """Returns how each moving body can be grasped in the end."""
     found: dict[str, Grasp] = {moving: grasp.kind for moving, grasp in result.fittings.grasps.items()}
-    found |= {a.part.rides_on: "handle" for a in result.fittings.additions if a.part.rides_on}
+    found |= {a.part.carried_by: "handle" for a in result.fittings.additions if a.part.carried_by}
     return found | {c.part.id: "recess" for c in result.fittings.changes.carved}
 
 

@@ -203,7 +203,7 @@ class Scene:
     def with_parts(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some more parts; those that ride on a moving body move with it."""
         new = {part.id: part for part in parts}
-        riding = [(part.rides_on, part.id) for part in new.values() if part.rides_on in self.moving_bodies]
+        riding = [(part.carried_by, part.id) for part in new.values() if part.carried_by in self.moving_bodies]
         return replace(self, parts={**self.parts, **new}).with_attached((m, p) for m, p in riding if m is not None)
 
     def with_attached(self, pairs: Iterable[tuple[str, str]]) -> "Scene":

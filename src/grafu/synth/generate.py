@@ -1,4 +1,4 @@
-"""Furniture without end: one specimen for each seed and index, the same for the same two. It writes no files."""
+"""An endless stream of furniture: one specimen for each seed and index, always the same one. It writes no files."""
 
 from dataclasses import replace
 
@@ -54,7 +54,7 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
 
 
 def with_noise(name: str, family: str, tidy: Asset, noise: ModellingNoise, points: int = 512) -> Specimen:
-    """Returns a tidy model as this modelling noise leaves it, with its truth, boards still plain (see `as_exported`).
+    """Returns a tidy model with this modelling noise and ground truth, boards still plain (see `as_exported`).
 
     Raises:
         GraphError: if a door cannot be said in the graph's codes any more.
@@ -119,4 +119,4 @@ def removable_parts(whole: Asset, truth: FunctionalGraph) -> frozenset[str]:
     moving = {joint.part for joint in whole.joints}
     keep = moving | carriers(truth)
     able = (p for p in whole.parts if p.label in RESTORABLE and p.id not in keep)
-    return frozenset(p.id for p in able if p.rides_on is None or p.label is PartLabel.HANDLE)
+    return frozenset(p.id for p in able if p.carried_by is None or p.label is PartLabel.HANDLE)

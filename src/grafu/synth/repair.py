@@ -68,12 +68,12 @@ def _with_handles(blueprint: Blueprint, made: Asset, rng: np.random.Generator) -
         return made, frozenset()
     spec = with_bare_fronts_held(blueprint.spec, pick(rng, AFTERWARDS), None if held else Hold())
     whole = make_furniture(replace(blueprint, spec=spec))
-    added = [p.id for p in whole.parts if p.label is PartLabel.HANDLE and p.rides_on not in held]
+    added = [p.id for p in whole.parts if p.label is PartLabel.HANDLE and p.carried_by not in held]
     return whole, frozenset(added)
 
 
 def _held(asset: Asset) -> set[str | None]:
-    return {p.rides_on for p in asset.parts if p.label is PartLabel.HANDLE}
+    return {p.carried_by for p in asset.parts if p.label is PartLabel.HANDLE}
 
 
 def _with_top(asset: Asset, rng: np.random.Generator) -> tuple[Asset, frozenset[str]]:

@@ -134,7 +134,7 @@ def _with_loss(config: TrainingConfig, name: str, states: str, loss: LossConfig)
 
 
 def _folds(config: TrainingConfig) -> tuple[Experiment, ...]:
-    """Returns the numbers of copies, and copies without end.
+    """Returns the numbers of copies, and an endless stream of copies.
 
     Every graph of a batch is of another model: without copies those of one model would all be the same.
     """

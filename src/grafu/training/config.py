@@ -65,7 +65,7 @@ class ValidationConfig:
 
     models: int = 96
     every: int = 500
-    """Steps between two looks."""
+    """Steps between two validations."""
     batch: int = 16
     """Graphs that are judged at once."""
 

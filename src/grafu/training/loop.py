@@ -1,4 +1,4 @@
-"""The training loop, flat: a batch, a forward and a backward pass, a step; now and then a line, a look, a file.
+"""The training loop, flat: a batch, a forward and a backward pass, a step; now and then a line, a validation, a file.
 
 DIR/config.json            what was asked for
 DIR/last.pt, DIR/best.pt   see `grafu.training.checkpoint`
@@ -88,7 +88,7 @@ def train(
             if keeper is None:
                 yield StepReport(progress.step, progress.best)
             else:
-                yield keeper.look(progress, meter, is_stopping)
+                yield keeper.after_step(progress, meter, is_stopping)
     if keeper is not None:
         keeper.close()
     workers.wait()
@@ -157,7 +157,7 @@ class _Keeper:
         self._book = Logbook(folder, step)
         self._saved = monotonic()
 
-    def look(self, progress: Progress, meter: Meter, is_stopping: bool) -> StepReport:
+    def after_step(self, progress: Progress, meter: Meter, is_stopping: bool) -> StepReport:
         """Does what is due after a step: writes the log, judges, and saves what the run goes on from."""
         step, is_last = progress.step, progress.step == self._config.steps
         means: dict[str, float] = {}

@@ -37,7 +37,7 @@ CopyKind = Literal["natural", "masked", "fold"]
 class CopyMix:
     """How often a copy is the model as it was found, that with all labels hidden, or a corrupted one of its truth.
 
-    `folds` is the number of different corrupted copies of a model (None: without end). Corrupted copies are of
+    `folds` is the number of different corrupted copies of a model (None: an endless stream). Corrupted copies are of
     `corruption`; mirror images are drawn elsewhere, for all copies at once, so its mirror probability must be 0.
 
     Raises:
@@ -219,7 +219,7 @@ class Sampler:
 def stream_samples(
     sampler: Sampler, sampling: SamplerConfig, start: int = 0, jobs: int = 1
 ) -> Generator[SampleBatch, None, None]:
-    """Yields the batches from number `start` on, without end.
+    """Yields the batches from number `start` on, as an endless stream.
 
     The samples are made by `jobs` processes (1: by this one), as in `ordered_map`.
     """

@@ -30,7 +30,7 @@ RESERVED_SEEDS = (VALIDATION_SEED, TEST_SEED)
 
 @runtime_checkable
 class Source(Protocol):
-    """Models without end, by number. It can be sent to other processes."""
+    """An endless stream of models, by number. It can be sent to other processes."""
 
     @property
     def name(self) -> str:

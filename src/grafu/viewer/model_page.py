@@ -44,9 +44,9 @@ def _line(fault: FaultRecord, known: set[str]) -> Html:
     """Returns one fault: the part, its kind, why, and the option to copy."""
     part = part_button(fault.part) if fault.part in known else tag("span", fault.part)
     copy = correction_buttons((fault.option,) if fault.option else ())
-    said = [part, " "] if fault.part else []
+    phrases = [part, " "] if fault.part else []
     kind = tag("span", fault.kind, class_=f"fault {fault.colour}")
-    return tag("li", joined([tag("span", joined([*said, kind, ": ", fault.why]), class_="said"), copy]))
+    return tag("li", joined([tag("span", joined([*phrases, kind, ": ", fault.why]), class_="said"), copy]))
 
 
 _STYLES = ("page.css", "model.css")
@@ -85,14 +85,14 @@ def model_page(
 
 
 def _facts(asset: Asset, report: Report) -> Html:
-    said = (
+    phrases = (
         f"{report.input.parts} parts",
         size_words(asset.box.size.tolist()),
         f"read as {report.input.kind}",
         f"motions by {report.motion.source}",
         unused_joints(report),
     )
-    return tag("p", joined(tag("span", fact) for fact in said if fact), class_="facts")
+    return tag("p", joined(tag("span", fact) for fact in phrases if fact), class_="facts")
 
 
 def _stage(articulated: ArticulatedObject) -> Html:
@@ -103,8 +103,8 @@ def _stage(articulated: ArticulatedObject) -> Html:
     view = tag("div", canvas, lines_over, label, class_="view")
     noscript = tag("noscript", tag("p", "The 3D view needs JavaScript; the pictures below do not.", class_="note"))
     note = tag("p", id="view-note", class_="note", role="status")
-    said = tag("p", _HINT, id="chosen", data_empty=_HINT, aria_live="polite")
-    return tag("section", tag("div", view, said, note, noscript), _panel(articulated), id="stage", aria_label="3D view")
+    hint = tag("p", _HINT, id="chosen", data_empty=_HINT, aria_live="polite")
+    return tag("section", tag("div", view, hint, note, noscript), _panel(articulated), id="stage", aria_label="3D view")
 
 
 def _panel(articulated: ArticulatedObject) -> Html:

@@ -141,8 +141,8 @@ def _small(picture: bytes, size: tuple[int, int]) -> bytes:
 
 def stills_row(stills: Stills, name: str) -> Html:
     """Returns the pictures side by side, with captions."""
-    told = (("As it came", stills.before), ("Closed", stills.closed), ("Open", stills.opened))
-    shown = [(caption, data) for caption, data in told if data]
+    phrases = (("As it came", stills.before), ("Closed", stills.closed), ("Open", stills.opened))
+    shown = [(caption, data) for caption, data in phrases if data]
     return tag("div", joined(_figure(caption, data, name) for caption, data in shown), class_="stills")
 
 

@@ -62,7 +62,7 @@ def joints_table(
 
 def added_table(report: Report) -> Html:
     """Returns what was added, counted as at the top of the page, then one row per joint's hardware and added part."""
-    if not (said := added(report)):
+    if not (phrases := added(report)):
         return tag("p", "Nothing was added.", class_="none")
     rows = [
         (part_button(j.part), _hardware(j), f"carries {j.part} on {j.mount}", f"{j.count} × {j.template}", j.part)
@@ -71,7 +71,7 @@ def added_table(report: Report) -> Html:
     ]
     rows += [(part_button(a.part), a.category, a.why, a.style, a.link) for a in report.added]
     columns = ("part", "category", "why", "style", "moves with")
-    return joined([tag("p", f"{listed(said)}.", class_="lead"), plain_rows(columns, rows, "Added parts")])
+    return joined([tag("p", f"{listed(phrases)}.", class_="lead"), plain_rows(columns, rows, "Added parts")])
 
 
 def _hardware(joint: JointRecord) -> str:
@@ -171,5 +171,5 @@ def lines(texts: Sequence[str]) -> Html:
 
 def timing_words(report: Report) -> str:
     """Returns the seconds of all stages and of each."""
-    told = [f"{name} {seconds:.2f}" for name, seconds in report.timings.items()]
-    return f"{sum(report.timings.values()):.1f} s in {counted(len(told), 'stage')}: {', '.join(told)}."
+    phrases = [f"{name} {seconds:.2f}" for name, seconds in report.timings.items()]
+    return f"{sum(report.timings.values()):.1f} s in {counted(len(phrases), 'stage')}: {', '.join(phrases)}."

@@ -65,8 +65,10 @@ def histogram(title: str, values: Sequence[float], words: Callable[[float], str]
 
 def _bar(x: float, step: float, height: float, title: str) -> Html:
     top, width = _SIZE[1] - max(height, 1.5), max(step - _GAP, 1.0)
-    said = tag("title", title)
-    return tag("rect", said, x=f"{x:.1f}", y=f"{top:.1f}", width=f"{width:.1f}", height=f"{_SIZE[1] - top:.1f}", rx=1.5)
+    shown = tag("title", title)
+    return tag(
+        "rect", shown, x=f"{x:.1f}", y=f"{top:.1f}", width=f"{width:.1f}", height=f"{_SIZE[1] - top:.1f}", rx=1.5
+    )
 
 
 _STYLES = ("page.css", "run.css")

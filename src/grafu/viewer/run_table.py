@@ -198,9 +198,9 @@ def _to_look_at(report: Report, verdict: VerdictRecord) -> str:
     parts: dict[FaultKind, list[str]] = {}
     for line in verdict.lines:
         parts.setdefault(line.kind, []).append(line.part)
-    said = [f"{kind}: {listed(dict.fromkeys(names))}" if any(names) else str(kind) for kind, names in parts.items()]
+    phrases = [f"{kind}: {listed(dict.fromkeys(names))}" if any(names) else str(kind) for kind, names in parts.items()]
     lacking = {lack.kind.value for lack in remaining_deficiencies(report)} - {"handle", "hinge", "rail", "joint"}
-    return "; ".join([*said, *([f"still without {listed(sorted(lacking))}"] if lacking else [])])
+    return "; ".join([*phrases, *([f"still without {listed(sorted(lacking))}"] if lacking else [])])
 
 
 def _figures(entries: Sequence[RunEntry]) -> list[Figure]:

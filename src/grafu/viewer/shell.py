@@ -106,8 +106,8 @@ def is_page_of_ours(data: bytes) -> bool:
 
 def section(title: str, *content: str, lead: str = "", name: str = "") -> Html:
     """Returns a part of the page under its heading; `lead` states in a line what is in it."""
-    said = tag("p", lead, class_="lead") if lead else Html("")
-    return tag("section", tag("h2", title), said, joined(content), id=name or None)
+    lead_text = tag("p", lead, class_="lead") if lead else Html("")
+    return tag("section", tag("h2", title), lead_text, joined(content), id=name or None)
 
 
 @cache

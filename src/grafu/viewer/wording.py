@@ -73,8 +73,8 @@ def moved_words(joint: JointRecord) -> str:
     offset = [y - x for x, y in zip(a.origin, b.origin, strict=True)]
     along = sum(x * y for x, y in zip(offset, b.direction, strict=True))
     distance = sum((x - along * y) ** 2 for x, y in zip(offset, b.direction, strict=True)) ** 0.5
-    said = [f"{100 * distance:.1f} cm"] if motion_kind(joint.type).turns else []
-    return ", ".join([*said, f"{turned:.1f}°"] if turned > 0.05 or not said else said)
+    phrases = [f"{100 * distance:.1f} cm"] if motion_kind(joint.type).turns else []
+    return ", ".join([*phrases, f"{turned:.1f}°"] if turned > 0.05 or not phrases else phrases)
 
 
 def size_words(size: Iterable[float]) -> str:
@@ -85,20 +85,20 @@ def size_words(size: Iterable[float]) -> str:
 def _moves(report: Report) -> str:
     kinds = [motion_kind(joint.type) for joint in report.joints]
     turning, sliding = sum(kind.turns for kind in kinds), sum(kind.slides for kind in kinds)
-    said = [f"{counted(turning, 'part')} on hinges"] if turning else []
-    said += [f"{sliding} on rails" if turning else f"{counted(sliding, 'part')} on rails"] if sliding else []
-    if not said:
+    phrases = [f"{counted(turning, 'part')} on hinges"] if turning else []
+    phrases += [f"{sliding} on rails" if turning else f"{counted(sliding, 'part')} on rails"] if sliding else []
+    if not phrases:
         return "Nothing moves."
-    return f"{listed(said)} {'moves' if turning + sliding == 1 else 'move'}."
+    return f"{listed(phrases)} {'moves' if turning + sliding == 1 else 'move'}."
 
 
 def _lacked(report: Report) -> str:
     kinds = Counter(lack.kind for lack in report.deficiencies)
     mechanisms = {lack.part for lack in report.deficiencies if lack.kind in _MECHANISMS}
     what = "joints and hardware" if kinds[DeficiencyKind.JOINT] else "hardware"
-    said = [f"{what} for {counted(len(mechanisms), 'part')}"] if mechanisms else []
-    said += [_lacked_words(kind, count) for kind, count in kinds.items() if kind not in _MECHANISMS]
-    return f"Missing in the input: {listed(said)}." if said else "Nothing was missing in the input."
+    phrases = [f"{what} for {counted(len(mechanisms), 'part')}"] if mechanisms else []
+    phrases += [_lacked_words(kind, count) for kind, count in kinds.items() if kind not in _MECHANISMS]
+    return f"Missing in the input: {listed(phrases)}." if phrases else "Nothing was missing in the input."
 
 
 def _lacked_words(kind: DeficiencyKind, count: int) -> str:
@@ -106,8 +106,8 @@ def _lacked_words(kind: DeficiencyKind, count: int) -> str:
 
 
 def _added(report: Report) -> str:
-    said = added(report)
-    return f"Added: {listed(said)}." if said else "Nothing was added."
+    phrases = added(report)
+    return f"Added: {listed(phrases)}." if phrases else "Nothing was added."
 
 
 def _fixed(report: Report) -> list[str]:

@@ -29,7 +29,7 @@ CHROME = Material("chrome", (0.9, 0.9, 0.9, 1.0))
 def added(parts: list[Part], *joints: JointRequest, config: TopConfig | None = None) -> Part:
     verdict = missing_top(parts, joints, config or TopConfig())
     assert verdict.addition is not None, verdict.why
-    assert verdict.addition.part.mesh.is_closed
+    assert verdict.addition.part.mesh.is_watertight
     return verdict.addition.part
 
 
@@ -59,7 +59,7 @@ def test_slabs_are_closed_and_keep_to_their_outline(
     if not star.is_valid or star.area < 1e-3:
         return
     mesh = slab_mesh(star, 0.7, 0.7 + thickness, shape, TopConfig().edge)
-    assert mesh.is_closed
+    assert mesh.is_watertight
     assert mesh.box.low[2] == pytest.approx(0.7)
     assert mesh.box.size[2] == pytest.approx(thickness)
     least = 1.0 if shape == "rectangle" else 0.3
@@ -69,9 +69,9 @@ def test_slabs_are_closed_and_keep_to_their_outline(
 def test_slabs_have_holes_and_grooves() -> None:
     plate = box(-0.5, -0.3, 0.5, 0.3).difference(box(-0.2, -0.1, 0.2, 0.1))
     mesh = slab_mesh(plate, 0.0, 0.03, "chamfered", TopConfig().edge)
-    assert mesh.is_closed
+    assert mesh.is_watertight
     grooved = without_block(mesh, box(-0.6, -0.4, 0.6, -0.25), -0.01, 0.005)
-    assert grooved.is_closed
+    assert grooved.is_watertight
     assert volume(mesh) - volume(grooved) == pytest.approx(0.05 * 0.005 * 1.0, rel=1e-3)
 
 
@@ -92,12 +92,12 @@ def test_the_top_stands_on_the_sides_with_its_overhang_and_the_bodys_look() -> N
     parts = [replace(p, surfaces=tuple(Surface(s.mesh, OAK) for s in p.surfaces)) for p in carcass()]
     door = front(H - 0.003)
     knob = board("handle", (0.3, -0.3, 0.5), (0.33, -D / 2 - T, 0.6), PartLabel.HANDLE)
-    knob = replace(knob, surfaces=(Surface(knob.mesh, CHROME),), rides_on="door")
+    knob = replace(knob, surfaces=(Surface(knob.mesh, CHROME),), carried_by="door")
     top = added([*parts, door, knob], swing())
     assert top.box.low == pytest.approx([-W / 2 - 0.01, -D / 2 - T - 0.02, H], abs=1e-5)
     assert top.box.high == pytest.approx([W / 2 + 0.01, D / 2, H + 0.025], abs=1e-5)
     assert top.surfaces[0].material == OAK
-    assert (top.label, top.labelled_by, top.rides_on) == (PartLabel.TOP_PANEL, "added", None)
+    assert (top.label, top.labelled_by, top.carried_by) == (PartLabel.TOP_PANEL, "added", None)
 
 
 def test_the_id_is_free() -> None:

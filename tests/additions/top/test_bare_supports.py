@@ -33,7 +33,7 @@ def plan_of(parts: list[Part], config: TopConfig = FLUSH) -> np.ndarray:
     verdict = missing_top(parts, config=config)
     assert verdict.addition is not None, verdict.why
     top = verdict.addition.part
-    assert top.mesh.is_closed
+    assert top.mesh.is_watertight
     assert missing_top([*parts, top], config=config).covered
     return np.concatenate([top.box.low[:2], top.box.high[:2]])
 

@@ -117,7 +117,7 @@ def test_a_basin_without_a_worktop_gets_one_with_its_cut_out() -> None:
     assert verdict.missing
     assert verdict.addition is not None
     mesh = verdict.addition.part.mesh
-    assert mesh.is_closed
+    assert mesh.is_watertight
     near = np.abs(mesh.vertices[:, :2]) < [0.3, 0.2]
     assert near.all(axis=1).any()  # corners of a cut-out in the middle
     assert mesh.box.size[0] >= W

@@ -1,4 +1,4 @@
-"""Predictions laid over an asset: the frame is found, parts are told by their places, joints come out as stated."""
+"""Predictions laid over an asset: the frame is found, parts are reported by their places, joints come out as stated."""
 
 from dataclasses import replace
 from typing import Any
@@ -46,7 +46,7 @@ def test_joints_come_back_from_any_frame(
     found = attach_motions(CABINET, reversed_joints(foreign) if backwards else foreign)
 
     require_same_joints(found, CABINET, -1.0 if backwards else 1.0)
-    assert {part.id: part.rides_on for part in found.parts} == {part.id: part.rides_on for part in CABINET.parts}
+    assert {part.id: part.carried_by for part in found.parts} == {part.id: part.carried_by for part in CABINET.parts}
 
 
 @pytest.mark.parametrize("scale", [0.0, 1e-120, 1e120, np.inf])
@@ -153,7 +153,7 @@ def test_one_predicted_part_may_be_several_of_the_assets() -> None:
     found = attach_motions(split, foreign)
 
     assert [joint.part for joint in found.joints] == ["large_panel"]
-    assert {part.id: part.rides_on for part in found.parts} == {
+    assert {part.id: part.carried_by for part in found.parts} == {
         "carcass": None,
         "small_panel": "large_panel",
         "large_panel": None,
@@ -174,7 +174,7 @@ def test_a_door_carries_what_moves_with_it_though_it_is_smaller() -> None:
     found = attach_motions(asset, replace(foreign, parts=fixed))
 
     assert [joint.part for joint in found.joints] == ["door"]
-    assert found.part("mirror").rides_on == "door"
+    assert found.part("mirror").carried_by == "door"
 
 
 def test_what_moves_may_carry_what_moves() -> None:
@@ -188,7 +188,7 @@ def test_what_moves_may_carry_what_moves() -> None:
     found = attach_motions(asset, replace(foreign, parts=stacked))
 
     require_same_joints(found, asset)
-    assert found.part("lid").rides_on == "drawer"
+    assert found.part("lid").carried_by == "drawer"
 
 
 def test_a_handle_that_nobody_moves_rides_on_what_it_touches() -> None:
@@ -196,7 +196,7 @@ def test_a_handle_that_nobody_moves_rides_on_what_it_touches() -> None:
     bare = replace(foreign, parts=tuple(p for p in foreign.parts if "handle" not in p.name))
     found = attach_motions(CABINET, bare)
 
-    assert {p.id: p.rides_on for p in found.parts} == {p.id: p.rides_on for p in CABINET.parts}
+    assert {p.id: p.carried_by for p in found.parts} == {p.id: p.carried_by for p in CABINET.parts}
 
 
 def test_parts_without_a_label_are_what_their_joints_make_them() -> None:

@@ -60,7 +60,7 @@ def test_joints_come_back_whatever_up_was_stated(up: str, T: np.ndarray, tmp_pat
 
     require_same_joints(found, CABINET)
     assert any(f"joints in its normalised frame of up_dir {up};" in note for note in found.notes)
-    assert {part.id: part.rides_on for part in found.parts} == {part.id: part.rides_on for part in CABINET.parts}
+    assert {part.id: part.carried_by for part in found.parts} == {part.id: part.carried_by for part in CABINET.parts}
 
 
 @given(st.sampled_from(sorted(UP_ROTATIONS)), st.floats(0.01, 100), st.floats(-9, 9))

@@ -95,7 +95,7 @@ def test_parts_without_labels_get_those_of_the_file(path: Path) -> None:
         "handle_right": PartLabel.HANDLE,
         "handle_drawer": PartLabel.HANDLE,
     }
-    assert {p.id: p.rides_on for p in found.parts} == {p.id: p.rides_on for p in CABINET.parts}
+    assert {p.id: p.carried_by for p in found.parts} == {p.id: p.carried_by for p in CABINET.parts}
 
 
 def test_what_turns_without_end_states_no_limits(path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Every strategy keeps what all must keep, and does what its name says; draws come as often as their weights."""
+"""Every strategy keeps what all must keep, and does what its name states; draws come as often as their weights."""
 
 from collections import Counter
 

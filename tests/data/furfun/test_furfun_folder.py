@@ -153,7 +153,7 @@ def test_a_quarter_turn_is_a_box_with_its_sides_exchanged(tmp_path):
 def test_an_input_that_is_functional_in_part_takes_the_motion_of_the_answer(tmp_path):
     given = unfunctional()
     given["edges"][0] |= {"kind": "hinge"}
-    given["edges"][1] |= {"kind": "hinge"}  # the answer says rail
+    given["edges"][1] |= {"kind": "hinge"}  # the answer states rail
     assert set(pair(put_model(tmp_path, given=given)).input.edges) == {HINGE, Contact("side_panel_0", "drawer_0")}
 
 

@@ -37,7 +37,7 @@ def _run(path: str) -> dict:
     articulated = unpacked(Path(path).read_bytes())
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    own = bpy.data.objects.new("door_1", None)  # somebody else's, of our door's name
+    own = bpy.data.objects.new("door_1", None)  # another's, of our door's name
     scene.collection.objects.link(own)
     before = _counts()
     first, second = build_object(articulated, scene), build_object(articulated, scene)

@@ -40,7 +40,9 @@ def test_every_face_of_each_look_is_there_once_in_its_place(faces, others):
 
     number = {tuple(point): k for k, point in enumerate(points.tolist())}
     corners = [[number[tuple(point)] for point in face] for face in arrays.vertices[arrays.faces].tolist()]
-    found = [(frozenset(face), arrays.looks[k].material) for face, k in zip(corners, arrays.look, strict=True)]
+    found = [
+        (frozenset(face), arrays.materials[k].material) for face, k in zip(corners, arrays.material_index, strict=True)
+    ]
     assert len(found) == len(expected)
     assert set(found) == expected
     assert len({tuple(sorted(face)) for face in arrays.faces.tolist()}) == len(found)  # no two share all corners
@@ -59,7 +61,7 @@ def test_of_faces_back_to_back_the_outer_ones_stay(inside_first):
     assert len(kept.faces) == 12
     assert np.all(np.einsum("nd,nd->n", kept.face_normals, kept.triangles.mean(axis=1) - kept.box.center) > 0)
     assert np.allclose(arrays.normals, np.repeat(kept.face_normals, 3, axis=0))
-    assert [look.material for look in arrays.doubled] == [PAINT]
+    assert [shown.material for shown in arrays.doubled] == [PAINT]
 
 
 def test_nothing_is_doubled_where_nothing_lies_back_to_back():
@@ -77,11 +79,11 @@ def test_surfaces_are_joined_and_each_look_is_named_once():
 
     arrays = mesh_arrays(Visual("v", surfaces), vec3(0.0, 0.0, 0.0))
 
-    assert [(look.material, look.textured, look.colored) for look in arrays.looks] == [
+    assert [(shown.material, shown.textured, shown.colored) for shown in arrays.materials] == [
         (PAINT, False, False),
         (GLASS, False, True),  # it has no image
     ]
-    assert arrays.look.tolist() == [0] * 12 + [1] * 12 + [0] * 12
+    assert arrays.material_index.tolist() == [0] * 12 + [1] * 12 + [0] * 12
     assert np.allclose(arrays.uv, np.repeat([[0.0], [0.5], [0.0]], 36, axis=0))
     assert np.allclose(arrays.colors, np.repeat([[1.0], [0.2], [1.0]], 8, axis=0))
 

@@ -33,7 +33,7 @@ def assert_links(poses, articulated: ArticulatedObject, values) -> None:
 
 
 def test_two_of_a_kind_stand_beside_what_was_there(beside):
-    assert beside["names"] == ["door_1.001", "door_1.002"]  # the plain name was somebody else's
+    assert beside["names"] == ["door_1.001", "door_1.002"]  # the plain name was another's
     assert beside["ids"] == ["door_1", "door_1"]
 
 

@@ -70,7 +70,7 @@ def turned(quaternion) -> np.ndarray:
 
 
 def motion(joint: UsdPhysics.Joint, value: float) -> np.ndarray:
-    """Returns the motion between a joint's two frames, by what the scene says alone."""
+    """Returns the motion between a joint's two frames, by what the scene states alone."""
     if joint.GetPrim().IsA(UsdPhysics.RevoluteJoint):
         axis = np.eye(3)["XYZ".index(UsdPhysics.RevoluteJoint(joint).GetAxisAttr().Get())]
         return from_rotation(rotation_matrix(axis, value))

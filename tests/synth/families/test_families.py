@@ -32,8 +32,8 @@ def test_a_family_makes_consistent_furniture(family):
         movable = sorted(p.id for p in asset.parts if p.label.is_movable)
         assert movable
         assert sorted(j.part for j in asset.joints) == movable
-        assert all((p.rides_on is None) or p.rides_on in movable for p in asset.parts)
-        assert all(p.rides_on for p in asset.parts if p.label is PartLabel.HANDLE)
+        assert all((p.carried_by is None) or p.carried_by in movable for p in asset.parts)
+        assert all(p.carried_by for p in asset.parts if p.label is PartLabel.HANDLE)
         assert 3 <= len(asset.parts) <= 140
 
 
@@ -49,7 +49,7 @@ def doors_before(asset, joint):
     if joint.type is JointType.REVOLUTE:
         return frozenset()
     doors = {p.id for p in asset.parts if p.label is PartLabel.DOOR}
-    return frozenset(p.id for p in asset.parts if p.id in doors or p.rides_on in doors)
+    return frozenset(p.id for p in asset.parts if p.id in doors or p.carried_by in doors)
 
 
 @pytest.mark.parametrize("family", sorted(FAMILIES))

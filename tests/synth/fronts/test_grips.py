@@ -30,7 +30,7 @@ def mesh_of(shape: LeafShape):
 @pytest.mark.parametrize("rect", [FRONT, Rect(0.0, 0.1, 0.0, 0.06)], ids=["ordinary", "tiny"])
 def test_gripped_leaves_are_closed_solids_in_their_outline(grip, side, along, rect):
     mesh = mesh_of(leaf(grip, side, along, rect))
-    assert mesh.is_closed
+    assert mesh.is_watertight
     assert 0 < mesh.to_trimesh().volume < 1.3 * rect.width * rect.height * 0.02
     assert np.allclose(mesh.box.low[[0, 2]], (rect.x0, rect.z0))
     assert np.allclose(mesh.box.high, (rect.x1, 0.02, rect.z1))

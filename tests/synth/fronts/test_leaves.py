@@ -30,7 +30,7 @@ def meshes(shape: LeafShape):
 @pytest.mark.parametrize("rect", [TALL, WIDE, SMALL], ids=["tall", "wide", "small"])
 def test_leaves_are_closed_solids_that_fill_their_outline(style, rect):
     for mesh in meshes(leaf(style, rect)):
-        assert mesh.is_closed
+        assert mesh.is_watertight
         assert mesh.to_trimesh().volume > 0
     box = merge_meshes(meshes(leaf(style, rect))).box
     assert box.low[[0, 2]] == pytest.approx([rect.x0, rect.z0])

@@ -62,7 +62,7 @@ def test_what_is_ajar_has_that_much_less_to_go(part: str) -> None:
 
 
 def test_handles_go_with_what_is_ajar() -> None:
-    grip = next(p.id for p in TIDY.parts if p.rides_on == "drawer")
+    grip = next(p.id for p in TIDY.parts if p.carried_by == "drawer")
 
     shift = ajar(TIDY, "drawer", 0.5).part(grip).box.center - TIDY.part(grip).box.center
 

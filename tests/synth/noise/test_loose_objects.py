@@ -57,7 +57,7 @@ def test_runners_lie_beside_their_drawers_within_the_gap() -> None:
         assert len(runners) >= 4
         assert {p.label for p in runners} == {PartLabel.MISC}
         assert all(p.box.size[0] < 0.0125 for p in runners)  # the gap that slides need
-        assert {p.rides_on for p in runners} <= {None, "drawer_1", "drawer_2"}
+        assert {p.carried_by for p in runners} <= {None, "drawer_1", "drawer_2"}
 
 
 def test_an_unknown_kind_is_a_mistake() -> None:

@@ -26,7 +26,7 @@ def test_sheets_keep_one_side_of_each_board_the_outer_one():
 def test_open_backs_leave_no_face_that_looks_back():
     asset = edits.with_open_backs(TIDY)
     assert all(p.mesh.face_normals[:, 1].max() < 0.5 for p in asset.parts)
-    assert not asset.part("door").mesh.is_closed
+    assert not asset.part("door").mesh.is_watertight
 
 
 @pytest.mark.parametrize("edit", SAME_BOX)
@@ -114,7 +114,7 @@ def test_at_least_one_board_is_needed():
         edits.with_many_shells(TIDY, 0)
 
 
-# A back let in between two sides, which ends flush with them: its outer face touches them, its inner one, too
+# A back inset between two sides, which ends flush with them: its outer face touches them, its inner one, too
 SIDES = (
     board("left", PartLabel.SIDE_PANEL, (-0.5, -0.3, 0.0), (-0.48, 0.3, 0.8)),
     board("right", PartLabel.SIDE_PANEL, (0.48, -0.3, 0.0), (0.5, 0.3, 0.8)),

@@ -91,7 +91,7 @@ def test_a_drawer_s_boards_ride_on_its_front() -> None:
 
     assert apart.part("drawer").box.size[1] == pytest.approx(0.018)
     assert [len(p.surfaces) for p in boards] == [1, 2]  # the back stays with a flank: it does not reach the front
-    assert {p.rides_on for p in boards} == {"drawer"}
+    assert {p.carried_by for p in boards} == {"drawer"}
     assert np.allclose(apart.box.size, ASSET.box.size)
 
 

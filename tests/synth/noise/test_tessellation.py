@@ -27,7 +27,7 @@ def test_rounded_boards_are_closed_and_fill_their_box_but_for_their_edges(steps:
     mesh = TriangleMesh(vertices[0], triangles)
 
     assert len(triangles) == faces
-    assert mesh.is_closed
+    assert mesh.is_watertight
     assert np.allclose([mesh.box.low, mesh.box.high], [box.low, box.high])
     assert 0.98 * TriangleMesh.box_mesh(box).area < mesh.area < TriangleMesh.box_mesh(box).area
     assert mesh.to_trimesh().volume == pytest.approx(box.volume, rel=0.01)
@@ -38,7 +38,7 @@ def test_finer_boards_stand_where_the_plain_ones_did(density: Density) -> None:
     fine = tessellated(TIDY, density)
 
     assert len(fine.part(BOARD).mesh.faces) > 40
-    assert all(s.mesh.is_closed for s in fine.part(BOARD).surfaces)
+    assert all(s.mesh.is_watertight for s in fine.part(BOARD).surfaces)
     for before, after in zip(TIDY.parts, fine.parts, strict=True):
         assert np.allclose([before.box.low, before.box.high], [after.box.low, after.box.high])
         assert len(after.mesh.faces) >= len(before.mesh.faces)

@@ -26,14 +26,14 @@ VOLUME = SLAB.volume
     ],
 )
 def test_solids_are_closed_with_their_volume(mesh, volume):
-    assert mesh.is_closed
+    assert mesh.is_watertight
     assert mesh.to_trimesh().volume == pytest.approx(volume, rel=1e-3)
 
 
 @pytest.mark.parametrize("make", [shapes.chamfered_board, shapes.rounded_board])
 def test_softened_edges_take_little_away_and_keep_the_box(make):
     mesh = make(SLAB, 0.005)
-    assert mesh.is_closed
+    assert mesh.is_watertight
     assert 0.97 * VOLUME < mesh.to_trimesh().volume < VOLUME
     assert np.allclose(mesh.box.size, SLAB.size)
 
@@ -48,7 +48,7 @@ def test_a_frame_surrounds_its_opening():
 def test_turned_solids_look_outwards_in_every_direction(direction, radius):
     end = np.array(direction, dtype=float)
     mesh = shapes.turned(np.zeros(3), end, ((0.0, radius), (0.5, 2 * radius), (1.0, radius)))
-    assert mesh.is_closed
+    assert mesh.is_watertight
     assert mesh.to_trimesh().volume > 0
 
 

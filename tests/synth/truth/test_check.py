@@ -109,7 +109,7 @@ def test_a_swapped_label_is_found(part, label):
 
 
 def test_a_handle_on_nothing_is_found():
-    parts = tuple(replace(p, rides_on=None) if p.id == "handle_1" else p for p in MIXED.parts)
+    parts = tuple(replace(p, carried_by=None) if p.id == "handle_1" else p for p in MIXED.parts)
     assert kinds(faults_of(replace(MIXED, parts=parts))) == {("attached part", "handle_1")}
 
 
@@ -120,7 +120,7 @@ def test_a_handle_in_the_air_is_found():
 
 
 def test_a_handle_on_still_furniture_is_found():
-    parts = tuple(replace(p, rides_on="back_panel") if p.id == "handle_1" else p for p in MIXED.parts)
+    parts = tuple(replace(p, carried_by="back_panel") if p.id == "handle_1" else p for p in MIXED.parts)
     assert kinds(faults_of(replace(MIXED, parts=parts))) == {("attached part", "handle_1")}
 
 

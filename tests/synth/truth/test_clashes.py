@@ -84,7 +84,7 @@ def test_what_is_behind_doors_meets_them_closed_and_not_open():
 
 
 def test_what_rides_counts_as_what_it_rides_on():
-    knob = replace(part("knob", block([0.1, -0.03, 0.1], [0.12, 0, 0.12]), PartLabel.HANDLE), rides_on="drawer")
+    knob = replace(part("knob", block([0.1, -0.03, 0.1], [0.12, 0, 0.12]), PartLabel.HANDLE), carried_by="drawer")
     bar = part("bar", block([0.11, -0.5, 0.11], [0.13, -0.41, 0.13]))
     assert clashes_of(before(knob, bar)).hits("drawer") == {"bar"}
     assert clashes_of(before(bar)).hits("drawer") == frozenset()
@@ -107,7 +107,7 @@ def test_each_joint_becomes_a_link_and_the_rest_is_the_root(name):
     assert [j.child for j in made.joints] == [j.part for j in asset.joints]
     assert sorted(v.name for link in made.links for v in link.visuals) == sorted(p.id for p in asset.parts)
     for part in asset.parts:
-        carrier = part.rides_on or part.id
+        carrier = part.carried_by or part.id
         link = carrier if carrier in made.joint_of else made.root
         assert part.id in [v.name for v in made.link(link).visuals]
 

@@ -86,12 +86,12 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
                 return made
             met[made] += 1
         reasons.append((kind, met or Counter({Reason.TOO_SMALL: 1})))
-    told = "; ".join(f"{kind}: {', '.join(reason for reason, _ in met.most_common())}" for kind, met in reasons)
-    return _no_grip(moving_id, reasons[-1][1].most_common(1)[0][0], told)
+    details = "; ".join(f"{kind}: {', '.join(reason for reason, _ in met.most_common())}" for kind, met in reasons)
+    return _no_grip(moving_id, reasons[-1][1].most_common(1)[0][0], details)
 
 
-def _no_grip(moving_id: str, reason: Reason, told: str = "") -> Refusal:
-    return Refusal(moving_id, reason, f"no grip: {reason} ({told})", Asked.GRASP)
+def _no_grip(moving_id: str, reason: Reason, details: str = "") -> Refusal:
+    return Refusal(moving_id, reason, f"no grip: {reason} ({details})", Asked.GRASP)
 
 
 def _carved(site: Site, cut: Cut, config: GripConfig) -> Carved | Reason:

@@ -87,7 +87,7 @@ class HandleObstacles:
     def _runs_into(self, other: str, moving_id: str, body: SweptBody, handle: TriangleMesh, poses: int) -> bool:
         """Whether a moving body runs into a handle at rest, or wide open where that moving body waits for the handle's.
 
-        Seen from the moving body, the handle takes the way backwards.
+        Seen from the moving body, the handle moves along the path in reverse.
         """
         motion, upper = self._motion_of(other)
         start = np.eye(4)

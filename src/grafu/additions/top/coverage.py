@@ -1,7 +1,7 @@
 """The coverage test: everything against what is near the top, both seen from above (paper, Adding Countertops).
 
 "Near the top" is no fixed band under the greatest height, since backs and mirrors stand higher than tops and sides a
-little higher than let-in ones. A cell is open if one looks past its rim into the depth: the rim is as high as the walls
+little higher than inset ones. A cell is open if one looks past its rim into the depth: the rim is as high as the walls
 that enclose the cell, on all four sides, or on three where the front is open. What lies between supports of one height
 that nothing else joins is open too. Nothing here knows of labels.
 """
@@ -59,7 +59,7 @@ class Coverage(ArrayValue):
 def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask | None = None) -> Coverage:
     """Returns both maps at the rim with the largest opening, or of the whole footprint where nothing is open.
 
-    `spared` are cells that count in neither map: a basin is neither a top nor the lack of one.
+    `spared` are cells that count in neither map: a basin is neither a top nor a missing one.
     """
     depth = metre * np.array([config.recess, config.gallery])
     openings = config.openings
@@ -77,8 +77,8 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
         return Coverage(views.grid, views.region & free, views.region & free)
     level, hole = best
     near = (views.wall >= level - depth[0]) & (views.wall <= level + openings.above_rim * metre) & views.region
-    unit = _touching(near | hole, hole) & free
-    return Coverage(views.grid, unit, unit & ~hole, level)
+    area = _touching(near | hole, hole) & free
+    return Coverage(views.grid, area, area & ~hole, level)
 
 
 def _height(views: Views) -> float:

@@ -76,7 +76,7 @@ def roles_of(parts: Sequence[Part], joints: Iterable[JointRequest], upright: flo
     asked = {joint.moving: joint for joint in joints if joint.moving in known}
     carried = {part for joint in asked.values() for part in joint.attached} - asked.keys()
     moving_bodies = [_closed(joint, known, upright) for joint in asked.values()]
-    rest = [p for p in known.values() if p.id not in asked and p.id not in carried and p.rides_on is None]
+    rest = [p for p in known.values() if p.id not in asked and p.id not in carried and p.carried_by is None]
     moving_bodies += [_labelled(p) for p in rest if p.label.is_movable]
     still = tuple(p for p in rest if not p.label.is_movable and p.label is not PartLabel.HANDLE)
     turning = tuple(m for m in moving_bodies if not m.slides)

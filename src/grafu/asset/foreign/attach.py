@@ -32,7 +32,7 @@ def attach_motions(asset: Asset, foreign: ForeignMotions) -> Asset:
         for joint in foreign.joints
         if (main := mains[joint.part]) is not None
     }
-    parts = [replace(part, rides_on=attached.get(part.id)) for part in _labelled(bare, foreign, match, joints)]
+    parts = [replace(part, carried_by=attached.get(part.id)) for part in _labelled(bare, foreign, match, joints)]
     notes = (*asset.notes, *foreign.notes, *_notes(foreign, match, mains))
     return replace(bare, parts=with_attached(tuple(parts)), joints=tuple(joints.values()), notes=notes)
 

@@ -105,7 +105,7 @@ VARIANTS = ("natural", "masked", "lacking")
 
 MASKED = "natural, labels masked"  # named beside the strategies of corruption
 
-LACKING = CorruptionConfig(
+INCOMPLETE = CorruptionConfig(
     weights=tuple(
         (name, 0.0)
         for name in (
@@ -128,7 +128,7 @@ def asked_pairs(natural: GraphPair, number: int) -> Mapping[str, GraphPair]:
     return {
         "natural": natural,
         "masked": masked_pair(natural),
-        "lacking": fold(natural, number, config=LACKING),
+        "lacking": fold(natural, number, config=INCOMPLETE),
     }
 
 

@@ -1,11 +1,11 @@
-"""Materials in Blender: a Principled BSDF per look, images packed byte for byte."""
+"""Materials in Blender: a Principled BSDF per material, images packed byte for byte."""
 
 from typing import Any, final
 
 import bpy
 
 from grafu.export.blend.layout import COLOR_LAYER, UV_LAYER, fitted_name
-from grafu.export.blend.mesh_arrays import Look
+from grafu.export.blend.mesh_arrays import BlendMaterial
 from grafu.export.names import NameBook
 from grafu.export.output_names import file_safe
 from grafu.geometry.appearance import Material, Texture
@@ -16,21 +16,21 @@ _OCCLUSION_GROUP = "glTF Material Output"  # Blender has no occlusion; its glTF 
 
 @final
 class BlenderMaterials:
-    """Makes every distinct look and every distinct image once; looks in `doubled` show from both sides."""
+    """Makes every distinct material and every distinct image once; materials in `doubled` show from both sides."""
 
-    def __init__(self, doubled: frozenset[Look] = frozenset()) -> None:
+    def __init__(self, doubled: frozenset[BlendMaterial] = frozenset()) -> None:
         self._doubled = doubled
-        self._materials: dict[Look, Any] = {}
+        self._materials: dict[BlendMaterial, Any] = {}
         self._images: dict[tuple[bytes, bool], Any] = {}
         self._files = NameBook()
 
-    def material_of(self, look: Look) -> Any:
-        """Returns Blender's material for a look."""
-        if look not in self._materials:
-            self._materials[look] = _MaterialNodes(look, self).material
-            if look in self._doubled:
-                self._materials[look].use_backface_culling = False
-        return self._materials[look]
+    def material_of(self, shown: BlendMaterial) -> Any:
+        """Returns Blender's material for a material."""
+        if shown not in self._materials:
+            self._materials[shown] = _MaterialNodes(shown, self).material
+            if shown in self._doubled:
+                self._materials[shown].use_backface_culling = False
+        return self._materials[shown]
 
     def image_of(self, texture: Texture, is_color: bool) -> Any:
         """Returns Blender's image of a texture, packed; colours are sRGB, everything else is plain numbers."""
@@ -54,10 +54,10 @@ class BlenderMaterials:
 class _MaterialNodes:
     """Builds the nodes of one material as Blender's own glTF reader would, so that its writer understands them."""
 
-    def __init__(self, look: Look, library: BlenderMaterials) -> None:
-        self._look = look
+    def __init__(self, shown: BlendMaterial, library: BlenderMaterials) -> None:
+        self._shown = shown
         self._library = library
-        source = look.material
+        source = shown.material
         self.material = bpy.data.materials.new(fitted_name(source.name or "material", 4))
         self.material.use_nodes = True
         self._tree = self.material.node_tree
@@ -97,7 +97,7 @@ class _MaterialNodes:
         sockets = []
         if self._color_image is not None:
             sockets.append(self._color_image.outputs["Color"])
-        if self._look.colored:
+        if self._shown.colored:
             node = self._node("ShaderNodeVertexColor", -600)
             node.layer_name = COLOR_LAYER
             sockets.append(node.outputs["Color"])
@@ -162,7 +162,7 @@ class _MaterialNodes:
             material.blend_method = {"OPAQUE": "OPAQUE", "MASK": "CLIP", "BLEND": "BLEND"}[source.alpha_mode]
 
     def _image(self, texture: Texture | None, is_color: bool) -> Any:
-        if texture is None or not self._look.textured:
+        if texture is None or not self._shown.textured:
             return None
         node = self._node("ShaderNodeTexImage", -900)
         node.image = self._library.image_of(texture, is_color)

@@ -1,8 +1,8 @@
 """One visual as the arrays that Blender wants of a mesh. It does not know Blender, and no links.
 
 Many models hold every face twice, back to back, so that it shows from both sides. Cycles renders such faces black, each
-in the other's shadow: here they are one face, of a look that shows from both sides. Other faces with the same corners
-get corners of their own, for Blender refuses two faces that share all.
+in the other's shadow: here they are one face, of a material that shows from both sides. Other faces with the same
+corners get corners of their own, for Blender refuses two faces that share all.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from grafu.geometry.components import welded
 
 @final
 @dataclass(frozen=True, slots=True)
-class Look:
+class BlendMaterial:
     """A material, whether its images can be seen (there are texture coordinates), and whether vertices have colours."""
 
     material: Material
@@ -34,19 +34,19 @@ class Look:
 class MeshArrays(ArrayValue):
     """A mesh in metres, parallel to the object frame, around its link's origin.
 
-    `look` indexes `looks` for each face. `normals` are unit vectors, one per corner of each face, in order; so are `uv`
-    (origin bottom left; None where no surface has any). `colors` are linear RGBA in 0..1 per vertex, or None. Looks in
-    `doubled` are of faces that the visual holds back to back: they must show from both sides.
+    `material_index` indexes `materials` for each face. `normals` are unit vectors, one per corner of each face, in
+    order; so are `uv` (origin bottom left; None where no surface has any). `colors` are linear RGBA in 0..1 per vertex,
+    or None. Materials in `doubled` are of faces that the visual holds back to back: they must show from both sides.
     """
 
     vertices: Float[np.ndarray, "vertex 3"]
     faces: Int[np.ndarray, "face 3"]
-    look: Int[np.ndarray, " face"]
-    looks: tuple[Look, ...]
+    material_index: Int[np.ndarray, " face"]
+    materials: tuple[BlendMaterial, ...]
     normals: Float[np.ndarray, "corner 3"]
     uv: Float[np.ndarray, "corner 2"] | None = None
     colors: Float[np.ndarray, "vertex 4"] | None = None
-    doubled: frozenset[Look] = frozenset()
+    doubled: frozenset[BlendMaterial] = frozenset()
 
     def __post_init__(self) -> None:
         freeze_arrays(self)
@@ -55,8 +55,8 @@ class MeshArrays(ArrayValue):
 def mesh_arrays(visual: Visual, origin: Vec3) -> MeshArrays:
     """Returns the mesh of a visual; `origin` (object frame, metres) becomes zero. It may have no faces."""
     surfaces = [surface for surface in visual.surfaces if not surface.is_empty]
-    looks = tuple(dict.fromkeys(_look(surface) for surface in surfaces))
-    pieces = [_piece(surface, looks.index(_look(surface))) for surface in surfaces]
+    materials = tuple(dict.fromkeys(_material_of(surface) for surface in surfaces))
+    pieces = [_piece(surface, materials.index(_material_of(surface))) for surface in surfaces]
     whole = _joined(pieces)
     kept, doubled = _single(whole)
     own, faces = _apart(whole.faces[kept])
@@ -64,28 +64,28 @@ def mesh_arrays(visual: Visual, origin: Vec3) -> MeshArrays:
     return MeshArrays(
         whole.vertices[own] - origin,
         faces,
-        whole.look[kept],
-        looks,
+        whole.material_index[kept],
+        materials,
         whole.normals[kept].reshape(-1, 3),
         whole.uv[whole.faces[kept]].reshape(-1, 2) if mapped else None,
         whole.colors[own] if colored else None,
-        frozenset(looks[k] for k in doubled),
+        frozenset(materials[k] for k in doubled),
     )
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Piece:
-    """Faces with what belongs to each vertex, to each face (`look`) and to its corners (`normals`: face, corner, 3)."""
+    """What belongs to each vertex, each face (`material_index`) and its corners (`normals`: face, corner, 3)."""
 
     vertices: np.ndarray
     faces: np.ndarray
-    look: np.ndarray
+    material_index: np.ndarray
     normals: np.ndarray
     uv: np.ndarray
     colors: np.ndarray
 
 
-def _look(surface: Surface) -> Look:
+def _material_of(surface: Surface) -> BlendMaterial:
     material = surface.material
     images = (
         material.base_color_texture,
@@ -94,17 +94,17 @@ def _look(surface: Surface) -> Look:
         material.occlusion_texture,
         material.emissive_texture,
     )
-    return Look(material, surface.uv is not None and any(images), surface.colors is not None)
+    return BlendMaterial(material, surface.uv is not None and any(images), surface.colors is not None)
 
 
-def _piece(surface: Surface, look: int) -> _Piece:
+def _piece(surface: Surface, index: int) -> _Piece:
     mesh, shading = surface.mesh, corner_normals(surface, CREASE_ANGLE)
     faces, count = np.asarray(mesh.faces), len(mesh.vertices)
     whole = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
     return _Piece(
         mesh.vertices,
         faces[whole],
-        np.full(int(whole.sum()), look, dtype=np.int64),
+        np.full(int(whole.sum()), index, dtype=np.int64),
         shading.normals[np.asarray(shading.corners)[whole]],
         np.zeros((count, 2)) if surface.uv is None else _tame(surface.uv),
         np.ones((count, 4)) if surface.colors is None else surface.colors / 255.0,
@@ -116,7 +116,7 @@ def _joined(pieces: list[_Piece]) -> _Piece:
     return _Piece(
         np.concatenate([np.zeros((0, 3)), *(piece.vertices for piece in pieces)]),
         np.concatenate([_NO_FACES, *(p.faces + start for p, start in zip(pieces, starts[:-1], strict=True))]),
-        np.concatenate([_NO_FACES[:, 0], *(piece.look for piece in pieces)]),
+        np.concatenate([_NO_FACES[:, 0], *(piece.material_index for piece in pieces)]),
         np.concatenate([np.zeros((0, 3, 3)), *(piece.normals for piece in pieces)]),
         np.concatenate([np.zeros((0, 2)), *(piece.uv for piece in pieces)]),
         np.concatenate([np.zeros((0, 4)), *(piece.colors for piece in pieces)]),
@@ -127,14 +127,14 @@ _NO_FACES = np.zeros((0, 3), dtype=np.int64)
 
 
 def _single(whole: _Piece) -> tuple[np.ndarray, set[int]]:
-    """Returns the faces to keep, in order, one of each place and look; and the looks of faces that lay back to back.
+    """Returns the faces to keep, in order, one of each place and material; and the materials of pairs back to back.
 
-    Of two back to back the one is kept whose like look outward on the whole.
+    Of two back to back the one is kept whose like face outward on the whole.
     """
     if not len(whole.faces):
         return np.zeros(0, dtype=np.int64), set()
     place = np.sort(welded(whole.vertices)[whole.faces], axis=1)
-    _, index = np.unique(np.c_[place, whole.look], axis=0, return_inverse=True)
+    _, index = np.unique(np.c_[place, whole.material_index], axis=0, return_inverse=True)
     index = index.reshape(-1)
     first, last = np.full(index.max() + 1, len(index)), np.zeros(index.max() + 1, dtype=np.int64)
     np.minimum.at(first, index, np.arange(len(index)))
@@ -144,7 +144,7 @@ def _single(whole: _Piece) -> tuple[np.ndarray, set[int]]:
     opposite = np.einsum("fd,fd->f", cross[first], cross[last]) < 0
     outward = np.einsum("fd,fd->f", corners.mean(axis=1) - corners.mean(axis=(0, 1)), cross)
     turn = opposite & (outward[first][opposite].sum() < 0)
-    return np.sort(np.where(turn, last, first)), set(whole.look[first[opposite]].tolist())
+    return np.sort(np.where(turn, last, first)), set(whole.material_index[first[opposite]].tolist())
 
 
 def _apart(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -31,7 +31,7 @@ from grafu.export.blend.layout import (
     fitted_name,
 )
 from grafu.export.blend.materials import BlenderMaterials
-from grafu.export.blend.mesh_arrays import Look, MeshArrays, mesh_arrays
+from grafu.export.blend.mesh_arrays import BlendMaterial, MeshArrays, mesh_arrays
 
 _ARROW_RATIO = 0.15  # of the largest side: seen beside a door, and no longer than it
 _MARK_RATIO = 0.03
@@ -150,7 +150,7 @@ class _Builder:
             for link in articulated.links
             for visual in link.visuals
         }
-        doubled = frozenset[Look]().union(*(arrays.doubled for arrays in self._arrays.values()))
+        doubled = frozenset[BlendMaterial]().union(*(arrays.doubled for arrays in self._arrays.values()))
         self._materials = BlenderMaterials(doubled)
         meshes = [link.mesh for link in articulated.links if len(link.mesh.faces)]
         self._side = max((float(np.max(mesh.box.size)) for mesh in meshes), default=1.0)
@@ -196,8 +196,8 @@ class _Builder:
 
     def _mesh(self, visual: Visual, arrays: MeshArrays) -> Any:
         mesh = bpy.data.meshes.new(fitted_name(visual.name, 4))
-        for look in arrays.looks:
-            mesh.materials.append(self._materials.material_of(look))
+        for shown in arrays.materials:
+            mesh.materials.append(self._materials.material_of(shown))
         if len(arrays.faces):
             _fill(mesh, arrays)
         return mesh
@@ -229,7 +229,7 @@ def _fill(mesh: Any, arrays: MeshArrays) -> None:
     mesh.polygons.foreach_set("loop_start", np.arange(0, len(corners), 3, dtype=np.int32))
     if bpy.app.version < (4, 1):  # later it follows from where the faces start
         mesh.polygons.foreach_set("loop_total", np.full(len(arrays.faces), 3, dtype=np.int32))
-    mesh.polygons.foreach_set("material_index", arrays.look.astype(np.int32))
+    mesh.polygons.foreach_set("material_index", arrays.material_index.astype(np.int32))
     mesh.polygons.foreach_set("use_smooth", np.ones(len(arrays.faces), dtype=bool))
     if arrays.uv is not None:
         mesh.uv_layers.new(name=UV_LAYER).data.foreach_set("uv", _floats(arrays.uv))

@@ -15,7 +15,7 @@ from grafu.articulation.mass import MassProperties
 from grafu.articulation.motion_kind import MotionKind
 from grafu.articulation.physics import JointDynamics, physics_of
 from grafu.export.usd.config import UsdConfig
-from grafu.export.usd.surfaces import Siblings, UsdLooks, add_collision, add_surface, identifier, quaternion
+from grafu.export.usd.surfaces import Siblings, UsdMaterialWriter, add_collision, add_surface, identifier, quaternion
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel
@@ -37,7 +37,7 @@ class _StageBuilder:
         self._physics = physics_of(articulated, config.physics)
         self._stage = Usd.Stage.CreateInMemory()
         self._top = Sdf.Path.absoluteRootPath.AppendChild(identifier(articulated.name))
-        self._looks = UsdLooks(self._stage, self._top.AppendChild("Looks"))
+        self._materials = UsdMaterialWriter(self._stage, self._top.AppendChild("Looks"))
         siblings = Siblings("Looks", "joints")
         self._paths = {link.id: self._top.AppendChild(siblings.unique(link.id)) for link in articulated.links_from_root}
         joints = Siblings("root_fixed")
@@ -56,7 +56,7 @@ class _StageBuilder:
         for first, second in self._physics.touching:
             filtered = UsdPhysics.FilteredPairsAPI.Apply(self._stage.GetPrimAtPath(self._paths[first]))
             filtered.CreateFilteredPairsRel().AddTarget(self._paths[second])
-        return self._stage, self._looks.images
+        return self._stage, self._materials.images
 
     def _add_top(self) -> None:
         stage = self._stage
@@ -98,7 +98,7 @@ class _StageBuilder:
         places = [path] if len(drawn) == 1 else [path.AppendChild(f"surface_{k}") for k in range(len(drawn))]
         prim = self._define(UsdGeom.Mesh if len(drawn) == 1 else UsdGeom.Xform, path, visual.name)
         for place, surface in zip(places, drawn, strict=True):
-            add_surface(self._stage, place, surface, origin, self._looks, self._config.crease_angle)
+            add_surface(self._stage, place, surface, origin, self._materials, self._config.crease_angle)
         if visual.label is not PartLabel.UNKNOWN:
             UsdSemantics.LabelsAPI.Apply(prim, "class").CreateLabelsAttr([visual.label.value])
         prim.CreateAttribute("grafu:role", Sdf.ValueTypeNames.Token).Set(visual.role.value)

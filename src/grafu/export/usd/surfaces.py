@@ -47,7 +47,7 @@ Key = tuple[Material, bool, bool]
 
 
 @final
-class UsdLooks:
+class UsdMaterialWriter:
     """Writes each material, and each image, once."""
 
     def __init__(self, stage: Usd.Stage, scope: Sdf.Path) -> None:
@@ -96,7 +96,7 @@ class UsdLooks:
 class _Shading:
     """One material being built."""
 
-    def __init__(self, looks: UsdLooks, key: Key) -> None:
+    def __init__(self, looks: UsdMaterialWriter, key: Key) -> None:
         source, self._textured, from_vertices = key
         self._looks = looks
         self.material = looks.new_material(source.name)
@@ -191,7 +191,7 @@ class _Shading:
 
 
 def add_surface(
-    stage: Usd.Stage, path: Sdf.Path, surface: Surface, origin: Vec3, looks: UsdLooks, crease: float
+    stage: Usd.Stage, path: Sdf.Path, surface: Surface, origin: Vec3, looks: UsdMaterialWriter, crease: float
 ) -> Any:
     """Adds a surface as a mesh with its material and returns it; `crease` is radians."""
     mesh = _add_mesh(stage, path, surface.mesh, origin)

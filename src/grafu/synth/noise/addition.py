@@ -21,13 +21,13 @@ from grafu.vocabulary import PartLabel
 @final
 @dataclass(frozen=True)
 class Addition:
-    """A part to be: `fits` states that it must keep out of still parts, too; `rides_on` names what carries it."""
+    """A part to be: `fits` states that it must keep out of still parts, too; `carried_by` names what carries it."""
 
     label: PartLabel
     stem: str
     mesh: TriangleMesh
     fits: bool = False
-    rides_on: str | None = None
+    carried_by: str | None = None
 
 
 def block(low: tuple[float, float, float], high: tuple[float, float, float]) -> TriangleMesh:
@@ -65,7 +65,7 @@ def runners(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
             yield Addition(PartLabel.MISC, "drawer_runner", _bar_beside(body, 1 - along, side, reach, z, height))
             if double:
                 mesh = _bar_beside(body, 1 - along, side, (0.0, 0.4 * gap), z, 0.6 * height)
-                yield Addition(PartLabel.MISC, "drawer_slider", mesh, rides_on=joint.part)
+                yield Addition(PartLabel.MISC, "drawer_slider", mesh, carried_by=joint.part)
 
 
 def _body(drawer: Part, along: int, sense: float) -> Box | None:

@@ -46,8 +46,8 @@ def draw_joined(
     Where a case is joined, its top is one of what is joined with chance `tops`.
     """
     found = []
-    busy = {j.part for j in asset.joints} | {p.rides_on for p in asset.parts if p.rides_on}
-    still = [p for p in parts if p.id not in busy and p.rides_on is None]
+    busy = {j.part for j in asset.joints} | {p.carried_by for p in asset.parts if p.carried_by}
+    still = [p for p in parts if p.id not in busy and p.carried_by is None]
     if not chance(rng, tops):
         still = [p for p in still if p.label is not PartLabel.TOP_PANEL]
     if chance(rng, ratio):
@@ -60,7 +60,7 @@ def draw_joined(
         if able:
             _, labels = GROUPS[pick(rng, able)]
             found.append(_joined(rng, [p for p in still if p.label in labels]))
-    attached = tuple(p.id for p in parts if p.label is PartLabel.HANDLE and p.rides_on)
+    attached = tuple(p.id for p in parts if p.label is PartLabel.HANDLE and p.carried_by)
     if attached and chance(rng, handles):
         found.append(Joined(attached, None))
     return tuple(found)

@@ -57,7 +57,7 @@ def ajar(asset: Asset, part_id: str, ratio: float) -> Asset:
     shorter = replace(joint, upper=joint.upper - amount)
     return replace(
         asset,
-        parts=tuple(_moved(p, T) if part_id in (p.id, p.rides_on) else p for p in asset.parts),
+        parts=tuple(_moved(p, T) if part_id in (p.id, p.carried_by) else p for p in asset.parts),
         joints=tuple(shorter if j is joint else j for j in asset.joints),
     )
 

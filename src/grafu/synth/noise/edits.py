@@ -102,8 +102,8 @@ def with_merged(asset: Asset, where: Collection[str], name: str = "body") -> Ass
         ValueError: if fewer than two parts, or one that moves or carries others, are selected.
     """
     merged = [p for p in asset.parts if _selected(p, where)]
-    moving = {j.part for j in asset.joints} | {p.rides_on for p in asset.parts if p.rides_on}
-    if len(merged) < 2 or any(p.id in moving or p.rides_on for p in merged):
+    moving = {j.part for j in asset.joints} | {p.carried_by for p in asset.parts if p.carried_by}
+    if len(merged) < 2 or any(p.id in moving or p.carried_by for p in merged):
         raise ValueError(f"`where` must select two or more still parts: got {[p.id for p in merged]}")
     body = Part(name, PartLabel.UNKNOWN, tuple(s for p in merged for s in p.surfaces), PartSource(name))
     return replace(asset, parts=(body, *(p for p in asset.parts if p not in merged)))
@@ -112,7 +112,7 @@ def with_merged(asset: Asset, where: Collection[str], name: str = "body") -> Ass
 def with_shifted(asset: Asset, part_id: str, offset: Vec3) -> Asset:
     """Returns the asset with one part, its joint and its attached parts shifted: floating, or sunk into a neighbour."""
     T = translation(offset)
-    moving = {p.id for p in asset.parts if part_id in (p.id, p.rides_on)}
+    moving = {p.id for p in asset.parts if part_id in (p.id, p.carried_by)}
     parts = (
         replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) if p.id in moving else p for p in asset.parts
     )
@@ -148,7 +148,7 @@ def with_labels_lost(asset: Asset, where: Collection[str] = ()) -> Asset:
 def without_parts(asset: Asset, where: Collection[str]) -> Asset:
     """Returns the asset without the selected parts, what rides on them, and their joints."""
     gone = {p.id for p in asset.parts if _selected(p, where)}
-    kept = tuple(p for p in asset.parts if p.id not in gone and p.rides_on not in gone)
+    kept = tuple(p for p in asset.parts if p.id not in gone and p.carried_by not in gone)
     ids = {p.id for p in kept}
     return replace(asset, parts=kept, joints=tuple(j for j in asset.joints if j.part in ids))
 

@@ -44,12 +44,12 @@ def with_loose_objects(asset: Asset, kind: str, rng: np.random.Generator) -> Ass
     still = np.array([(p.box.low, p.box.high) for p in asset.parts])
     parts = list(asset.parts)
     for addition in LOOSE_OBJECTS[kind](asset, rng):
-        if addition.rides_on is None and not _is_free(addition, swept, still):
+        if addition.carried_by is None and not _is_free(addition, swept, still):
             continue
         name = fresh_ids(replace(asset, parts=tuple(parts)), addition.stem, 1)[0]
         material = STEEL if addition.label is PartLabel.MISC else BIRCH
         surface = Surface(addition.mesh, material)
-        parts.append(Part(name, addition.label, (surface,), PartSource(name), "annotation", addition.rides_on))
+        parts.append(Part(name, addition.label, (surface,), PartSource(name), "annotation", addition.carried_by))
     return replace(asset, parts=tuple(parts))
 
 
@@ -57,7 +57,7 @@ def _swept_boxes(asset: Asset) -> Boxes:
     """Returns boxes around the paths of all boards of doors and drawers, and of what rides on them."""
     found = [np.zeros((0, 2, 3))]
     for joint in asset.joints:
-        moving = [p for p in asset.parts if joint.part in (p.id, p.rides_on)]
+        moving = [p for p in asset.parts if joint.part in (p.id, p.carried_by)]
         boxes = [s.mesh.box for part in moving for s in part.surfaces]
         if motion_kind(joint.type).slides:
             ends = np.array([(b.low, b.high) for b in boxes])
@@ -223,7 +223,7 @@ def _plates(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
         x, z, y = float(box.center[0]), float(box.center[2] + at * box.size[2]), float(box.low[1])
         mesh = block((x - w / 2, y - t, z - h / 2), (x + w / 2, y, z + h / 2))
         if _is_foremost(asset.part(joint.part), x, z):
-            yield Addition(PartLabel.MISC, "plate", mesh, rides_on=joint.part)
+            yield Addition(PartLabel.MISC, "plate", mesh, carried_by=joint.part)
 
 
 def _is_foremost(front: Part, x: float, z: float) -> bool:

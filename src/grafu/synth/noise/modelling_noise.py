@@ -219,7 +219,7 @@ def _defect(before: Asset, after: Asset, misfit: Misfit) -> Defect:
     deeper = any(
         float(new.axis_gaps(p.box).max()) < min(float(old.axis_gaps(p.box).max()), 0.0) - 1e-5
         for p in after.parts
-        if misfit.part not in (p.id, p.rides_on)
+        if misfit.part not in (p.id, p.carried_by)
     )
     return Defect("interpenetrating" if deeper else "floating", (misfit.part,))
 

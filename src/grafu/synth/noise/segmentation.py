@@ -28,8 +28,8 @@ def with_joined(asset: Asset, ids: Collection[str], label: PartLabel, name: str)
         ValueError: if fewer than two parts, or one that moves or carries others, are named.
     """
     joined = [p for p in asset.parts if p.id in ids]
-    busy = {j.part for j in asset.joints} | {p.rides_on for p in asset.parts if p.rides_on}
-    if len(joined) < 2 or any(p.id in busy or p.rides_on for p in joined):
+    busy = {j.part for j in asset.joints} | {p.carried_by for p in asset.parts if p.carried_by}
+    if len(joined) < 2 or any(p.id in busy or p.carried_by for p in joined):
         raise ValueError(f"`ids` must name two or more still parts: got {[p.id for p in joined]}")
     body = Part(name, label, tuple(s for p in joined for s in p.surfaces), PartSource(name), "annotation")
     parts = tuple(body if p is joined[0] else p for p in asset.parts if p is joined[0] or p not in joined)
@@ -38,11 +38,11 @@ def with_joined(asset: Asset, ids: Collection[str], label: PartLabel, name: str)
 
 def with_attached_joined(asset: Asset, ids: Collection[str]) -> Asset:
     """Returns the named attached parts as geometry of what carries them: a handle in its door is no part any more."""
-    attached = [p for p in asset.parts if p.id in ids and p.rides_on]
+    attached = [p for p in asset.parts if p.id in ids and p.carried_by]
     gone = {p.id for p in attached}
     parts = []
     for part in asset.parts:
-        own = [s for other in attached if other.rides_on == part.id for s in other.surfaces]
+        own = [s for other in attached if other.carried_by == part.id for s in other.surfaces]
         if part.id not in gone:
             parts.append(replace(part, surfaces=(*part.surfaces, *own)) if own else part)
     return replace(asset, parts=tuple(parts))
@@ -137,9 +137,9 @@ def _replaced(
     asset: Asset, part_id: str, cut: Callable[[Part], Sequence[tuple[PartLabel, tuple[Surface, ...]]]]
 ) -> Asset:
     """Returns the asset with a still part in pieces; where there are fewer than two, or the part moves, as it was."""
-    busy = {j.part for j in asset.joints} | {p.rides_on for p in asset.parts if p.rides_on}
+    busy = {j.part for j in asset.joints} | {p.carried_by for p in asset.parts if p.carried_by}
     part = asset.part(part_id)
-    pieces = [] if part_id in busy or part.rides_on else list(cut(part))
+    pieces = [] if part_id in busy or part.carried_by else list(cut(part))
     if len(pieces) < 2:
         return asset
     ids = fresh_ids(asset, f"{part_id}_piece", len(pieces))

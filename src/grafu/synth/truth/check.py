@@ -102,7 +102,7 @@ def faults_in(specimen: Specimen, articulated: ArticulatedObject | None = None) 
     concerned: dict[DefectKind, set[str]] = defaultdict(set)
     for defect in specimen.defects:
         concerned[defect.kind] |= {*defect.parts}
-        concerned[defect.kind] |= {p.id for p in specimen.whole.parts if p.rides_on in defect.parts}
+        concerned[defect.kind] |= {p.id for p in specimen.whole.parts if p.carried_by in defect.parts}
 
     def is_meant(fault: Fault) -> bool:
         explained = set[str]().union(*(concerned[kind] for kind in _EXPLAINS.get(fault.kind, ())))
@@ -127,26 +127,26 @@ def _label_faults(whole: Asset) -> Iterator[Fault]:
 def _attached_faults(whole: Asset) -> Iterator[Fault]:
     moving_bodies = {joint.part for joint in whole.joints}
     for part in whole.parts:
-        if part.rides_on is None:
+        if part.carried_by is None:
             if part.label is PartLabel.HANDLE:
                 yield Fault("attached part", (part.id,), "a handle that rides on nothing")
-        elif part.rides_on not in moving_bodies or part.id in moving_bodies:
-            yield Fault("attached part", (part.id,), f"it rides on {part.rides_on}")
+        elif part.carried_by not in moving_bodies or part.id in moving_bodies:
+            yield Fault("attached part", (part.id,), f"it rides on {part.carried_by}")
         else:
             gap = _gap_to_link(part, whole)
             if gap > ATTACHED_REACH:
-                yield Fault("attached part", (part.id,), f"{gap:.3f} m off {part.rides_on} and all that rides on it")
+                yield Fault("attached part", (part.id,), f"{gap:.3f} m off {part.carried_by} and all that rides on it")
 
 
 def _gap_to_link(part: Part, whole: Asset) -> float:
     """Returns the distance between the boxes of an attached part and the nearest part that moves with it."""
-    others = (p for p in whole.parts if p is not part and part.rides_on in (p.id, p.rides_on))
+    others = (p for p in whole.parts if p is not part and part.carried_by in (p.id, p.carried_by))
     return min(part.box.gap(other.box) for other in others)
 
 
 def _limit_faults(whole: Asset) -> Iterator[Fault]:
     moving_bodies = {joint.part for joint in whole.joints}
-    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.rides_on or p.id) not in moving_bodies])
+    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.carried_by or p.id) not in moving_bodies])
     still = still.reshape(-1, 2, 3)
     for joint in whole.joints:
         if joint.lower != 0.0:
@@ -242,8 +242,8 @@ def _rail_faults(joint: AnnotatedJoint, rails: list[Rail]) -> Iterator[Fault]:
 def _attachment_faults(whole: Asset, truth: FunctionalGraph) -> Iterator[Fault]:
     parent_of = {edge.child: edge.parent for edge in truth.attachments}
     for part in whole.parts:
-        if part.label is PartLabel.HANDLE and parent_of.get(part.id) != part.rides_on:
-            yield Fault("mount", (part.id,), f"attached to {parent_of.get(part.id)}, rides on {part.rides_on}")
+        if part.label is PartLabel.HANDLE and parent_of.get(part.id) != part.carried_by:
+            yield Fault("mount", (part.id,), f"attached to {parent_of.get(part.id)}, rides on {part.carried_by}")
 
 
 def _unreached(truth: FunctionalGraph) -> tuple[str, ...]:

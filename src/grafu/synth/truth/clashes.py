@@ -119,7 +119,7 @@ class _Pieces:
     """All surfaces of an asset: the box of each, whether it is that box, the part it belongs to; not a value."""
 
     def __init__(self, asset: Asset) -> None:
-        self.carrier_of = {part.id: part.rides_on or part.id for part in asset.parts}
+        self.carrier_of = {part.id: part.carried_by or part.id for part in asset.parts}
         self._ids = [part.id for part in asset.parts]
         self._numbers = {part_id: number for number, part_id in enumerate(self._ids)}
         owned = [(n, s.mesh) for n, part in enumerate(asset.parts) for s in part.surfaces if not s.is_empty]
@@ -243,17 +243,17 @@ def articulated_of(whole: Asset) -> ArticulatedObject:
         ValueError: if two joints name one part, or one names a part that rides on another.
     """
     moving_bodies = {joint.part for joint in whole.joints}
-    riding = sorted(i for i in moving_bodies if whole.part(i).rides_on)
+    riding = sorted(i for i in moving_bodies if whole.part(i).carried_by)
     if len(moving_bodies) < len(whole.joints) or riding:
         raise ValueError(f"each joint of `{whole.name}` must have a part of its own that rides on nothing: {riding}")
     root = _free_name("body", {part.id for part in whole.parts})
-    still = [part for part in whole.parts if (part.rides_on or part.id) not in moving_bodies]
+    still = [part for part in whole.parts if (part.carried_by or part.id) not in moving_bodies]
     links = [Link(root, tuple(_visual(part) for part in still))]
     clashes, waits = clashes_of(whole), dict[str, tuple[str, ...]]()
     for joint in sorted(whole.joints, key=lambda j: len(clashes.bodies_hit(j.part))):
         waits[joint.part] = _waits_for(joint.part, clashes, waits)
     for joint in whole.joints:
-        members = [part for part in whole.parts if joint.part in (part.id, part.rides_on)]
+        members = [part for part in whole.parts if joint.part in (part.id, part.carried_by)]
         links.append(Link(joint.part, tuple(_visual(part) for part in members)))
     joints = tuple(_joint(joint, root, waits[joint.part]) for joint in whole.joints)
     return ArticulatedObject(whole.name, root, tuple(links), joints)

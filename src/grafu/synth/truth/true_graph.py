@@ -50,13 +50,13 @@ def with_true_edges(graph: FunctionalGraph, whole: Asset) -> FunctionalGraph:
         GraphError: if a door turns about an axis across its thin side.
     """
     moving = {joint.part for joint in whole.joints}
-    still = [p for p in whole.parts if p.id not in moving and p.rides_on is None and p.label.is_support]
+    still = [p for p in whole.parts if p.id not in moving and p.carried_by is None and p.label.is_support]
     edges: list[Edge] = []
     for joint in whole.joints:
         edges += _joint_edges(joint, whole.part(joint.part), graph, still)
     for part in whole.parts:
-        if part.label is PartLabel.HANDLE and part.rides_on and whole.part(part.rides_on).label.is_movable:
-            edges.append(Attached(part.rides_on, part.id))
+        if part.label is PartLabel.HANDLE and part.carried_by and whole.part(part.carried_by).label.is_movable:
+            edges.append(Attached(part.carried_by, part.id))
     return with_edges(graph, edges)
 
 

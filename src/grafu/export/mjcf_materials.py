@@ -1,8 +1,8 @@
-"""Visuals, materials and images as MuJoCo takes them: meshes of one look each, at least four corners, some area.
+"""Visuals, materials and images as MuJoCo takes them: meshes of one material each, at least four corners, some area.
 
-A visual of one look is the OBJ file that a URDF names too; others are divided by look into files of their own. A look
-is one colour or one PNG image; metallic-roughness, normal, occlusion and emissive images are left out: MuJoCo's own
-renderer has no use for them.
+A visual of one material is the OBJ file that a URDF names too; others are divided by material into files of their own.
+A material is one colour or one PNG image; metallic-roughness, normal, occlusion and emissive images are left out:
+MuJoCo's own renderer has no use for them.
 """
 
 import xml.etree.ElementTree as ET
@@ -26,8 +26,8 @@ _WHITE = (1.0, 1.0, 1.0, 1.0)
 
 @final
 @dataclass(frozen=True, slots=True)
-class Look:
-    """What one mesh looks like: a material, whether its image can be laid on, and a factor for its colour.
+class MjcfMaterial:
+    """What MuJoCo draws a mesh with: a material, whether its image can be laid on, and a factor for its colour.
 
     The factor stands for colours of vertices, which MuJoCo does not have: it is their mean.
     """
@@ -37,41 +37,41 @@ class Look:
     tint: tuple[float, ...] = _WHITE
 
 
-def look_of(surface: Surface) -> Look:
-    """Returns the look of a surface; without coordinates in the image it has no image."""
+def material_of(surface: Surface) -> MjcfMaterial:
+    """Returns the material of a surface; without coordinates in the image it has no image."""
     textured = surface.uv is not None and surface.material.base_color_texture is not None
     if surface.colors is None or not len(surface.colors):
-        return Look(surface.material, textured)
+        return MjcfMaterial(surface.material, textured)
     used = surface.colors[np.unique(surface.mesh.faces)]
-    return Look(surface.material, textured, tuple(np.round(used.mean(axis=0) / 255.0, 6).tolist()))
+    return MjcfMaterial(surface.material, textured, tuple(np.round(used.mean(axis=0) / 255.0, 6).tolist()))
 
 
 @final
-class MjcfLooks:
-    """Writes each look, and each image, once into an `asset` element; images go into a folder beside it."""
+class MjcfMaterials:
+    """Writes each material, and each image, once into an `asset` element; images go into a folder beside it."""
 
     def __init__(self, asset: ET.Element, folder: ObjFolder) -> None:
         self.images: dict[str, bytes] = {}
         self._asset = asset
         self._folder = folder
         self._names = NameBook(case_counts=True)
-        self._materials: dict[Look, str] = {}
+        self._materials: dict[MjcfMaterial, str] = {}
         self._textures: dict[str, str | None] = {}
 
-    def name_of(self, look: Look) -> str:
-        """Returns the name of the material that shows a look."""
-        if look not in self._materials:
-            self._materials[look] = self._names.unique(printable(look.material.name) or "material")
-            self._add(look)
-        return self._materials[look]
+    def name_of(self, key: MjcfMaterial) -> str:
+        """Returns the name of the material of the file for it."""
+        if key not in self._materials:
+            self._materials[key] = self._names.unique(printable(key.material.name) or "material")
+            self._add(key)
+        return self._materials[key]
 
-    def _add(self, look: Look) -> None:
-        material, image = look.material, look.material.base_color_texture
-        texture = self._texture(image) if look.textured and image is not None else None
-        alpha = material.base_color[3] * look.tint[3] if material.alpha_mode != "OPAQUE" else 1.0
-        color = [_display(c * t) for c, t in zip(material.base_color[:3], look.tint, strict=False)]
+    def _add(self, key: MjcfMaterial) -> None:
+        material, image = key.material, key.material.base_color_texture
+        texture = self._texture(image) if key.textured and image is not None else None
+        alpha = material.base_color[3] * key.tint[3] if material.alpha_mode != "OPAQUE" else 1.0
+        color = [_display(c * t) for c, t in zip(material.base_color[:3], key.tint, strict=False)]
         smooth = 1.0 - material.roughness
-        attributes = {"name": self._materials[look], "rgba": numbers([*color, alpha])}
+        attributes = {"name": self._materials[key], "rgba": numbers([*color, alpha])}
         attributes |= {"texture": texture} if texture is not None else {}
         attributes |= {"specular": number(0.5 * smooth + 0.5 * material.metallic * smooth), "shininess": number(smooth)}
         attributes |= {"metallic": number(material.metallic), "roughness": number(material.roughness)}
@@ -121,10 +121,10 @@ _LEAST_AREA = 1e-10  # square metres: a hundredth of a millimetre each side, inv
 @final
 @dataclass(frozen=True, slots=True)
 class DrawnMesh:
-    """A mesh of one look: its OBJ file in the folder, and the look."""
+    """A mesh of one material: its OBJ file in the folder, and the material."""
 
     file: str
-    look: Look
+    material: MjcfMaterial
 
 
 def drawn_meshes(visual: Visual, shared: str, origin: Vec3, folder: ObjFolder) -> Iterator[DrawnMesh]:
@@ -132,28 +132,28 @@ def drawn_meshes(visual: Visual, shared: str, origin: Vec3, folder: ObjFolder) -
 
     What has no area is left out. Files are added to the folder where the whole will not do.
     """
-    groups: dict[Look, list[Surface]] = {}
+    groups: dict[MjcfMaterial, list[Surface]] = {}
     for surface in visual.surfaces:
         if not surface.is_empty:
-            groups.setdefault(look_of(surface), []).append(surface)
+            groups.setdefault(material_of(surface), []).append(surface)
     uniform = len(groups) == 1 and len({s.uv is None for s in visual.surfaces if not s.is_empty}) == 1
-    for look, surfaces in groups.items():
+    for key, surfaces in groups.items():
         if sum(surface.mesh.area for surface in surfaces) < _LEAST_AREA:
             continue
         if uniform and _corners(surfaces) >= _FEWEST_CORNERS:
-            yield DrawnMesh(shared, look)
+            yield DrawnMesh(shared, key)
         else:
-            drawn = tuple(_plain(surface, look) for surface in surfaces)
-            yield DrawnMesh(folder.add_visual(replace(visual, surfaces=_divided(drawn)), origin), look)
+            drawn = tuple(_plain(surface, key) for surface in surfaces)
+            yield DrawnMesh(folder.add_visual(replace(visual, surfaces=_divided(drawn)), origin), key)
 
 
 def _corners(surfaces: list[Surface] | tuple[Surface, ...]) -> int:
     return len(np.unique(np.vstack([s.mesh.vertices[np.unique(s.mesh.faces)] for s in surfaces]), axis=0))
 
 
-def _plain(surface: Surface, look: Look) -> Surface:
-    """Returns a surface that has coordinates in the image only where the look has one: a file has them all or none."""
-    return surface if look.textured else replace(surface, uv=None)
+def _plain(surface: Surface, key: MjcfMaterial) -> Surface:
+    """Returns a surface that has coordinates in the image only where the material has one: all or none."""
+    return surface if key.textured else replace(surface, uv=None)
 
 
 def _divided(surfaces: tuple[Surface, ...]) -> tuple[Surface, ...]:

@@ -1,4 +1,4 @@
-"""The carpenter's rules on small cabinets of boxes: doors, flaps, lids, drawers, handles, and what is refused."""
+"""The rule-based baseline on small cabinets of boxes: doors, flaps, lids, drawers, handles, and what is refused."""
 
 from dataclasses import replace
 
@@ -280,7 +280,7 @@ def test_votes_rank_and_breaks_ties_by_order():
     assert votes.ranking().choice == "a"
     votes.add("b", 1.0)
     votes.add("a", 0.5)
-    votes.add("nobody", 9.0)
+    votes.add("no_one", 9.0)
     ranking = votes.ranking()
     assert (ranking.choice, ranking.runner_up) == ("b", "a")
     assert 0 < ranking.runner_up_score < ranking.score < 1
