@@ -32,11 +32,11 @@ from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner, make_corner_
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, Top
 from grafu.synth.families.table import draw_made
-from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, OpenCell, Pair, Stack
 from grafu.synth.noise.edits import without_parts
 from grafu.synth.pieces.finish import textured_finish
 from grafu.synth.tables.desk import Desk, make_desk
-from grafu.synth.tables.table import Table, make_table
+from grafu.synth.tables.table import DrawerTable, make_table
 from grafu.templates.gallery import builtin_gallery
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import JointType, PartLabel
@@ -108,11 +108,11 @@ def grips_sheet() -> Picture:
 def interiors_sheet() -> Picture:
     """Returns empty cabinets, doors open, and what they are furnished with on request."""
     shots: list[Shot] = []
-    chest = Stack((Drawer(handle="knob-round"), Bay()), (1.0, 3.0))
+    chest = Stack((Drawer(handle="knob-round"), OpenCell()), (1.0, 3.0))
     for asset, requests in (
         (_cabinet(Pair(), Case(1.1, 2.0, 0.58, base=PLINTH), 3), ("shelves=3", "auto")),
         (_cabinet(Pair(behind=chest), Case(1.1, 1.0, 0.5, base=PLINTH), 1), ("shelves=1", "auto")),
-        (_cabinet(Row((Pair(), Pair())), Case(1.6, 0.8, 0.45, base=PLINTH), 4), ("shelves=1,dividers=1", "auto")),
+        (_cabinet(CellRow((Pair(), Pair())), Case(1.6, 0.8, 0.45, base=PLINTH), 4), ("shelves=1,dividers=1", "auto")),
     ):
         shots.append((_picture(_doors_open(_made(asset, NO_ADDITIONS)), (340, 260), _from_ahead), "as it was"))
         for request in requests:
@@ -145,18 +145,18 @@ SHEETS: dict[str, Callable[[], Picture]] = {
 
 def _topless() -> list[tuple[Asset, TopShape, str, View]]:
     """Returns furniture without a top, the shape to give it, what it is, and from where it is seen."""
-    low = Stack((Pair(), Row((Drawer(), Drawer()))), (3.0, 1.0))
+    low = Stack((Pair(), CellRow((Drawer(), Drawer()))), (3.0, 1.0))
     base = Case(0.9, 0.85, 0.56, base=PLINTH, top=BARE)
     sideboard = Case(1.5, 0.72, 0.42, base=Base("legs", 0.14), top=BARE)
-    drawers = Stack((Row((Drawer(), Drawer())),) * 3, between="rail")
+    drawers = Stack((CellRow((Drawer(), Drawer())),) * 3, between="rail")
     inner = make_inner_corner(InnerCorner(topped=False, finish=textured_finish(3)))
     corner = make_corner_cabinet(CornerCabinet(topped=False, finish=textured_finish(5)))
     desk = without_parts(make_desk(Desk(left=Door("left"), finish=textured_finish(6))), ("top panel",))
-    table = without_parts(make_table(Table(finish=textured_finish(3))), ("top panel",))
+    table = without_parts(make_table(DrawerTable(finish=textured_finish(3))), ("top panel",))
     return [
         (_cabinet(low, base, 1), "rectangle", "base cabinet", _from_above),
         (inner, "rectangle", "inner corner", _from_right),
-        (_cabinet(Row((Door("left"), Pair())), sideboard, 4), "rounded", "sideboard", _from_above),
+        (_cabinet(CellRow((Door("left"), Pair())), sideboard, 4), "rounded", "sideboard", _from_above),
         (_cabinet(drawers, Case(1.1, 0.8, 0.48, top=BARE), 2), "chamfered", "chest of drawers", _from_above),
         (corner, "rectangle", "corner cabinet", _from_right),
         (_with_basin(_cabinet(Pair(), base, 1), 0.85), "rectangle", "washstand with a basin", _from_above),

@@ -9,11 +9,11 @@ from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Back, Base, Bottom, FaceFrame, Sides, Top
 from grafu.synth.case.legs import Leg
 from grafu.synth.fronts.hold import Inside
-from grafu.synth.fronts.layout import Bay, Blank, Door, Drawer, Pair, Row, Stack, Tilt
+from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, OpenCell, Pair, Stack, Tilt
 from grafu.synth.tables.desk import Desk
-from grafu.synth.tables.table import Table
+from grafu.synth.tables.table import DrawerTable
 
-MIXED = Stack((Pair(shelves=1), Row((Drawer(), Drawer()))), (3.0, 1.0))
+MIXED = Stack((Pair(shelves=1), CellRow((Drawer(), Drawer()))), (3.0, 1.0))
 LEGS = ("square", "tapered", "round", "cone", "turned", "splayed", "hairpin", "cabriole")
 FEET = {"block": 0.05, "bun": 0.06, "caster": 0.07, "pad": 0.004}
 THREE = Stack((Drawer(),) * 3)
@@ -70,18 +70,21 @@ CABINETS = {
         case=Case(0.86, 0.6, 0.6, base=Base("posts", 0.05, Leg("square", 0.036))), layout=THREE, slide_gap=0.014
     ),
     "kitchen stretchers": _kitchen("stretchers", MIXED, bottom=Bottom("sheet")),
-    "corner blocks": _kitchen("corner blocks", Row((Stack((Door(), Blank()), (3.0, 1.0)), Drawer(runners=True)))),
+    "corner blocks": _kitchen("corner blocks", CellRow((Stack((Door(), Blank()), (3.0, 1.0)), Drawer(runners=True)))),
     "frameless stretchers": Cabinet(case=Case(top=Top("stretchers")), layout=MIXED),
     "sink": Cabinet(case=Case(top=Top("over", 0.03, 0.02, sink=True)), layout=Pair()),
     "metal uprights": Cabinet(
         case=Case(0.6, 1.8, 0.38, sides=Sides("metal"), back=Back("none", 0.0)),
-        layout=Stack((Drawer(), Drawer(), Bay(3)), (1.0, 1.0, 5.0)),
+        layout=Stack((Drawer(), Drawer(), OpenCell(3)), (1.0, 1.0, 5.0)),
     ),
     "rods and dividers": Cabinet(
-        case=Case(1.0, 2.0, 0.6), layout=Row((Bay(1, Inside(rod=True)), Bay(2, Inside("short", dividers=2, rails=2))))
+        case=Case(1.0, 2.0, 0.6),
+        layout=CellRow((OpenCell(1, Inside(rod=True)), OpenCell(2, Inside("short", dividers=2, rails=2)))),
     ),
-    "baskets": Cabinet(layout=Row((Door(inside=Inside(basket="wire")), Bay(1, Inside("glass", basket="rack"))))),
-    "runners": Cabinet(layout=Row((Bay(0, Inside(runners=3)), Stack((Drawer(runners=True),) * 3)))),
+    "baskets": Cabinet(
+        layout=CellRow((Door(inside=Inside(basket="wire")), OpenCell(1, Inside("glass", basket="rack"))))
+    ),
+    "runners": Cabinet(layout=CellRow((OpenCell(0, Inside(runners=3)), Stack((Drawer(runners=True),) * 3)))),
     "shoe cabinet": Cabinet(
         case=Case(0.8, 1.1, 0.3), layout=Stack((Tilt(), Tilt(handle="none"), Tilt(tray=False)), between="rail")
     ),
@@ -90,7 +93,9 @@ CABINETS = {
         layout=Stack((Drawer("floating"), Drawer("four walls"), Drawer("tray"), Drawer("tray", runners=True)))
     ),
     "island": Cabinet(
-        case=Case(1.4, 0.9, 0.8, top=Top("over", 0.04, 0.03, back=0.03)), layout=MIXED, rear=Row((Bay(1), Door()))
+        case=Case(1.4, 0.9, 0.8, top=Top("over", 0.04, 0.03, back=0.03)),
+        layout=MIXED,
+        rear=CellRow((OpenCell(1), Door())),
     ),
     "fridge": Cabinet(
         case=Case(0.6, 1.8, 0.55, panel=0.04), front=0.07, layout=Stack((Door(), Door()), (2.0, 1.0), "nothing")
@@ -102,12 +107,12 @@ CABINETS = {
 LIPPED = Inside(setback=0.0, lip=0.03, cleats=True, dividers=1, rails=2, blocks=True)
 TOUCHING = {
     "shelves against doors": Pair(shelves=3, inside=Inside(setback=0.0)),
-    "shelves set back": Row(
-        (Door(shelves=2, inside=Inside(setback=0.06, cleats=True)), Bay(3, Inside("short", lip=0.02)))
+    "shelves set back": CellRow(
+        (Door(shelves=2, inside=Inside(setback=0.06, cleats=True)), OpenCell(3, Inside("short", lip=0.02)))
     ),
-    "lips, cleats and blocks": Row((Door(shelves=2, inside=LIPPED), Bay(1, LIPPED))),
+    "lips, cleats and blocks": CellRow((Door(shelves=2, inside=LIPPED), OpenCell(1, LIPPED))),
     "open frames between drawers": Stack(
-        (Drawer(), Row((Drawer(), Drawer()), between="frame"), Drawer()), between="frame"
+        (Drawer(), CellRow((Drawer(), Drawer()), between="frame"), Drawer()), between="frame"
     ),
     "flaps that meet fronts": Stack((Drawer(), Door("bottom"), Door("top"), Drawer("tray")), between="nothing"),
 }
@@ -126,7 +131,7 @@ CABINETS |= {
         case=Case(0.8, 1.3, 0.3, top=Top("over", 0.04, 0.02), bottom=Bottom("under", 0.04, 0.02)),
         layout=Pair("swept", "none", shelves=2, inside=Inside(setback=0.0)),
     ),
-    "doors wider than the case": Cabinet(layout=Row((Door("left"), Door("right"))), reveal=-0.02),
+    "doors wider than the case": Cabinet(layout=CellRow((Door("left"), Door("right"))), reveal=-0.02),
 }
 BUREAUS = {
     "bureau": Bureau(),
@@ -137,40 +142,40 @@ BUREAUS = {
         holes=0,
     ),
 }
-HUTCH = Cabinet(case=Case(1.1, 0.45, 0.25), layout=Row((Bay(1), Drawer(), Bay(1))))
+HUTCH = Cabinet(case=Case(1.1, 0.45, 0.25), layout=CellRow((OpenCell(1), Drawer(), OpenCell(1))))
 TABLES = {
-    **{f"{s} table legs": Table(leg_shape=s, overhang=0.03) for s in ("square", "tapered", "turned", "cabriole")},
-    "splayed table legs": Table(leg_shape="splayed", overhang=0.05),
-    **{f"table stretchers, {s}": Table(stretcher=s) for s in ("sides", "H", "box", "shelf")},
-    "guides": Table(
+    **{f"{s} table legs": DrawerTable(leg_shape=s, overhang=0.03) for s in ("square", "tapered", "turned", "cabriole")},
+    "splayed table legs": DrawerTable(leg_shape="splayed", overhang=0.05),
+    **{f"table stretchers, {s}": DrawerTable(stretcher=s) for s in ("sides", "H", "box", "shelf")},
+    "guides": DrawerTable(
         width=0.66, depth=0.53, leg=0.043, overhang=0.08, apron=0.2, guides=True, arch=0.04, layout=Drawer()
     ),
-    "round table": Table(width=0.7, depth=0.7, outline="round", leg=0.04, layout=Drawer()),
-    "oval table on hairpins": Table(height=0.45, outline="round", leg=0.05, leg_shape="hairpin", layout=Drawer()),
-    "glass table": Table(glass=True, top=0.01, overhang=0.05),
-    "connectors": Table(width=2.3, depth=0.9, two_sided=True, layout=Row((Drawer(),) * 4)),
-    "keyboard tray": Table(layout=Row((Drawer(), Drawer("tray"), Blank()))),
-    "long table": Table(
-        width=2.3, depth=0.9, two_sided=True, layout=Row((Drawer(),) * 5), spine=True, rails=0.02, moulding=0.05
+    "round table": DrawerTable(width=0.7, depth=0.7, outline="round", leg=0.04, layout=Drawer()),
+    "oval table on hairpins": DrawerTable(height=0.45, outline="round", leg=0.05, leg_shape="hairpin", layout=Drawer()),
+    "glass table": DrawerTable(glass=True, top=0.01, overhang=0.05),
+    "connectors": DrawerTable(width=2.3, depth=0.9, two_sided=True, layout=CellRow((Drawer(),) * 4)),
+    "keyboard tray": DrawerTable(layout=CellRow((Drawer(), Drawer("tray"), Blank()))),
+    "long table": DrawerTable(
+        width=2.3, depth=0.9, two_sided=True, layout=CellRow((Drawer(),) * 5), spine=True, rails=0.02, moulding=0.05
     ),
-    "long table, one side": Table(
-        width=2.2, layout=Row((Drawer(),) * 4), spine=True, overhang=0.04, moulding=0.04, has_aprons=False
+    "long table, one side": DrawerTable(
+        width=2.2, layout=CellRow((Drawer(),) * 4), spine=True, overhang=0.04, moulding=0.04, has_aprons=False
     ),
-    "modesty": Table(modesty=0.5, stretcher="box", rails=0.02, layout=Drawer()),
-    "hairpin table": Table(leg_shape="hairpin", leg=0.06, apron=0.08),
-    "vanity": Table(mirror=0.6, edge="rounded"),
-    "table with a hutch": Table(hutch=HUTCH),
+    "modesty": DrawerTable(modesty=0.5, stretcher="box", rails=0.02, layout=Drawer()),
+    "hairpin table": DrawerTable(leg_shape="hairpin", leg=0.06, apron=0.08),
+    "vanity": DrawerTable(mirror=0.6, edge="rounded"),
+    "table with a hutch": DrawerTable(hutch=HUTCH),
 }
 DESKS = {
     "drawers between pedestals": Desk(width=1.6, left=THREE, middle=Drawer(), modesty=0.5, edge="rounded", top=0.05),
-    "lifted top": Desk(left=THREE, middle=Row((Drawer("tray"), Drawer())), lift=0.07, base=Base("plinth", 0.06)),
+    "lifted top": Desk(left=THREE, middle=CellRow((Drawer("tray"), Drawer())), lift=0.07, base=Base("plinth", 0.06)),
     "desk on legs": Desk(legs=Leg("tapered", 0.05), middle=Drawer(), mount="inset"),
     "desk with a return": Desk(wing=0.9, hutch=HUTCH),
 }
 CHESTS = {
     "domed lid": Chest(dome=0.12, lid=0.03),
     "lid within": Chest(within=True, edge="rounded"),
-    "chest with drawers": Chest(box=Case(1.0, 0.6, 0.5), drawers=Row((Drawer(), Drawer()))),
+    "chest with drawers": Chest(box=Case(1.0, 0.6, 0.5), drawers=CellRow((Drawer(), Drawer()))),
     "chest on posts": Chest(box=Case(1.0, 0.6, 0.5, base=Base("posts", 0.1, Leg("square", 0.05))), within=True),
 }
 RACKS = {

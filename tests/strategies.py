@@ -14,9 +14,9 @@ from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, FaceFrame, Top
 from grafu.synth.fronts.hold import Hold
-from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, OpenCell, Pair, Stack
 from grafu.synth.tables.desk import Desk, make_desk
-from grafu.synth.tables.table import Table, make_table
+from grafu.synth.tables.table import DrawerTable, make_table
 
 handles = st.sampled_from(["bar-round", "bar-profile", "bail", "knob-round", "ring", "cup-shell", "none"])
 boards = st.sampled_from(["slab", "chamfered", "rounded", "arched", "planks", "raised panel", "two panels"])
@@ -46,13 +46,13 @@ doors = st.one_of(
 )
 drawers = st.builds(Drawer, drawer_boxes, drawer_styles, handles, hold=holds)
 pairs = st.builds(Pair, pair_styles, handles, shelves=small_counts, muntin=st.sampled_from([0.0, 0.03]))
-leaves = st.one_of(doors, drawers, pairs, st.builds(Bay, small_counts))
+leaves = st.one_of(doors, drawers, pairs, st.builds(OpenCell, small_counts))
 betweens = st.sampled_from(["panel", "rail", "nothing"])
 
 
 def _cells(children: st.SearchStrategy[Layout]) -> st.SearchStrategy[Layout]:
     several = st.lists(children, min_size=2, max_size=3).map(tuple)
-    return st.one_of(st.builds(Row, several, between=betweens), st.builds(Stack, several, between=betweens))
+    return st.one_of(st.builds(CellRow, several, between=betweens), st.builds(Stack, several, between=betweens))
 
 
 layouts = st.one_of(leaves, _cells(leaves))
@@ -70,7 +70,7 @@ cases = st.builds(
 )
 mounts = st.sampled_from(["overlay", "inset"])
 cabinet_specs = st.builds(Cabinet, case=cases, layout=layouts, mount=mounts, gap=st.sampled_from([0.002, 0.003]))
-table_specs = st.builds(Table, has_aprons=st.booleans(), two_sided=st.booleans())
+table_specs = st.builds(DrawerTable, has_aprons=st.booleans(), two_sided=st.booleans())
 desk_specs = st.builds(Desk, left=st.one_of(st.none(), doors))
 chest_specs = st.builds(Chest, overhang=st.floats(0.0, 0.03))
 corner_specs = st.builds(CornerCabinet, along_x=st.floats(0.8, 1.3), mount=mounts)
@@ -78,13 +78,13 @@ furniture_specs = st.one_of(cabinet_specs, cabinet_specs, table_specs, desk_spec
 
 _MAKERS = {
     Cabinet: make_cabinet,
-    Table: make_table,
+    DrawerTable: make_table,
     Desk: make_desk,
     Chest: make_chest,
     CornerCabinet: make_corner_cabinet,
 }
 
 
-def made(spec: Cabinet | Table | Desk | Chest | CornerCabinet) -> Asset:
+def made(spec: Cabinet | DrawerTable | Desk | Chest | CornerCabinet) -> Asset:
     """Returns the furniture of a drawn spec."""
     return _MAKERS[type(spec)](spec)

@@ -162,3 +162,12 @@ def test_no_two_tests_or_tools_of_tests_share_a_name() -> None:
     # pytest imports them by their base names
     names = Counter(p.name for p in (ROOT / "tests").rglob("*.py") if p.name not in ("__init__.py", "conftest.py"))
     assert [name for name, count in names.items() if count > 1] == []
+
+
+def test_each_name_of_a_public_class_stands_for_one_class() -> None:
+    named: dict[str, list[str]] = {}
+    for path in SOURCES:
+        for node in ast.walk(tree(path)):
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                named.setdefault(node.name, []).append(path.relative_to(ROOT).as_posix())
+    assert {name: places for name, places in named.items() if len(places) > 1} == {}

@@ -1,5 +1,7 @@
 """Text that others wrote, as it may reach a terminal or a file: what would steer or break these becomes an escape.
 
+Beside it, short reprs of values with many fields, for people at a Python prompt.
+
 File names and names in models can hold any character. Control characters (C0, DEL, C1) move the cursor, set colours
 and titles; bidirectional controls show letters in another order than they stand in; line separators fake lines;
 surrogates (bytes of a file name that are no UTF-8) can be neither printed nor written. All else stays as it is.

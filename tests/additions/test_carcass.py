@@ -21,16 +21,16 @@ from grafu.scene.scene import Scene
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base
-from grafu.synth.fronts.layout import Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, Pair, Stack
 from grafu.synth.fronts.setting import Mount
-from grafu.synth.tables.table import Table, make_table
+from grafu.synth.tables.table import DrawerTable, make_table
 from grafu.vocabulary import PartLabel
 from judging import GALLERY, made_kind
 from small_scenes import box, hinged, scene, sliding
 
 LAYOUTS: dict[str, Layout] = {
     "pair": Pair(shelves=1),
-    "doors on a divider": Row((Door("right"), Door("left"))),
+    "doors on a divider": CellRow((Door("right"), Door("left"))),
     "drawers": Stack((Drawer(),) * 3, between="nothing"),
     "pair over a drawer": Stack((Pair(), Drawer()), (3.0, 1.0)),
 }
@@ -144,7 +144,7 @@ def test_a_bottom_is_as_thick_as_the_scale_of_the_model_says(factor):
 
 @pytest.mark.parametrize("options", [{}, {"has_aprons": False}, {"two_sided": True}])
 def test_tables_have_no_carcass(options):
-    assert missing(make_table(Table(**options))) == []
+    assert missing(make_table(DrawerTable(**options))) == []
 
 
 def test_open_shelves_and_racks_have_no_carcass():

@@ -23,7 +23,7 @@ from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Drawer, DrawerBox, Stack
 from grafu.synth.noise.segmentation import with_box_apart
-from grafu.synth.tables.table import Table, make_table
+from grafu.synth.tables.table import DrawerTable, make_table
 from grafu.vocabulary import PartLabel
 from judging import GALLERY, swept_collisions
 from small_scenes import box, scene, sliding
@@ -313,7 +313,7 @@ def test_the_input_is_only_looked_at_where_nothing_is_to_be_built():
 
 
 def test_drawers_of_tables_are_whole():
-    made = found(make_table(Table()))
+    made = found(make_table(DrawerTable()))
     assert {v.kind for v in made.verdicts} == {"whole"}
 
 

@@ -15,7 +15,7 @@ from grafu.errors import TemplateError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.intersection import MeshCollider
 from grafu.refusal import Reason
-from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Pair, Stack
 from grafu.synth.samples import KINDS
 from grafu.templates.handles import HANDLES
 from grafu.vocabulary import PartLabel
@@ -149,7 +149,7 @@ def test_behind_a_door_a_handle_is_flat_enough():
 
 
 def test_one_lost_handle_is_like_the_others():
-    asset = cabinet(Row((Door("left"), Door("right"), Door("left"))), width=1.2)
+    asset = cabinet(CellRow((Door("left"), Door("right"), Door("left"))), width=1.2)
     lost, kept = (
         next(p for p in asset.parts if p.label is PartLabel.HANDLE and p.carried_by == f"door_{k}") for k in (1, 3)
     )

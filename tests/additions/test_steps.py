@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from grafu.additions.config import AdditionConfig
-from grafu.additions.step import Addition, Changes, Request, StepResult, added_part
+from grafu.additions.step import Addition, Changes, StepRequest, StepResult, added_part
 from grafu.additions.steps import BEFORE_JOINTS, INSIDE, ON_FRONTS, Step, run_steps
 from grafu.geometry.appearance import Surface
 from grafu.joints.make_plan import plan_from_annotation
@@ -18,15 +18,15 @@ STEPS = (*BEFORE_JOINTS, *ON_FRONTS, *INSIDE)
 OLD = box("old", (1.0, 0.0, 0.0), (1.2, 0.2, 0.2))
 
 
-def planned(asset) -> tuple[Scene, Request]:
+def planned(asset) -> tuple[Scene, StepRequest]:
     plan = plan_from_annotation(asset)
-    return planned_scene(asset, plan), Request(plan, names=("made",))
+    return planned_scene(asset, plan), StepRequest(plan, names=("made",))
 
 
 def adding(name: str, carried_by: str | None = None, removed: frozenset[str] = frozenset(), is_chosen=False) -> Step:
     """A step that adds a board, and tells by the board's reason what was attached to the door before."""
 
-    def add(scene: Scene, request: Request, _: AdditionConfig) -> StepResult:
+    def add(scene: Scene, request: StepRequest, _: AdditionConfig) -> StepResult:
         part = added_part(name, PartLabel.MISC, [Surface(OLD.mesh)], carried_by)
         told = ",".join(request.plan.joints[0].attached)
         return StepResult(scene.without_parts(removed).with_parts([part]), (Addition(part, told),), Changes(removed))

@@ -16,15 +16,15 @@ from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
-from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, OpenCell, Pair, Stack
 from grafu.synth.samples import KINDS
 from grafu.vocabulary import PartLabel
 
 LAYOUTS = {
     "pair": Pair(),
-    "doors in a row": Row((Door("right"), Door("left"))),
+    "doors in a row": CellRow((Door("right"), Door("left"))),
     "pair over drawer": Stack((Pair(), Drawer()), (3.0, 1.0)),
-    "open": Bay(),
+    "open": OpenCell(),
 }
 
 

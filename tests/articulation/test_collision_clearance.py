@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
-from grafu.articulation.collision_clearance import ClearanceConfig, cleared
+from grafu.articulation.collision_clearance import ShapeClearanceConfig, cleared
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -102,4 +102,4 @@ def test_shapes_of_one_link_may_overlap():
 def test_no_motion_needs_no_clearance():
     static = ArticulatedObject("o", "body", (Link("body", (Visual("a", ()),)),))
 
-    assert cleared(static, {"body": (SIDE,)}, ClearanceConfig()) == {"body": (SIDE,)}
+    assert cleared(static, {"body": (SIDE,)}, ShapeClearanceConfig()) == {"body": (SIDE,)}

@@ -5,8 +5,8 @@ import pytest
 import trimesh
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
-from grafu.articulation.collision_shapes import CollisionConfig, collision_shapes, corners_of
-from grafu.articulation.convex_pieces import PieceConfig, convex_pieces, hull_of
+from grafu.articulation.collision_shapes import CollisionShapeConfig, collision_shapes, corners_of
+from grafu.articulation.convex_pieces import ConvexPieceConfig, convex_pieces, hull_of
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -130,7 +130,7 @@ def test_mechanisms_carry_no_shape(name, count):
 
 def test_the_number_of_shapes_is_capped():
     posts = merge_meshes([board(0.2 * k, 0, 0, 0.2 * k + 0.05, 0.05, 0.5 + 0.01 * k) for k in range(9)])
-    config = replace(CollisionConfig(), most_shapes=3, pieces=PieceConfig(most=20))
+    config = replace(CollisionShapeConfig(), most_shapes=3, pieces=ConvexPieceConfig(most=20))
 
     shapes = collision_shapes(link_of(posts), config)
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from grafu.articulation.convex_pieces import PieceConfig, convex_pieces
+from grafu.articulation.convex_pieces import ConvexPieceConfig, convex_pieces
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -75,13 +75,13 @@ def test_specks_are_what_the_config_states() -> None:
     mesh = merge_meshes([TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high))) for low, high in boxes])
     diagonal = 0.01 * 3**0.5
 
-    assert len(convex_pieces(mesh, PieceConfig(speck=0.9 * diagonal))) == 2
-    assert len(convex_pieces(mesh, PieceConfig(speck=1.1 * diagonal))) == 1
+    assert len(convex_pieces(mesh, ConvexPieceConfig(speck=0.9 * diagonal))) == 2
+    assert len(convex_pieces(mesh, ConvexPieceConfig(speck=1.1 * diagonal))) == 1
 
 
 @pytest.mark.parametrize(
     ("kind", "name", "value"),
-    [(PieceConfig, "speck", 0.0), (PieceConfig, "tolerance", -1.0), (TopMeasureConfig, "near", 1.0)],
+    [(ConvexPieceConfig, "speck", 0.0), (ConvexPieceConfig, "tolerance", -1.0), (TopMeasureConfig, "near", 1.0)],
 )
 def test_a_number_that_makes_no_sense_is_refused(kind: type, name: str, value: float) -> None:
     with pytest.raises(ValueError, match=f"{kind.__name__}.{name}"):

@@ -6,12 +6,12 @@ from hypothesis import strategies as st
 from grafu.asset.edit import as_static_object, centred, mirrored, moved, scaled, yawed
 from grafu.geometry.transform import from_rotation, reflection, rotation_about, transform_points
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
-from grafu.synth.fronts.layout import Door, Drawer, Row
+from grafu.synth.fronts.layout import CellRow, Door, Drawer
 from grafu.vocabulary import JointType
 from strategies import furniture_specs, made, yaws
 from sweeping import joint_motion
 
-ASSET = make_cabinet(Cabinet(layout=Row((Door(), Drawer()))))
+ASSET = make_cabinet(Cabinet(layout=CellRow((Door(), Drawer()))))
 few = settings(max_examples=15)
 
 

@@ -14,7 +14,7 @@ from descendants import SOON, survivors
 from grafu.cli.job import Failed, Job, JobOptions
 from grafu.cli.limit_options import why_stopped
 from grafu.cli.pool import run_jobs
-from grafu.processes.limits import Ending, Limits, descendants
+from grafu.processes.limits import Ending, ProcessLimits, descendants
 
 
 def fake_run(job: Job) -> Failed:
@@ -38,7 +38,7 @@ def test_a_crash_fails_one_job_alone() -> None:
     found = {result.job.name: result for result in run_jobs(jobs("a", "crash", "b"), 1, fake_run)}
 
     assert (found["a"].why, found["b"].why) == ("ran a", "ran b")
-    assert found["crash"].why == why_stopped(Ending.DIED, Limits())
+    assert found["crash"].why == why_stopped(Ending.DIED, ProcessLimits())
     assert not found["crash"].users_fault
 
 
@@ -195,22 +195,22 @@ def test_limits_that_mean_nothing_are_refused(tmp_path: Path, limit: tuple[str, 
 def test_limits_are_read_as_people_write_them() -> None:
     from grafu.cli.limit_options import limits_of
     from grafu.cli.main import build_parser
-    from grafu.processes.limits import Limits
+    from grafu.processes.limits import ProcessLimits
 
-    def stated(*limits: str) -> Limits:
+    def stated(*limits: str) -> ProcessLimits:
         return limits_of(build_parser().parse_args(["functionalize", "a.glb", "--out", "out", *limits]))
 
-    assert stated() == Limits(120.0, 4 * 10**9)
-    assert stated("--timeout", "7.5", "--memory", "1.5g") == Limits(7.5, 1_500_000_000)
-    assert stated("--timeout", "none", "--memory", "800MB") == Limits(None, 800_000_000)
-    assert stated("--timeout", "1", "--memory", "none") == Limits(1.0, None)
+    assert stated() == ProcessLimits(120.0, 4 * 10**9)
+    assert stated("--timeout", "7.5", "--memory", "1.5g") == ProcessLimits(7.5, 1_500_000_000)
+    assert stated("--timeout", "none", "--memory", "800MB") == ProcessLimits(None, 800_000_000)
+    assert stated("--timeout", "1", "--memory", "none") == ProcessLimits(1.0, None)
 
 
 def test_a_model_is_delivered_with_what_its_time_holds(tmp_path: Path) -> None:
     from grafu.cli.job import Job, JobOptions, Succeeded, run_job
-    from grafu.processes.limits import Limits
+    from grafu.processes.limits import ProcessLimits
 
-    options = JobOptions(tmp_path / "out", formats=("urdf",), page=False, limits=Limits(seconds=1e-6))
+    options = JobOptions(tmp_path / "out", formats=("urdf",), page=False, limits=ProcessLimits(seconds=1e-6))
     result = run_job(Job(write_cabinet(tmp_path), "cabinet", options))
     assert isinstance(result, Succeeded)
     assert {skipped.reason.value for skipped in result.report.skipped} == {"too complex"}

@@ -16,7 +16,7 @@ from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.graph.parse import parse_graph
-from grafu.metrics.motion import Agreement, Motion, compare_motions
+from grafu.metrics.motion import Motion, MotionAgreement, compare_motions
 from grafu.vocabulary import JointType, PartLabel
 
 MODELS = Path(os.environ.get("GRAFU_MODELS", Path(__file__).parents[2].parent / "shared" / "models")) / "pnm"
@@ -49,8 +49,8 @@ def found_motions(graph: FunctionalGraph) -> dict[str, Motion]:
     return found
 
 
-def agreements(masked: bool, ids: list[str]) -> list[Agreement]:
-    results: list[Agreement] = []
+def agreements(masked: bool, ids: list[str]) -> list[MotionAgreement]:
+    results: list[MotionAgreement] = []
     for name in ids:
         asset, graph = loaded(name)
         labels = {n.id: PartLabel.UNKNOWN for n in graph.nodes} if masked else {}

@@ -10,14 +10,14 @@ from grafu.errors import ExportError
 from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.methods import Method
 from grafu.evaluation.perform import perform
-from grafu.evaluation.records import NAME, MadeFacts, Row, append_rows, begin_rows, done, read_rows
+from grafu.evaluation.records import NAME, MadeFacts, ResultRow, append_rows, begin_rows, done, read_rows
 from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, TwinTask, _state_of, key_of
 from small_assets import write_pnm
 from spoiled_files import SPOILS
 
 
-def row(key: str, value: float = 1.0, error: str = "") -> Row:
-    return Row(key=key, task={"task": "made"}, seconds=0.1, error=error, facts=MadeFacts(features=(value,)))
+def row(key: str, value: float = 1.0, error: str = "") -> ResultRow:
+    return ResultRow(key=key, task={"task": "made"}, seconds=0.1, error=error, facts=MadeFacts(features=(value,)))
 
 
 def test_what_was_appended_is_read(tmp_path: Path) -> None:

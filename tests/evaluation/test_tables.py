@@ -18,20 +18,20 @@ from grafu.evaluation.motion_table import motion_table
 from grafu.evaluation.output import build_tables, ood_table, output_files
 from grafu.evaluation.records import (
     CompletenessRecord,
+    EvaluatedMotion,
+    EvaluatedPart,
     GraspRecord,
     MadeFacts,
     MeasureRecord,
     MethodFacts,
     ModelFacts,
-    MotionRecord,
-    PartRecord,
-    Row,
+    ResultRow,
     TruthRecord,
     TwinFacts,
 )
 from grafu.evaluation.result_tables import masking_table, models_table, static_table
 from grafu.evaluation.results import Results, collect
-from grafu.evaluation.table import FORMS, Column, Table, csv_text, json_text, latex, markdown
+from grafu.evaluation.table import FORMS, Column, ResultTable, csv_text, json_text, latex, markdown
 from grafu.evaluation.tasks import (
     TABLES,
     EvaluationPlan,
@@ -45,17 +45,17 @@ from grafu.evaluation.tasks import (
 )
 from grafu.vocabulary import JointType, PartLabel
 
-LEFT = MotionRecord(
+LEFT = EvaluatedMotion(
     type=JointType.REVOLUTE, point=(-0.5, -0.2, 0.0), direction=(0.0, 0.0, -1.0), center=(0.0, -0.2, 0.3)
 )
-RIGHT = MotionRecord(
+RIGHT = EvaluatedMotion(
     type=JointType.REVOLUTE, point=(0.5, -0.2, 0.0), direction=(0.0, 0.0, 1.0), center=(0.0, -0.2, 0.3)
 )
 MODELS = tuple(ModelRef(f"synth_1_{k:07d}", "made", seed=1, number=k) for k in range(3))
 RULE, NETWORK = Method("rule"), Method("network")
 
 
-def measure(found: MotionRecord | None = LEFT, *, aligned: bool = True, collision: float = 0.0, works: bool = True):
+def measure(found: EvaluatedMotion | None = LEFT, *, aligned: bool = True, collision: float = 0.0, works: bool = True):
     still = found is None
     return MeasureRecord(
         found=found,
@@ -69,7 +69,7 @@ def measure(found: MotionRecord | None = LEFT, *, aligned: bool = True, collisio
     )
 
 
-def facts(count: int, category: str = "Table") -> ModelFacts:
+def facts(count: int, category: str = "ResultTable") -> ModelFacts:
     parts = tuple(TruthRecord(part=f"door_{k}", label=PartLabel.DOOR, motion=LEFT, reference=1.5) for k in range(count))
     features = tuple(float(count + k) for k in range(len(FEATURE_NAMES)))
     return ModelFacts(category=category, parts=parts, fingerprint=(1.0,), features=features)
@@ -77,7 +77,7 @@ def facts(count: int, category: str = "Table") -> ModelFacts:
 
 def made_of(*measures: MeasureRecord, plausible: bool = False) -> MethodFacts:
     parts = tuple(
-        PartRecord(part=f"door_{k}", raw=m, fixed=m, plausible=plausible, skipped="" if m.found else "blocked: by x")
+        EvaluatedPart(part=f"door_{k}", raw=m, fixed=m, plausible=plausible, skipped="" if m.found else "blocked: by x")
         for k, m in enumerate(measures)
     )
     grasps = tuple(GraspRecord(part=f"door_{k}", before="none", after="handle") for k in range(len(measures)))
@@ -87,15 +87,15 @@ def made_of(*measures: MeasureRecord, plausible: bool = False) -> MethodFacts:
     )
 
 
-def row(task: Task, found=None, error: str = "") -> Row:
-    return Row(key=key_of(task), task=task.facts(), seconds=0.0, error=error, facts=found)
+def row(task: Task, found=None, error: str = "") -> ResultRow:
+    return ResultRow(key=key_of(task), task=task.facts(), seconds=0.0, error=error, facts=found)
 
 
-def run_of_three() -> dict[Task, Row]:
+def run_of_three() -> dict[Task, ResultRow]:
     """Returns one door that is right; four of which one is wrong; and a model on which the method failed."""
     wrong = measure(RIGHT, aligned=False, collision=0.5, works=False)
-    found: dict[Task, Row] = {}
-    for model, count, category in zip(MODELS, (1, 4, 2), ("Table", "Storage", "Storage"), strict=True):
+    found: dict[Task, ResultRow] = {}
+    for model, count, category in zip(MODELS, (1, 4, 2), ("ResultTable", "Storage", "Storage"), strict=True):
         task = ModelTask(model)
         found[task] = row(task, facts(count, category))
     for method in (RULE, NETWORK):
@@ -219,7 +219,7 @@ def test_the_farthest_models_come_first_with_their_nearest() -> None:
     assert {r[5] for r in table.rows} <= {f"synth_0_{k:07d}" for k in range(4)}
 
 
-TABLE = Table(
+TABLE = ResultTable(
     "odd",
     "A title with 100 % & more",
     (
@@ -270,6 +270,6 @@ def test_the_papers_rows_stand_beside_ours() -> None:
 
 def test_a_table_is_as_wide_as_its_columns() -> None:
     with pytest.raises(ValueError, match="2 cells"):
-        Table("t", "t", (Column("a", "A"), Column("b", "B")), (("x",),))
+        ResultTable("t", "t", (Column("a", "A"), Column("b", "B")), (("x",),))
     with pytest.raises(ValueError, match="different names"):
-        Table("t", "t", (Column("a", "A"), Column("a", "B")), ())
+        ResultTable("t", "t", (Column("a", "A"), Column("a", "B")), ())

@@ -13,7 +13,7 @@ from grafu.metrics.collision import largest_gaps
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, FaceFrame, Top
-from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Pair, Stack
 from grafu.synth.noise import edits
 from grafu.vocabulary import MechanismClass
 from judging import hardware, installed, made_kind, realized, realized_kind
@@ -110,7 +110,7 @@ def test_neighbours_on_one_divider_keep_their_hardware_apart():
 
 @pytest.mark.parametrize("degrees", [30.0, 180.0])
 def test_doors_may_face_any_way(degrees):
-    asset = yawed(make_cabinet(Cabinet(layout=Row((Door("right"), Door("left"))))), radians(degrees))
+    asset = yawed(make_cabinet(Cabinet(layout=CellRow((Door("right"), Door("left"))))), radians(degrees))
     result = realized(asset)
     for joint in asset.joints:
         outcome = installed(result)[joint.part]
@@ -148,7 +148,7 @@ def test_a_door_that_floats_before_its_case_is_held_by_hardware():
 
 SPECS = {
     "bowed doors on a divider": Cabinet(
-        case=Case(0.95, 0.6, 0.36), layout=Row((Door("right", "bowed"), Door("right", "bowed"))), gap=0.002
+        case=Case(0.95, 0.6, 0.36), layout=CellRow((Door("right", "bowed"), Door("right", "bowed"))), gap=0.002
     ),
     "bowed pair with a muntin in a frame": Cabinet(
         case=Case(0.6, 0.6, 0.3, frame=FaceFrame(0.04)), layout=Pair("bowed", "none", muntin=0.03), mount="inset"

@@ -13,7 +13,7 @@ from grafu.joints.plan import JointChoice
 from grafu.joints.realize import Realized, realize
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
-from grafu.synth.fronts.layout import Door, Drawer, Layout, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, Stack
 from judging import GALLERY, installed, realized
 
 LEFT, RIGHT = Door("left"), Door("right")
@@ -30,7 +30,7 @@ OUT_OF_IT: dict[str, tuple[Layout, ...]] = {
 
 
 def side_by_side(layouts: tuple[Layout, ...], mount: str) -> Asset:
-    return make_cabinet(Cabinet(case=Case(0.5 * len(layouts), 0.7), layout=Row(layouts), mount=mount))
+    return make_cabinet(Cabinet(case=Case(0.5 * len(layouts), 0.7), layout=CellRow(layouts), mount=mount))
 
 
 def meeting(result: Realized) -> list[tuple[str, str]]:

@@ -14,7 +14,7 @@ import pytest
 
 from descendants import SOON, survivors
 from grafu.processes.lifetime import scratch_folder
-from grafu.processes.limits import Ending, Limits, descendants, resident_bytes
+from grafu.processes.limits import Ending, ProcessLimits, descendants, resident_bytes
 from grafu.processes.worker import run_each
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the tests ask /proc")
@@ -74,7 +74,7 @@ def hang_with_a_child(path: str) -> None:
         sleep(1000)
 
 
-def endings(items: list[str], limits: Limits) -> dict[str, Ending]:
+def endings(items: list[str], limits: ProcessLimits) -> dict[str, Ending]:
     return {item: outcome.ending for item, outcome in run_each(items, 2, do, limits)}
 
 
@@ -88,35 +88,35 @@ def test_workers_serve_again() -> None:
 
 
 def test_a_death_is_of_one_item_alone() -> None:
-    found = endings(["a", "exit", "b", "crash", "c"], Limits())
+    found = endings(["a", "exit", "b", "crash", "c"], ProcessLimits())
     assert {item for item, ending in found.items() if ending is Ending.DIED} == {"exit", "crash"}
     assert [found[item] for item in "abc"] == [Ending.DONE] * 3
 
 
 def test_what_takes_too_long_is_stopped_alone() -> None:
-    found = endings(["a", "hang", "b"], Limits(seconds=3.0))
+    found = endings(["a", "hang", "b"], ProcessLimits(seconds=3.0))
     assert found == {"a": Ending.DONE, "hang": Ending.LATE, "b": Ending.DONE}
 
 
 def test_what_needs_too_much_is_stopped_alone() -> None:
-    found = endings(["a", "eat", "b"], Limits(memory=MEMORY))
+    found = endings(["a", "eat", "b"], ProcessLimits(memory=MEMORY))
     assert found == {"a": Ending.DONE, "eat": Ending.LARGE, "b": Ending.DONE}
 
 
 def test_one_request_beyond_all_memory_is_refused_at_once() -> None:
-    [(_, outcome)] = run_each(["gulp"], 1, do, Limits(memory=MEMORY))
+    [(_, outcome)] = run_each(["gulp"], 1, do, ProcessLimits(memory=MEMORY))
     assert outcome.results == ("refused",)
 
 
 def test_no_item_pays_for_the_memory_of_another() -> None:
-    found = [outcome for _, outcome in run_each(range(3), 1, keep, Limits(memory=MEMORY))]
+    found = [outcome for _, outcome in run_each(range(3), 1, keep, ProcessLimits(memory=MEMORY))]
     assert [outcome.ending for outcome in found] == [Ending.DONE] * 3
     assert len({outcome.results for outcome in found}) == 3  # a process each
 
 
 def test_with_a_process_goes_what_it_started(tmp_path: Path) -> None:
     report = tmp_path / "a"
-    [(_, outcome)] = run_each([str(report)], 1, hang_with_a_child, Limits(seconds=3.0))
+    [(_, outcome)] = run_each([str(report)], 1, hang_with_a_child, ProcessLimits(seconds=3.0))
     child, process, folder = report.read_text().split()
     assert outcome.ending is Ending.LATE
     assert survivors([int(child), int(process)], 5.0) == []
@@ -181,4 +181,4 @@ def test_memory_is_what_is_touched() -> None:
 @pytest.mark.parametrize("limits", [{"seconds": 0.0}, {"memory": -1}])
 def test_limits_are_above_nothing(limits: dict[str, float]) -> None:
     with pytest.raises(ValueError, match="above 0"):
-        Limits(**limits)  # type: ignore[arg-type]
+        ProcessLimits(**limits)  # type: ignore[arg-type]

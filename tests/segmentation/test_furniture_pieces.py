@@ -5,11 +5,11 @@ import pytest
 
 from furniture_rooms import Boxes, cabinet, furnished_room, hutch_on_sideboard, meshes_of, room, table
 from grafu.geometry.mesh import merge_meshes
-from grafu.segmentation.furniture_pieces import ALONE, FLOOR_OR_WALL, Shells, furniture_pieces
+from grafu.segmentation.furniture_pieces import ALONE, FLOOR_OR_WALL, SceneShells, furniture_pieces
 
 
 def pieces_of(boxes: Boxes) -> dict[str, int]:
-    return dict(zip(boxes, furniture_pieces(Shells.of(meshes_of(boxes))).tolist(), strict=True))
+    return dict(zip(boxes, furniture_pieces(SceneShells.of(meshes_of(boxes))).tolist(), strict=True))
 
 
 def count_of(boxes: Boxes) -> int:
@@ -116,7 +116,7 @@ def test_one_mesh_of_several_pieces_is_told_apart_by_its_shells() -> None:
         merge_meshes(meshes_of({n: b for n, b in {**left, **right}.items() if ("handle" in n) is handles}))
         for handles in (False, True)
     ]
-    shells = Shells.of(by_material)
+    shells = SceneShells.of(by_material)
     found = furniture_pieces(shells)
     middle = np.array([mesh.box.center[0] for mesh in shells.meshes])
     assert (found == (middle > 0)).all()
@@ -124,4 +124,4 @@ def test_one_mesh_of_several_pieces_is_told_apart_by_its_shells() -> None:
 
 def test_one_mesh_of_pieces_that_touch_is_not_cut() -> None:
     row = {**cabinet("a", (-0.4, 0, 0)), **cabinet("b", (0.4, 0, 0))}
-    assert set(furniture_pieces(Shells.of([merge_meshes(meshes_of(row))])).tolist()) == {0}
+    assert set(furniture_pieces(SceneShells.of([merge_meshes(meshes_of(row))])).tolist()) == {0}

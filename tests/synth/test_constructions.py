@@ -16,10 +16,10 @@ from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Back, Base, Bottom, FaceFrame, Top
 from grafu.synth.case.legs import Leg
 from grafu.synth.fronts.hold import Inside
-from grafu.synth.fronts.layout import Bay, Blank, Door, Drawer, Pair, Stack, Tilt
+from grafu.synth.fronts.layout import Blank, Door, Drawer, OpenCell, Pair, Stack, Tilt
 from grafu.synth.pieces.finish import PLAIN
 from grafu.synth.tables.desk import Desk
-from grafu.synth.tables.table import Table
+from grafu.synth.tables.table import DrawerTable
 from grafu.vocabulary import PartLabel
 from strategies import made as made_of_strategies
 from sweeping import collisions, joint_motion
@@ -73,7 +73,7 @@ def test_solids_are_closed_and_sheets_are_flat(name):
 
 
 def labels(case):
-    asset = make_cabinet(Cabinet(case=case, layout=Bay()))
+    asset = make_cabinet(Cabinet(case=case, layout=OpenCell()))
     return {p.id: p.label for p in asset.parts}
 
 
@@ -96,13 +96,13 @@ def test_a_framed_kitchen_cabinet_has_bars_for_its_frame():
 
 
 def test_edge_strips_have_no_thickness_and_a_sheet_bottom_neither():
-    asset = make_cabinet(Cabinet(case=Case(frame=FaceFrame(kind="strips"), bottom=Bottom("sheet")), layout=Bay()))
+    asset = make_cabinet(Cabinet(case=Case(frame=FaceFrame(kind="strips"), bottom=Bottom("sheet")), layout=OpenCell()))
     assert asset.part("edge_strip_1").box.size.min() == pytest.approx(0.0)
     assert asset.part("bottom_panel").box.size[2] == pytest.approx(0.0)
 
 
 def test_posts_run_from_the_floor_to_the_top():
-    asset = make_cabinet(Cabinet(case=Case(base=Base("posts", 0.3, Leg("square", 0.04))), layout=Bay()))
+    asset = make_cabinet(Cabinet(case=Case(base=Base("posts", 0.3, Leg("square", 0.04))), layout=OpenCell()))
     assert asset.part("leg_1").box.size[2] == pytest.approx(0.72)
     assert asset.part("side_panel_left").box.low[2] == pytest.approx(0.3)
 
@@ -151,7 +151,7 @@ def test_bands_are_left_out_behind_inset_fronts_and_on_glass(spec):
 
 def test_baskets_are_misc_of_few_faces():
     for basket in ("wire", "rack"):
-        asset = make_cabinet(Cabinet(layout=Bay(0, Inside(basket=basket))))
+        asset = make_cabinet(Cabinet(layout=OpenCell(0, Inside(basket=basket))))
         part = asset.part(f"{basket}_basket")
         assert part.label is PartLabel.MISC
         assert len(part.mesh.faces) <= 300
@@ -258,13 +258,13 @@ def test_no_base_has_no_pieces():
         lambda: Inside(dividers=-1),
         lambda: Inside(setback=-0.01),
         lambda: Cabinet(ratio=0.9),
-        lambda: Table(leg=0.4),
+        lambda: DrawerTable(leg=0.4),
         lambda: Desk(left=Drawer(), wing=0.8),
         lambda: Desk(width=0.7, left=Drawer()),
         lambda: Rack(height=0.7),
         lambda: Bureau(shelf=0.6),
         lambda: Bureau(flap=Door()),
-        lambda: Table(rails=0.05),
+        lambda: DrawerTable(rails=0.05),
         lambda: InnerCorner(along_x=0.6),
     ],
 )

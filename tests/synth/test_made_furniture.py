@@ -9,9 +9,9 @@ from grafu.synth.cabinets.chest import Chest, make_chest
 from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, FaceFrame
-from grafu.synth.fronts.layout import Door, Drawer, Pair, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Pair, Stack
 from grafu.synth.tables.desk import Desk, make_desk
-from grafu.synth.tables.table import Table, make_table
+from grafu.synth.tables.table import DrawerTable, make_table
 from grafu.vocabulary import JointType, PartLabel
 from strategies import furniture_specs, made
 from sweeping import collisions
@@ -94,7 +94,7 @@ def test_overlay_fronts_cover_the_case_and_inset_fronts_lie_in_it():
 
 
 def test_half_overlay_doors_share_their_divider():
-    asset = make_cabinet(Cabinet(layout=Row((Door("right"), Door("left"))), gap=0.002))
+    asset = make_cabinet(Cabinet(layout=CellRow((Door("right"), Door("left"))), gap=0.002))
     divider, left, right = (asset.part(i).box for i in ("divider", "door_1", "door_2"))
     assert right.low[0] - left.high[0] == pytest.approx(0.002)
     assert divider.low[0] < left.high[0] < right.low[0] < divider.high[0]
@@ -126,7 +126,7 @@ def test_drawer_boxes_have_the_boards_that_they_promise(box):
 
 
 def test_a_face_frame_narrows_the_opening_and_carries_a_bar_before_each_partition():
-    layout = Row((Door(), Drawer()))
+    layout = CellRow((Door(), Drawer()))
     asset = make_cabinet(Cabinet(case=Case(frame=FaceFrame(0.04)), layout=layout, mount="inset"))
     assert asset.part("face_frame").label is PartLabel.FACE_FRAME
     assert asset.part("face_frame_bar").box.size[0] == pytest.approx(0.04)
@@ -149,7 +149,7 @@ def test_a_moulding_juts_out_before_the_doors_and_limits_a_flap():
 
 
 def test_a_two_sided_table_has_drawers_that_leave_it_on_both_sides():
-    table = make_table(Table(two_sided=True))
+    table = make_table(DrawerTable(two_sided=True))
     directions = sorted(round(float(j.axis.direction[1])) for j in table.joints)
     assert directions == [-1, -1, 1, 1]
 
@@ -181,11 +181,11 @@ def test_the_same_spec_gives_the_same_asset():
     [
         lambda: Case(width=0.03),
         lambda: Case(height=0.1, base=Base("plinth")),
-        lambda: Row(()),
+        lambda: CellRow(()),
         lambda: Stack((Door(), Door()), (1.0,)),
         lambda: Stack((Door(), Door()), (1.0, -1.0)),
         lambda: CornerCabinet(along_x=0.3),
-        lambda: make_cabinet(Cabinet(layout=Row((Door(),) * 60))),
+        lambda: make_cabinet(Cabinet(layout=CellRow((Door(),) * 60))),
     ],
 )
 def test_a_spec_without_room_is_refused(spec):

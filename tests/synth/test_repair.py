@@ -9,12 +9,12 @@ from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Top
 from grafu.synth.families.table import Blueprint, make_furniture
 from grafu.synth.fronts.hold import Hold
-from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Stack
 from grafu.synth.repair import repaired, with_bare_fronts_held
 from grafu.synth.truth.check import faults_of
 from grafu.vocabulary import PartLabel
 
-BARE = Row((Door(handle="none", behind=Stack((Drawer(handle="none"),) * 2)), Drawer(handle="none"), Drawer()))
+BARE = CellRow((Door(handle="none", behind=Stack((Drawer(handle="none"),) * 2)), Drawer(handle="none"), Drawer()))
 
 
 def repair(spec: Cabinet | Chest, seed: int = 0) -> tuple[list[str], object]:
@@ -61,23 +61,23 @@ def test_a_lid_is_top_enough() -> None:
 
 
 def test_only_bare_fronts_are_changed() -> None:
-    spec = with_bare_fronts_held(Row((Door(), Door(handle="none"), Door(handle="none", grip="lip"))), "knob-flat")
+    spec = with_bare_fronts_held(CellRow((Door(), Door(handle="none"), Door(handle="none", grip="lip"))), "knob-flat")
 
     assert [cell.handle for cell in spec.cells] == [Door().handle, "knob-flat", "none"]
 
 
 def test_bare_fronts_carry_their_handles_where_they_are_told_to() -> None:
     hold = Hold(place="top edge")
-    spec = with_bare_fronts_held(Row((Door(), Door(handle="none"))), "knob-flat", hold)
+    spec = with_bare_fronts_held(CellRow((Door(), Door(handle="none"))), "knob-flat", hold)
 
     assert [cell.hold for cell in spec.cells] == [Door().hold, hold]
 
 
 def test_where_no_front_has_a_handle_they_come_where_most_are() -> None:
     odd = Hold(place="bottom edge", along=0.2)
-    bare = Row((Door(handle="none", hold=odd), Door(handle="none", hold=odd)))
+    bare = CellRow((Door(handle="none", hold=odd), Door(handle="none", hold=odd)))
     _, whole = repair(Cabinet(layout=bare))
-    _, usual = repair(Cabinet(layout=Row((Door(handle="none"), Door(handle="none")))))
+    _, usual = repair(Cabinet(layout=CellRow((Door(handle="none"), Door(handle="none")))))
 
     def places(asset: object) -> list[list[float]]:
         return [p.box.center.round(6).tolist() for p in asset.parts if p.label is PartLabel.HANDLE]  # type: ignore[attr-defined]

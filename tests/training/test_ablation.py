@@ -16,9 +16,9 @@ from grafu.training.ablation import (
     FOLDS_TRIED,
     FULL,
     MEAN,
+    AblationResult,
     Experiment,
     FirstModels,
-    Result,
     csv_table,
     experiments,
     markdown_table,
@@ -87,9 +87,9 @@ def test_every_config_can_be_varied() -> None:
     assert all(len(experiments(kind, LITTLE)) == count for kind, count in (("losses", 15), ("folds", 6)))
 
 
-def result(name: str, value: float, seed: int = 1, **others: float) -> Result:
+def result(name: str, value: float, seed: int = 1, **others: float) -> AblationResult:
     figures = {f"{variant}/{f.name}": value for variant in VARIANTS for f in fields(GraphAccuracy)}
-    return Result(Experiment(name, f"{name} in words", LITTLE), seed, figures | {"score": value} | others)
+    return AblationResult(Experiment(name, f"{name} in words", LITTLE), seed, figures | {"score": value} | others)
 
 
 def cells(table: str, row: int) -> list[str]:

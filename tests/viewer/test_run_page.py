@@ -7,15 +7,15 @@ from page_reader import PageReader
 from grafu.pipeline.report_schema import NOT_ADDED, SkippedRecord
 from grafu.refusal import Reason
 from grafu.viewer.run_page import binned, run_page
-from grafu.viewer.run_table import Column, Figure, Run, RunEntry, RunRow, RunTable, functionalized_run
+from grafu.viewer.run_table import Run, RunColumn, RunEntry, RunFigure, RunRow, RunTable, functionalized_run
 
 REASONS = (*Reason, NOT_ADDED)
 COLUMNS = (
-    Column("model"),
-    Column("note"),
-    Column("ratio", "percent", histogram=True),
-    Column("count", "number", histogram=True),
-    Column("time", "seconds"),
+    RunColumn("model"),
+    RunColumn("note"),
+    RunColumn("ratio", "percent", histogram=True),
+    RunColumn("count", "number", histogram=True),
+    RunColumn("time", "seconds"),
 )
 
 
@@ -30,7 +30,7 @@ ROWS = (
     row("a b#1", "apple", 1.0, 100, 2.5, 2.0),
     *(row(f"c{k}", f"n{k}", k / 10, k, float(k), -1.0) for k in range(6)),
 )
-RUN = Run("A run", (Figure("10", "models"), Figure("1", "failed", True)), (RunTable("Models", COLUMNS, ROWS),))
+RUN = Run("A run", (RunFigure("10", "models"), RunFigure("1", "failed", True)), (RunTable("Models", COLUMNS, ROWS),))
 
 
 def names(read):
@@ -142,10 +142,10 @@ def test_tables_check_their_rows():
 
 
 def test_values_are_written_as_people_read_them():
-    assert Column("a", "percent").words(0.1234) == "12.3 %"
-    assert Column("a", "number").words(7) == "7"
-    assert Column("a", "number").words(0.07512) == "0.0751"
-    assert Column("a").words(None) == "–"
+    assert RunColumn("a", "percent").words(0.1234) == "12.3 %"
+    assert RunColumn("a", "number").words(7) == "7"
+    assert RunColumn("a", "number").words(0.07512) == "0.0751"
+    assert RunColumn("a").words(None) == "–"
 
 
 @pytest.mark.parametrize("values", [[3.0, 3.0], [0.0, 1.0, 1.0, 5.0], [0.25, 0.5, 9.75], [-1e9, 1e9]])

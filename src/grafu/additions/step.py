@@ -119,7 +119,7 @@ class PanelHint:
 
 @final
 @dataclass(frozen=True)
-class Request:
+class StepRequest:
     """What a run knows that a scene does not say; the same for all steps.
 
     `plan` are the joints to build, `drawers` states what counts as a drawer, for joints and additions alike. `names`

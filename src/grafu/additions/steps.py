@@ -12,7 +12,7 @@ from grafu.additions.config import AdditionConfig
 from grafu.additions.drawer_box.complete import add_drawer_boxes
 from grafu.additions.handle.step import FrontConfig, add_chosen, add_grasps, clear_fronts
 from grafu.additions.interior.turned import InteriorChoice, add_panels
-from grafu.additions.step import Request, StepResult
+from grafu.additions.step import StepRequest, StepResult
 from grafu.additions.top.step import TopChoice, add_tops
 from grafu.scene.scene import Scene
 
@@ -26,7 +26,7 @@ class Step:
     """
 
     name: str
-    add: Callable[[Scene, Request, AdditionConfig], StepResult]
+    add: Callable[[Scene, StepRequest, AdditionConfig], StepResult]
     is_chosen: bool = False
 
 
@@ -51,7 +51,7 @@ ON_FRONTS = (
 INSIDE = (Step("interiors", lambda scene, asked, config: add_panels(scene, asked, _interior(config))),)
 
 
-def run_steps(steps: Iterable[Step], scene: Scene, request: Request, config: AdditionConfig) -> StepResult:
+def run_steps(steps: Iterable[Step], scene: Scene, request: StepRequest, config: AdditionConfig) -> StepResult:
     """Returns what all steps made, one after the other; what one adds to a moving part, the next knows of.
 
     Raises:

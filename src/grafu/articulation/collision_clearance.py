@@ -25,7 +25,7 @@ Shapes = dict[str, tuple[CollisionShape, ...]]
 
 @final
 @dataclass(frozen=True, slots=True)
-class ClearanceConfig:
+class ShapeClearanceConfig:
     """How shapes give way; lengths in metres.
 
     Each motion is looked at in `poses` poses. A cut leaves `margin`; where a shape would keep less than `least_ratio`
@@ -40,7 +40,7 @@ class ClearanceConfig:
     rounds: int = 4
 
 
-DEFAULT_CLEARANCE_CONFIG = ClearanceConfig()
+DEFAULT_CLEARANCE_CONFIG = ShapeClearanceConfig()
 _REST: Mat4 = np.eye(4)
 
 
@@ -82,7 +82,7 @@ class _Conflict:
 def cleared(
     articulated: ArticulatedObject,
     shapes: Mapping[str, tuple[CollisionShape, ...]],
-    config: ClearanceConfig = DEFAULT_CLEARANCE_CONFIG,
+    config: ShapeClearanceConfig = DEFAULT_CLEARANCE_CONFIG,
 ) -> Shapes:
     """Returns the shapes of each link, cut back or left out so that no joint's motion makes two links meet.
 
@@ -176,7 +176,9 @@ def _bounds_of_other(motion: _JointPath, body: ShapeBody) -> np.ndarray:
     return body.bounds if T is None else body.bounds_at(T[None])[0]
 
 
-def _resolved(bodies: list[ShapeBody], conflicts: list[_Conflict], config: ClearanceConfig | None) -> list[ShapeBody]:
+def _resolved(
+    bodies: list[ShapeBody], conflicts: list[_Conflict], config: ShapeClearanceConfig | None
+) -> list[ShapeBody]:
     """Returns the bodies after one cut per conflict; with no config one of the two is left out instead.
 
     A body that has been cut already waits for the next round: the cut may have settled its other conflicts.
@@ -197,7 +199,7 @@ def _left_out(conflict: _Conflict) -> ShapeBody:
     return min(conflict.moving, conflict.still, key=lambda body: extent_of(body.shape))
 
 
-def _cut(conflict: _Conflict, config: ClearanceConfig) -> tuple[ShapeBody, CollisionShape | None]:
+def _cut(conflict: _Conflict, config: ShapeClearanceConfig) -> tuple[ShapeBody, CollisionShape | None]:
     """Returns the body that gives way and what is left of it: whatever takes the least surface away."""
     moving, still = conflict.moving, conflict.still
     onto_moving = np.vstack([transform_points(T, still.corners) for T in conflict.Ts_moving_still])
@@ -213,7 +215,7 @@ def _loss(body: ShapeBody, rest: CollisionShape | None) -> float:
     return extent_of(body.shape) - (0.0 if rest is None else extent_of(rest))
 
 
-def _cut_back(shape: CollisionShape, obstacle: Points, config: ClearanceConfig) -> CollisionShape | None:
+def _cut_back(shape: CollisionShape, obstacle: Points, config: ShapeClearanceConfig) -> CollisionShape | None:
     """Returns the largest rest of a shape on one side of the box around the obstacle, if it is worth keeping."""
     R = shape.rotation if isinstance(shape, OrientedBox) else np.eye(3)
     own, local = corners_of(shape) @ R, obstacle @ R

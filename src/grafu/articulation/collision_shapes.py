@@ -13,7 +13,13 @@ import fcl
 import numpy as np
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
-from grafu.articulation.convex_pieces import DEFAULT_PIECE_CONFIG, PieceConfig, convex_pieces, few_corners, hull_of
+from grafu.articulation.convex_pieces import (
+    DEFAULT_PIECE_CONFIG,
+    ConvexPieceConfig,
+    convex_pieces,
+    few_corners,
+    hull_of,
+)
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
 from grafu.geometry.box import Box, OrientedBox, yaw_of
 from grafu.geometry.components import clustered
@@ -28,7 +34,7 @@ _DENSE = 500  # faces: fewer are not worth simplifying
 
 @final
 @dataclass(frozen=True, slots=True)
-class CollisionConfig:
+class CollisionShapeConfig:
     """How collision shapes are made; lengths in metres.
 
     Every side of a shape moves in by `margin`, so that parts that touch at rest do not push one another. No shape is
@@ -44,13 +50,13 @@ class CollisionConfig:
     resolution: float = 0.001
     most_shapes: int = 48
     most_corners: int = 48
-    pieces: PieceConfig = DEFAULT_PIECE_CONFIG
+    pieces: ConvexPieceConfig = DEFAULT_PIECE_CONFIG
 
 
-DEFAULT_COLLISION_CONFIG = CollisionConfig()
+DEFAULT_COLLISION_CONFIG = CollisionShapeConfig()
 
 
-def shapes_of(visual: Visual, config: CollisionConfig = DEFAULT_COLLISION_CONFIG) -> list[CollisionShape]:
+def shapes_of(visual: Visual, config: CollisionShapeConfig = DEFAULT_COLLISION_CONFIG) -> list[CollisionShape]:
     """Returns the collision shapes of one part in the object frame at rest; none of hardware that carries none."""
     mesh = visual.mesh
     if not len(mesh.faces) or not _collides(visual):
@@ -63,7 +69,7 @@ def shapes_of(visual: Visual, config: CollisionConfig = DEFAULT_COLLISION_CONFIG
     return [shape for shape in made if shape is not None]
 
 
-def box_of(visual: Visual, config: CollisionConfig = DEFAULT_COLLISION_CONFIG) -> list[CollisionShape]:
+def box_of(visual: Visual, config: CollisionShapeConfig = DEFAULT_COLLISION_CONFIG) -> list[CollisionShape]:
     """Returns one box around a part, turned about Z as it is: its shape where there is no time to look at it."""
     if not len(visual.mesh.faces) or not _collides(visual):
         return []
@@ -73,8 +79,8 @@ def box_of(visual: Visual, config: CollisionConfig = DEFAULT_COLLISION_CONFIG) -
 
 def collision_shapes(
     link: Link,
-    config: CollisionConfig = DEFAULT_COLLISION_CONFIG,
-    of_part: Callable[[Visual, CollisionConfig], list[CollisionShape]] = shapes_of,
+    config: CollisionShapeConfig = DEFAULT_COLLISION_CONFIG,
+    of_part: Callable[[Visual, CollisionShapeConfig], list[CollisionShape]] = shapes_of,
 ) -> tuple[CollisionShape, ...]:
     """Returns the collision shapes of a link in the object frame at rest, the largest first.
 
@@ -106,7 +112,7 @@ def _collides(visual: Visual) -> bool:
     return visual.role is not VisualRole.HARDWARE or visual.name.startswith("support_")
 
 
-def _fineness(label: PartLabel, config: CollisionConfig) -> PieceConfig:
+def _fineness(label: PartLabel, config: CollisionShapeConfig) -> ConvexPieceConfig:
     if label in (PartLabel.LEG, PartLabel.BAR):  # nothing reaches inside, and turned legs would fall into many slices
         return replace(config.pieces, cuts=False)
     tolerance = min(config.pieces.tolerance, config.grip) if label is PartLabel.HANDLE else config.pieces.tolerance
@@ -117,7 +123,7 @@ def _yaw_rotation(points: Points) -> Mat3:
     return rotation_matrix(np.array([0.0, 0.0, 1.0]), yaw_of(points))
 
 
-def _shape_around(points: Points, R: Mat3, config: CollisionConfig) -> CollisionShape | None:
+def _shape_around(points: Points, R: Mat3, config: CollisionShapeConfig) -> CollisionShape | None:
     """Returns the box or hull around points; boxes are tried along `R` and along the points' own yaw."""
     hull = hull_of(points, config.least_thickness)
     if hull is None:
@@ -135,12 +141,12 @@ def _rotations(R: Mat3, points: Points) -> Iterator[Mat3]:
     yield _yaw_rotation(points)
 
 
-def _smaller(half: Vec3, config: CollisionConfig) -> Vec3:
+def _smaller(half: Vec3, config: CollisionShapeConfig) -> Vec3:
     """Returns half sizes less the margin, never below the least thickness."""
     return np.maximum(half - config.margin, config.least_thickness / 2)
 
 
-def _smaller_hull(hull: ConvexSolid, R: Mat3, config: CollisionConfig) -> ConvexSolid | None:
+def _smaller_hull(hull: ConvexSolid, R: Mat3, config: CollisionShapeConfig) -> ConvexSolid | None:
     local = few_corners(hull.vertices, config.most_corners) @ R
     box = Box.around(local)
     factor = np.minimum(1.0, _smaller(box.half, config) / np.maximum(box.half, 1e-9))

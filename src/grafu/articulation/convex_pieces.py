@@ -35,7 +35,7 @@ _TRIES = 4  # walls of one pit that are tried for a clean cut
 
 @final
 @dataclass(frozen=True, slots=True)
-class PieceConfig:
+class ConvexPieceConfig:
     """How finely a mesh is taken apart.
 
     Raises:
@@ -57,10 +57,10 @@ class PieceConfig:
         require_positive(self, "tolerance", "most", "past_wall", "speck")
 
 
-DEFAULT_PIECE_CONFIG = PieceConfig()
+DEFAULT_PIECE_CONFIG = ConvexPieceConfig()
 
 
-def convex_pieces(mesh: TriangleMesh, config: PieceConfig = DEFAULT_PIECE_CONFIG) -> list[TriangleMesh]:
+def convex_pieces(mesh: TriangleMesh, config: ConvexPieceConfig = DEFAULT_PIECE_CONFIG) -> list[TriangleMesh]:
     """Returns nearly convex pieces of a mesh: one where it has no pits, else its parts, cut along axis planes.
 
     Specks of a few millimetres are left out, except where there is nothing else.
@@ -92,7 +92,7 @@ class _Piece:
     """A mesh and, where it bounds a solid, that solid: what is cut from a solid stays one."""
 
     mesh: TriangleMesh
-    config: PieceConfig
+    config: ConvexPieceConfig
     solid: Any = None  # a manifold3d.Manifold
 
     @cached_property

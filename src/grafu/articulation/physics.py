@@ -14,8 +14,14 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
-from grafu.articulation.collision_clearance import ClearanceConfig, cleared
-from grafu.articulation.collision_shapes import CollisionConfig, CollisionShape, box_of, collision_shapes, shapes_of
+from grafu.articulation.collision_clearance import ShapeClearanceConfig, cleared
+from grafu.articulation.collision_shapes import (
+    CollisionShape,
+    CollisionShapeConfig,
+    box_of,
+    collision_shapes,
+    shapes_of,
+)
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link, moments_of, moments_of_box
 from grafu.articulation.open_together import met_at_rest, near_at_rest
@@ -104,8 +110,8 @@ class PhysicsConfig(ShortRepr):
     """How masses, collision shapes and the resistance of joints are found."""
 
     mass: MassConfig = field(default_factory=MassConfig)
-    collision: CollisionConfig = field(default_factory=CollisionConfig)
-    clearance: ClearanceConfig = field(default_factory=ClearanceConfig)
+    collision: CollisionShapeConfig = field(default_factory=CollisionShapeConfig)
+    clearance: ShapeClearanceConfig = field(default_factory=ShapeClearanceConfig)
     dynamics: DynamicsConfig = field(default_factory=DynamicsConfig)
 
 

@@ -43,7 +43,7 @@ class SlidingDoorConfig:
 
 @final
 @dataclass(frozen=True)
-class Visual:
+class BodyVisual:
     """One named piece of a body, in the input's coordinates with every joint as drawn.
 
     `group` names the door or drawer that it is a piece of where names say so, as a scene's nodes do.
@@ -88,7 +88,7 @@ class Body:
 
     name: str
     link: str
-    visuals: tuple[Visual, ...]
+    visuals: tuple[BodyVisual, ...]
     motion: StatedMotion | None = None
     parent: str | None = None
     is_loose: bool = False
@@ -102,13 +102,13 @@ class _Draft:
     name: str
     label: PartLabel
     labelled_by: str
-    visuals: tuple[Visual, ...]
+    visuals: tuple[BodyVisual, ...]
     carrier: str | None = None
     motion: StatedMotion | None = None
     is_moving: bool = False
 
 
-def drafts_of_visuals(visuals: Iterable[Visual]) -> list[PartDraft]:
+def drafts_of_visuals(visuals: Iterable[BodyVisual]) -> list[PartDraft]:
     """Returns every visual as a piece of its own, whatever body it belongs to: what a file without joints holds."""
     filled = (v for v in visuals if any(not surface.is_empty for surface in v.surfaces))
     return [
@@ -178,14 +178,14 @@ def _moving(body: Body, carrier: str | None, up: int) -> list[_Draft]:
     return drafts
 
 
-def _moving_label(body: Body, rest: tuple[Visual, ...], up: int) -> tuple[PartLabel, str]:
+def _moving_label(body: Body, rest: tuple[BodyVisual, ...], up: int) -> tuple[PartLabel, str]:
     """Returns whether a moving body is a door or a drawer, and what states it: its names, or else its joint."""
     spoken = _spoken_label(body, rest)
     stated = spoken if body.motion is None else _label_of_motion(spoken, rest, body.motion, up)
     return stated, "name" if stated is spoken else "joint"
 
 
-def _spoken_label(body: Body, rest: tuple[Visual, ...]) -> PartLabel:
+def _spoken_label(body: Body, rest: tuple[BodyVisual, ...]) -> PartLabel:
     """Returns the label that most names of a body give, of door and drawer; `unknown` where none states either."""
     names = (body.name, *(v.name for v in rest))
     spoken = Counter(label_of(name) for name in names)
@@ -195,7 +195,7 @@ def _spoken_label(body: Body, rest: tuple[Visual, ...]) -> PartLabel:
     return PartLabel.DOOR if sliding else PartLabel.UNKNOWN
 
 
-def _label_of_motion(spoken: PartLabel, rest: tuple[Visual, ...], motion: StatedMotion, up: int) -> PartLabel:
+def _label_of_motion(spoken: PartLabel, rest: tuple[BodyVisual, ...], motion: StatedMotion, up: int) -> PartLabel:
     """Returns what a body is by its joint: what turns is a door, whatever it is called; names tell slides apart."""
     if motion_kind(motion.type).turns:
         return motion_kind(motion.type).label
@@ -205,7 +205,7 @@ def _label_of_motion(spoken: PartLabel, rest: tuple[Visual, ...], motion: Stated
 
 
 def _slides_in_its_plane(
-    visuals: tuple[Visual, ...], motion: StatedMotion, up: int, config: SlidingDoorConfig = SlidingDoorConfig()
+    visuals: tuple[BodyVisual, ...], motion: StatedMotion, up: int, config: SlidingDoorConfig = SlidingDoorConfig()
 ) -> bool:
     """Whether the motion shifts an upright plate along itself: a sliding door, not a drawer or a tray."""
     size = merge_meshes([s.mesh for v in visuals for s in v.surfaces]).box.size

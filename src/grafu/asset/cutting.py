@@ -19,7 +19,7 @@ from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.geometry.arrays import Indices, Mat4
 from grafu.geometry.config_checks import require_ratios
-from grafu.segmentation.division import Piece, divided
+from grafu.segmentation.division import FacePiece, divided
 from grafu.segmentation.joining import joined_objects
 from grafu.vocabulary import PartLabel
 
@@ -121,7 +121,7 @@ def _turn(frame: Frame) -> Mat4:
     return T
 
 
-def _ids(pieces: list[tuple[Part, Piece | None]]) -> list[str]:
+def _ids(pieces: list[tuple[Part, FacePiece | None]]) -> list[str]:
     """Returns an id for each piece; parts that are not cut, and what is left of those that are, keep theirs."""
     order = sorted(range(len(pieces)), key=lambda k: _is_new(pieces[k][1]))
     found = unique_ids((_stem(*pieces[k]), _is_handle(*pieces[k])) for k in order)
@@ -129,7 +129,7 @@ def _ids(pieces: list[tuple[Part, Piece | None]]) -> list[str]:
     return [named[k] for k in range(len(pieces))]
 
 
-def _is_new(piece: Piece | None) -> bool:
+def _is_new(piece: FacePiece | None) -> bool:
     return piece is not None and piece.role in ("front", "handle")
 
 
@@ -138,15 +138,15 @@ def _freed(part: Part, cut: set[str]) -> Part:
     return replace(part, carried_by=None) if part.carried_by in cut else part
 
 
-def _stem(part: Part, piece: Piece | None) -> str:
+def _stem(part: Part, piece: FacePiece | None) -> str:
     return part.id if piece is None or not _is_new(piece) else f"{part.id}_{piece.role}"
 
 
-def _is_handle(part: Part, piece: Piece | None) -> bool:
+def _is_handle(part: Part, piece: FacePiece | None) -> bool:
     return piece is None and part.label is PartLabel.HANDLE
 
 
-def _part(part: Part, piece: Piece | None, name: str) -> Part:
+def _part(part: Part, piece: FacePiece | None, name: str) -> Part:
     if piece is None:
         return replace(part, id=name)
     keeps = piece.role == "body" or (part.label.is_movable == (piece.role == "front") and piece.role != "handle")
@@ -154,7 +154,7 @@ def _part(part: Part, piece: Piece | None, name: str) -> Part:
     return replace(part, id=name, surfaces=faces_of_part(part, piece.faces), label=label, labelled_by=by)
 
 
-def _named(part: Part, piece: Piece | None, model: str, T: Mat4, config: CutConfig) -> Part:
+def _named(part: Part, piece: FacePiece | None, model: str, T: Mat4, config: CutConfig) -> Part:
     """Returns a new front as a door where object or model are called an oven, a refrigerator or the like.
 
     It must be too high for a drawer or a control panel; `T` turns it upright.
@@ -168,7 +168,7 @@ def _named(part: Part, piece: Piece | None, model: str, T: Mat4, config: CutConf
     return part
 
 
-def _note(part: Part, pieces: list[Piece]) -> str:
+def _note(part: Part, pieces: list[FacePiece]) -> str:
     counts = Counter(piece.role for piece in pieces)
     found = [f"{counts[role]} {role}{'s' if counts[role] > 1 else ''}" for role in ("front", "handle") if counts[role]]
     if counts["body"]:

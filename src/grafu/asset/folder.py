@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from grafu.articulation.motion_kind import kind_named
-from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies
+from grafu.asset.bodies import Body, BodyVisual, StatedMotion, annotation_of_bodies
 from grafu.asset.drafts import PartDraft, parts_of_drafts
 from grafu.asset.loose import shell_count
 from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
@@ -50,12 +50,14 @@ def read_sweethome(path: Path, found: MeshFile) -> Reading:
         if match and piece.surfaces:
             moving.setdefault(_key(match), []).append(piece)
         elif piece.surfaces and piece not in guides.values():
-            bodies.append(Body(piece.name, piece.name, (Visual(piece.name, piece.surfaces, piece.name, path.name),)))
+            bodies.append(
+                Body(piece.name, piece.name, (BodyVisual(piece.name, piece.surfaces, piece.name, path.name),))
+            )
     for key, pieces in moving.items():
         motion = _motion(key[0], guides.get(key))
         if motion is None:
             notes.append(f"{pieces[0].name} names no {key[0]} group {key[1]}: kept in place")
-        visuals = tuple(Visual(p.name, p.surfaces, pieces[0].name, path.name) for p in pieces)
+        visuals = tuple(BodyVisual(p.name, p.surfaces, pieces[0].name, path.name) for p in pieces)
         bodies.append(Body(pieces[0].name, pieces[0].name, visuals, motion))
     solid = [piece for piece in found.pieces if piece.surfaces and piece not in guides.values()]
     parts = parts_of_drafts([_draft(piece, path.name) for piece in solid])

@@ -17,7 +17,7 @@ from grafu.asset.part import Annotation, Frame, Part
 from grafu.asset.reading import Reading
 from grafu.errors import AssetError, UnreadableAsset
 from grafu.geometry.box import Box
-from grafu.segmentation.furniture_pieces import ALONE, FLOOR_OR_WALL, Shells, furniture_pieces
+from grafu.segmentation.furniture_pieces import ALONE, FLOOR_OR_WALL, SceneShells, furniture_pieces
 
 _NAMED = 4  # objects that a note names
 _WORD = re.compile(r"[^\W_]+")
@@ -42,7 +42,7 @@ def told_apart(reading: Reading, frame: Frame) -> tuple[FurniturePiece, ...]:
         reading: what was read, with at least one part.
         frame: how it stands as a whole, and its scale.
     """
-    shells = Shells.of([part.mesh.transformed(frame.input_to_output) for part in reading.parts])
+    shells = SceneShells.of([part.mesh.transformed(frame.input_to_output) for part in reading.parts])
     number = furniture_pieces(shells)
     count = int(number.max()) + 1
     if count == 1 and bool((number == 0).all()):
@@ -62,7 +62,7 @@ def told_apart(reading: Reading, frame: Frame) -> tuple[FurniturePiece, ...]:
     )
 
 
-def _parts_of(reading: Reading, shells: Shells, chosen: np.ndarray) -> tuple[Part, ...]:
+def _parts_of(reading: Reading, shells: SceneShells, chosen: np.ndarray) -> tuple[Part, ...]:
     """Returns the parts of which some shells are chosen, with these alone."""
     of = {k: np.flatnonzero(chosen & (shells.owner == k)) for k in np.unique(shells.owner[chosen]).tolist()}
     parts = []
@@ -74,7 +74,7 @@ def _parts_of(reading: Reading, shells: Shells, chosen: np.ndarray) -> tuple[Par
     return tuple(replace(p, carried_by=None) if p.carried_by and p.carried_by not in known else p for p in parts)
 
 
-def _left_out(reading: Reading, shells: Shells, number: np.ndarray, what: int) -> tuple[str, ...]:
+def _left_out(reading: Reading, shells: SceneShells, number: np.ndarray, what: int) -> tuple[str, ...]:
     """Returns a note on the objects that belong to no piece, as floor and walls or because they lie alone."""
     owners = np.unique(shells.owner[number == what]).tolist()
     if not owners:

@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
+from grafu.asset.bodies import Body, BodyVisual, StatedMotion, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.gltf import read_scene_meshes
 from grafu.asset.hssd_annotation import (
@@ -205,7 +205,7 @@ def _bodies(annotation: HssdAnnotation, cut: dict[str, tuple[Surface, ...]], fil
     carriers = _carriers(annotation, motions, cut)
     bodies = [_body(part, motions.get(part.pid), carriers.get(part.pid), cut, file) for part in annotation.parts]
     if REST in cut:
-        bodies.append(Body(REST, _link(REST), (Visual(REST, cut[REST], _link(REST), file),)))
+        bodies.append(Body(REST, _link(REST), (BodyVisual(REST, cut[REST], _link(REST), file),)))
     return bodies, notes
 
 
@@ -218,7 +218,7 @@ def _body(
 ) -> Body:
     name, link = part.name, _link(part.pid)
     motion = stated and StatedMotion(stated.type, stated.axis, stated.lower, stated.upper, stated.limited)
-    visuals = (Visual(name, cut[part.pid], link, file),) if cut[part.pid] else ()
+    visuals = (BodyVisual(name, cut[part.pid], link, file),) if cut[part.pid] else ()
     return Body(name, link, visuals, motion, None if carrier is None else _link(carrier))
 
 

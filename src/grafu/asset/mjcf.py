@@ -17,7 +17,7 @@ from grafu.asset.mjcf_text import COLLISION, SHOWN_GROUPS, MjcfText, whole_text
 from grafu.asset.options import LoadOptions
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
-from grafu.asset.robot_document import RobotDocument, StatedJoint, spaced
+from grafu.asset.robot_document import RobotDocument, RobotJoint, spaced
 from grafu.asset.scan_files import library_call
 from grafu.asset.urdf_shapes import numbers
 from grafu.errors import UnreadableAsset
@@ -135,23 +135,23 @@ class _Model:
             notes.append(f"refpos and refquat of mesh {geom.mesh} are not applied")
         return "mesh", {"filename": f"{self._mesh_folder}{mesh.file}", "scale": spaced(mesh.scale)}
 
-    def _joint(self, body: int, joints: list[int], names: list[str]) -> StatedJoint:
+    def _joint(self, body: int, joints: list[int], names: list[str]) -> RobotJoint:
         """Returns the joint above a body; a free one at the world holds the whole in its place."""
         parent, child = names[int(self.model.body_parentid[body])], names[body]
         kinds = [kind_named("mjcf", _WORDS[int(self.model.jnt_type[joint])]) for joint in joints]
         if not joints or (kinds == [None] and not self.model.body_parentid[body]):
-            return StatedJoint(f"{child} stands", "fixed", parent, child)
+            return RobotJoint(f"{child} stands", "fixed", parent, child)
         first, name = joints[0], self._joint_name(joints[0])
         moves = kinds[0]
         if len(joints) > 1 or moves is None:
-            return StatedJoint(name, _FLOATING, parent, child)
+            return RobotJoint(name, _FLOATING, parent, child)
         R = np.array(self.state.xmat[body]).reshape(3, 3)
         axis = R.T @ np.array(self.state.xaxis[first])
         drawn = float(self.model.qpos0[self.model.jnt_qposadr[first]])
         limited = bool(self.model.jnt_limited[first])
         low, high = (float(v) - drawn for v in self.model.jnt_range[first])
         kind = "continuous" if moves.turns and not limited else moves.word("urdf")
-        return StatedJoint(name, kind, parent, child, axis, (low, high) if limited else None, self._mimic(name))
+        return RobotJoint(name, kind, parent, child, axis, (low, high) if limited else None, self._mimic(name))
 
     def _joint_name(self, joint: int) -> str:
         return self.text.name(self.model.joint(joint).name) or f"joint_{joint}"

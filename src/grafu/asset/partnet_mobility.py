@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.motion_kind import kind_named
-from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
+from grafu.asset.bodies import Body, BodyVisual, StatedMotion, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.frame import spelled
 from grafu.asset.json_files import JsonObject, finite, object_of, read_json
@@ -139,7 +139,7 @@ def _body(link: JsonObject, objs: dict[Key, tuple[_Listed, ...]], listed: set[Ke
         stems = [s for node in objs.get(key, ()) if node.owner == key or node.owner not in listed for s in node.stems]
         surfaces = tuple(s for stem in dict.fromkeys(stems) for s in meshes.read(stem))
         if surfaces:
-            visuals.append(Visual(f"{part.text('name')}-{key}", surfaces, f"link_{number}", _file(stems)))
+            visuals.append(BodyVisual(f"{part.text('name')}-{key}", surfaces, f"link_{number}", _file(stems)))
     above = link.whole("parent", -1, least=-1)
     parent = f"link_{above}" if above >= 0 else None
     motion = _motion(link)
@@ -276,13 +276,13 @@ def _common_name(body: Body) -> str:
     return names.most_common(1)[0][0] if names else body.link
 
 
-def _merged(visuals: tuple[Visual, ...]) -> tuple[Visual, ...]:
+def _merged(visuals: tuple[BodyVisual, ...]) -> tuple[BodyVisual, ...]:
     """Returns one visual per name: the data set repeats a `name-id` for every mesh file of a part."""
-    groups: dict[tuple[str, str], list[Visual]] = {}
+    groups: dict[tuple[str, str], list[BodyVisual]] = {}
     for visual in visuals:
         groups.setdefault((visual.name, visual.link), []).append(visual)
     return tuple(
-        Visual(
+        BodyVisual(
             name,
             tuple(s for v in group for s in v.surfaces),
             link,

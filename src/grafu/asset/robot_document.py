@@ -27,7 +27,7 @@ _LARGEST = 1e12  # metres: products with the sizes of meshes stay finite
 
 @final
 @dataclass(frozen=True)
-class StatedJoint:
+class RobotJoint:
     """A joint between two links, named by a URDF's word for its type; its frame is that of its child link.
 
     Without `limits` (radians or metres, the drawn pose is 0) it is not limited. `mimic` is another joint's name with
@@ -90,7 +90,7 @@ class RobotDocument:
         if texture:
             etree.SubElement(material, "texture", filename=texture)
 
-    def add_joint(self, joint: StatedJoint) -> None:
+    def add_joint(self, joint: RobotJoint) -> None:
         """Adds a joint between links that were added.
 
         Raises:
@@ -123,7 +123,7 @@ class RobotDocument:
         world, *others = self._links
         for link in others:
             if link not in moved:
-                self.add_joint(StatedJoint(f"{link} stands", "fixed", world, link))
+                self.add_joint(RobotJoint(f"{link} stands", "fixed", world, link))
         found = bodies_of_robot(self._robot, self.path, files)
         parts = parts_of_drafts(drafts_of_visuals(found.visuals))
         annotation = annotation_of_bodies(list(found.bodies), up=2)

@@ -15,7 +15,7 @@ from grafu.articulation.motion_kind import kind_named
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
-from grafu.asset.robot_document import RobotDocument, StatedJoint
+from grafu.asset.robot_document import RobotDocument, RobotJoint
 from grafu.asset.scan_files import parse_xml
 from grafu.asset.urdf_shapes import numbers
 from grafu.errors import UnreadableAsset
@@ -161,16 +161,16 @@ class _Model:
         clear = numbers(_text(visual, "transparency") or "0", (0.0,), self.path)[0]
         return (*rgba[:3], rgba[3] * (1.0 - clear)), texture
 
-    def _joint(self, prefix: str, joint: Any) -> StatedJoint:
+    def _joint(self, prefix: str, joint: Any) -> RobotJoint:
         ends = [_text(joint, tag) for tag in ("parent", "child")]
         parent, child = (end if end == _WORLD else f"{prefix}{self._link_of(end)}" for end in ends)
         axis, kind = joint.find("axis"), joint.get("type", "")
         name, moves = f"{prefix}{joint.get('name', '')}", kind_named("urdf", kind)  # SDF's words are a URDF's
         if axis is None:
-            return StatedJoint(name, kind if moves is None else "fixed", parent, child)
+            return RobotJoint(name, kind if moves is None else "fixed", parent, child)
         limits = self._limits(axis)
         kind = "continuous" if moves is not None and moves.turns and limits is None else kind
-        return StatedJoint(name, kind, parent, child, self._axis(joint, axis), limits, self._mimic(prefix, axis))
+        return RobotJoint(name, kind, parent, child, self._axis(joint, axis), limits, self._mimic(prefix, axis))
 
     def _link_of(self, name: str) -> str:
         """Returns the link that a joint's end means: itself, or what a frame is attached to."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import MotionKind, kind_named
-from grafu.asset.bodies import Body, StatedMotion, Visual, annotation_of_bodies, drafts_of_visuals
+from grafu.asset.bodies import Body, BodyVisual, StatedMotion, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.labels import is_whole_part, label_of
 from grafu.asset.options import LoadOptions, check_parts
@@ -40,7 +40,7 @@ class UrdfBodies:
     """
 
     bodies: tuple[Body, ...]
-    visuals: tuple[Visual, ...]
+    visuals: tuple[BodyVisual, ...]
     notes: tuple[str, ...]
     up: tuple[float, float, float] = (0.0, 0.0, 1.0)
 
@@ -107,7 +107,7 @@ def bodies_of_robot(robot: Any, path: Path, files: ModelFiles, mesh_frame: bool 
     base = _base_link(tree) if mesh_frame else tree.roots[0]
     T_base_root = invert(tree.T_root_link[base])
     shapes = ShapeReader(path, files, _materials(tree.robot))
-    visuals: dict[str, list[Visual]] = {}
+    visuals: dict[str, list[BodyVisual]] = {}
     for link in sorted(tree.links, key=lambda name: tree.links[name].find("visual") is None):
         visuals.setdefault(heads[link], []).extend(_link_visuals(tree, link, shapes, T_base_root))
     bodies = tuple(_body(tree, heads, head, tuple(found), T_base_root) for head, found in visuals.items())
@@ -239,7 +239,7 @@ def _group(tree: _Tree, link: str) -> str:
     return next((name for name in _upward(tree, link)[:-1] if is_whole_part(name)), "")
 
 
-def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4) -> list[Visual]:
+def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4) -> list[BodyVisual]:
     made = []
     T_base_link = T_base_root @ tree.T_root_link[link]
     for element in tree.links[link].findall("visual"):
@@ -249,7 +249,7 @@ def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4
         T = T_base_link @ origin_of(element, tree.path)
         name = _visual_name(element.get("name") or "", link, Path(shape.file).stem)
         surfaces = tuple(s.transformed(T) for s in shape.surfaces)
-        made.append(Visual(name, surfaces, link, shape.file, _group(tree, link)))
+        made.append(BodyVisual(name, surfaces, link, shape.file, _group(tree, link)))
     return made
 
 
@@ -260,7 +260,7 @@ def _visual_name(visual: str, link: str, stem: str) -> str:
     return next(known, visual or link or stem)
 
 
-def _body(tree: _Tree, heads: dict[str, str], head: str, visuals: tuple[Visual, ...], T_base_root: Mat4) -> Body:
+def _body(tree: _Tree, heads: dict[str, str], head: str, visuals: tuple[BodyVisual, ...], T_base_root: Mat4) -> Body:
     joint = tree.above.get(head)
     if joint is None:
         return Body(head, visuals[0].link if visuals else head, visuals)

@@ -107,7 +107,7 @@ _LARGEST = 1e9  # of a shape's size: squares and products of such stay finite
 
 @final
 @dataclass(frozen=True)
-class Shape:
+class VisualShape:
     """The surfaces of one visual in its own coordinates, and the file that they come from."""
 
     surfaces: tuple[Surface, ...]
@@ -136,7 +136,7 @@ class ShapeReader:
         self.notes: list[str] = []
         self._read: dict[Path, tuple[Surface, ...] | None] = {}
 
-    def read(self, visual: Any) -> Shape | None:
+    def read(self, visual: Any) -> VisualShape | None:
         """Returns the shape of a `<visual>` element, or None (and a note) where there is none to be had.
 
         Raises:
@@ -151,7 +151,7 @@ class ShapeReader:
         shape = self._mesh(element) if element.tag == "mesh" else self._primitive(element)
         return None if shape is None else self._painted(shape, visual.find("material"))
 
-    def _mesh(self, element: Any) -> Shape | None:
+    def _mesh(self, element: Any) -> VisualShape | None:
         name = element.get("filename", "")
         sought = find_in_package(name, self.path, self.files)
         if sought.path is None:
@@ -162,7 +162,7 @@ class ShapeReader:
             return None
         scale = np.diag([*self._floats(element.get("scale", "1 1 1"), 3), 1.0])
         identity = np.array_equal(scale, np.eye(4))
-        return Shape(surfaces if identity else tuple(s.transformed(scale) for s in surfaces), name)
+        return VisualShape(surfaces if identity else tuple(s.transformed(scale) for s in surfaces), name)
 
     def _surfaces(self, path: Path) -> tuple[Surface, ...] | None:
         """Returns the surfaces of a mesh file, read once, and counted each time that it is shown."""
@@ -188,7 +188,7 @@ class ShapeReader:
         self.notes += found.notes
         return found.surfaces
 
-    def _primitive(self, element: Any) -> Shape | None:
+    def _primitive(self, element: Any) -> VisualShape | None:
         if element.tag == "box":
             form, size = "box", self._floats(element.get("size", ""), 3)
         elif element.tag == "sphere":
@@ -206,7 +206,7 @@ class ShapeReader:
         vertices = unit.vertices * np.abs(size)
         if form == "capsule":
             vertices[:, 2] += np.sign(vertices[:, 2]) * (abs(length) / 2 - abs(radius))
-        return Shape((Surface(TriangleMesh(vertices, unit.faces)),))
+        return VisualShape((Surface(TriangleMesh(vertices, unit.faces)),))
 
     def _floats(self, text: str, count: int) -> list[float]:
         try:
@@ -219,7 +219,7 @@ class ShapeReader:
             )
         return values
 
-    def _painted(self, shape: Shape, element: Any) -> Shape:
+    def _painted(self, shape: VisualShape, element: Any) -> VisualShape:
         if element is None:
             return shape
         full = element if len(element) else self.materials.get(element.get("name", ""), element)

@@ -14,7 +14,7 @@ from grafu.cli.train import CONFIGS, add_training_options, training_packages
 from grafu.cli.verb import complain, say
 
 if TYPE_CHECKING:
-    from grafu.training.ablation import Result
+    from grafu.training.ablation import AblationResult
     from grafu.training.ablation_run import AblationRun
     from grafu.training.config import TrainingConfig
 
@@ -131,20 +131,20 @@ def _planned(options: argparse.Namespace, config: "TrainingConfig") -> "list[Abl
     ]
 
 
-def _known(run: "AblationRun") -> "Result | None":
-    from grafu.training.ablation import Result
+def _known(run: "AblationRun") -> "AblationResult | None":
+    from grafu.training.ablation import AblationResult
     from grafu.training.ablation_run import known_figures
 
     figures = known_figures(run)
-    return None if figures is None else Result(run.experiment, run.seed, figures)
+    return None if figures is None else AblationResult(run.experiment, run.seed, figures)
 
 
 def _train(
-    options: argparse.Namespace, runs: "Sequence[AblationRun]", results: "dict[Path, Result]", title: str
+    options: argparse.Namespace, runs: "Sequence[AblationRun]", results: "dict[Path, AblationResult]", title: str
 ) -> int:
     """Does the runs that have no result, and adds theirs; returns how many failed."""
     from grafu.cli.progress import with_progress
-    from grafu.training.ablation import Result
+    from grafu.training.ablation import AblationResult
     from grafu.training.ablation_run import do_runs
 
     left = [run for run in runs if run.folder not in results]
@@ -157,13 +157,13 @@ def _train(
                 complain(f"{run.experiment.name}, seed {run.seed}: {event.failure}")
                 failed += 1
             elif event.figures is not None:
-                result = results[run.folder] = Result(run.experiment, run.seed, event.figures)
+                result = results[run.folder] = AblationResult(run.experiment, run.seed, event.figures)
                 say(_told(result))
                 _write_tables(options.out, title, runs, results)
     return failed
 
 
-def _told(result: "Result") -> str:
+def _told(result: "AblationResult") -> str:
     from grafu.training.ablation import MEAN
 
     figures = result.of(MEAN)
@@ -171,7 +171,9 @@ def _told(result: "Result") -> str:
     return f"{result.experiment.name}, seed {result.seed}: score {result.figures['score']:.4f}; {told}"
 
 
-def _write_tables(folder: Path, title: str, runs: "Sequence[AblationRun]", results: "Mapping[Path, Result]") -> str:
+def _write_tables(
+    folder: Path, title: str, runs: "Sequence[AblationRun]", results: "Mapping[Path, AblationResult]"
+) -> str:
     """Writes both tables of what there is, in the order of the runs; returns the one to read."""
     from grafu.export.whole_file import write_whole
     from grafu.training.ablation import csv_table, markdown_table

@@ -15,11 +15,11 @@ from grafu.cli.verb import complain, say
 from grafu.errors import ExportError, OptionError
 
 if TYPE_CHECKING:
-    from grafu.evaluation.records import Row
+    from grafu.evaluation.records import ResultRow
     from grafu.evaluation.results import Results
-    from grafu.evaluation.table import Table
+    from grafu.evaluation.table import ResultTable
     from grafu.evaluation.tasks import EvaluationPlan, Task
-    from grafu.processes.limits import Limits
+    from grafu.processes.limits import ProcessLimits
 
 
 # As in `grafu.evaluation.tasks`; spelled again, so that `grafu --help` answers at once.
@@ -131,7 +131,7 @@ def _words(text: str) -> tuple[str, ...]:
     return tuple(word.strip() for word in text.split(",") if word.strip())
 
 
-def _do(tasks: "Sequence[Task]", rows: "dict[str, Row]", file: Path, jobs: int, limits: "Limits") -> None:
+def _do(tasks: "Sequence[Task]", rows: "dict[str, ResultRow]", file: Path, jobs: int, limits: "ProcessLimits") -> None:
     """Does the tasks that have no row yet, and keeps each row at once."""
     from grafu.cli.pool import run_all
     from grafu.cli.progress import with_progress
@@ -156,7 +156,7 @@ def _command(options: argparse.Namespace) -> str:
     return shlex.join([*words, "--seeds", str(options.seeds), "--out", str(options.out)])
 
 
-def _say(tables: "Sequence[Table]", results: "Results", out: Path) -> None:
+def _say(tables: "Sequence[ResultTable]", results: "Results", out: Path) -> None:
     motion = next((table for table in tables if table.name == "motion"), None)
     if motion is not None:
         _print_motion(motion)
@@ -165,7 +165,7 @@ def _say(tables: "Sequence[Table]", results: "Results", out: Path) -> None:
     say(f"written to {out / 'tables' / 'index.md'}; to look at: {out / RUN_PAGE}")
 
 
-def _print_motion(table: "Table") -> None:
+def _print_motion(table: "ResultTable") -> None:
     from grafu.cli.tables import plain_table, wide_console
     from grafu.evaluation.bootstrap import Figure
     from grafu.evaluation.table import shown

@@ -27,7 +27,7 @@ from grafu.visible import visible
 
 @final
 @dataclass(frozen=True)
-class Order:
+class BlendJob:
     """What the file holds."""
 
     source: Path
@@ -64,7 +64,7 @@ def finalize(order_file: Path) -> str:
     return result.why if isinstance(result, Failed) else ""
 
 
-def _order(path: Path) -> Order:
+def _order(path: Path) -> BlendJob:
     """Returns what a file orders.
 
     Raises:
@@ -72,7 +72,7 @@ def _order(path: Path) -> Order:
         OptionError: if it is damaged, or orders something else.
     """
     try:
-        return TypeAdapter(Order).validate_python(json.loads(read_own(path, "an order")))
+        return TypeAdapter(BlendJob).validate_python(json.loads(read_own(path, "an order")))
     except (ValueError, RecursionError) as error:
         raise OptionError(f"{path} is no order of grafu: {' '.join(str(error).split())}") from None
 

@@ -16,7 +16,7 @@ from grafu.cli.verb import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
 from grafu.export.output_names import output_name, same_place, why_not_apart, with_ending
 from grafu.pipeline.motion_source import MotionSource, SourceOption
-from grafu.processes.limits import Limits
+from grafu.processes.limits import ProcessLimits
 
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
@@ -55,7 +55,7 @@ class JobOptions:
     resume: bool = False
     debug: bool = False
     alone: bool = True
-    limits: Limits = Limits()
+    limits: ProcessLimits = ProcessLimits()
 
     @property
     def saved_settings(self) -> "Settings | None":

@@ -4,7 +4,7 @@ import argparse
 import math
 import re
 
-from grafu.processes.limits import PATIENCE, Ending, Limits
+from grafu.processes.limits import PATIENCE, Ending, ProcessLimits
 
 SECONDS, MEMORY = 120.0, "4G"
 NONE = "none"
@@ -32,12 +32,12 @@ def add_limit_options(parser: argparse.ArgumentParser, seconds: float = SECONDS)
     )
 
 
-def limits_of(options: argparse.Namespace) -> Limits:
+def limits_of(options: argparse.Namespace) -> ProcessLimits:
     """Returns the limits that the arguments state."""
-    return Limits(options.timeout, options.memory)
+    return ProcessLimits(options.timeout, options.memory)
 
 
-def why_stopped(ending: Ending, limits: Limits) -> str:
+def why_stopped(ending: Ending, limits: ProcessLimits) -> str:
     """Returns one line that states why there is no result, and what to do."""
     if ending is Ending.LATE and limits.seconds is not None:
         return (
@@ -49,7 +49,7 @@ def why_stopped(ending: Ending, limits: Limits) -> str:
     return "the process died while working on it (out of memory, or a crash in a native library)"
 
 
-def too_large(limits: Limits) -> str:
+def too_large(limits: ProcessLimits) -> str:
     """Returns one line that states that a model needed more memory than there was, and what to do."""
     needed = f"more than {size_said(limits.memory)} of memory" if limits.memory else "more memory than there is"
     return f"it needed {needed} and was stopped: give --memory more, or simplify the input"

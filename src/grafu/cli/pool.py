@@ -16,7 +16,7 @@ from typing import TypeVar
 from grafu.cli.job import Failed, Job, JobResult, run_job
 from grafu.cli.limit_options import limits_of, why_stopped
 from grafu.cli.verb import EXIT_BAD_INPUT, EXIT_FAILED, complain, prepare_verb, run_verb
-from grafu.processes.limits import Ending, Limits
+from grafu.processes.limits import Ending, ProcessLimits
 from grafu.processes.worker import quick_start, run_each
 
 _CLEAR_LINE = "\r\x1b[2K\x1b[?25h"  # the line of a progress bar that was not closed, and the cursor that it hid
@@ -69,7 +69,7 @@ def run_all(
     workers: int,
     run: Callable[[Item], Result],
     failed: Callable[[Item, Ending], Result],
-    limits: Limits = Limits(),
+    limits: ProcessLimits = ProcessLimits(),
 ) -> Generator[Result, None, None]:
     """Yields the result of each item as it ends, `workers` at a time; `run` must be a function of a module.
 

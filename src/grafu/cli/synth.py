@@ -14,7 +14,7 @@ from grafu.errors import ExportError, UnreadableAsset
 
 if TYPE_CHECKING:
     from grafu.data.write_plan import DatasetPlan, ModelSummary
-    from grafu.evaluation.statistics import Comparison
+    from grafu.evaluation.statistics import StatisticsTable
     from grafu.synth.specimen import Specimen
 
 FORMATS = ("shards", "furfun")
@@ -115,13 +115,13 @@ def run_dataset(options: argparse.Namespace) -> int:
         FunctionalizationError: if the folder cannot be gone on with, or not be written.
     """
     from grafu.cli.progress import with_progress
-    from grafu.cli.synth_tally import Tally, print_tally
+    from grafu.cli.synth_tally import SynthTally, print_tally
     from grafu.data.write import models_written
     from grafu.data.write_plan import DatasetPlan
     from grafu.processes.signals import END_REQUESTS
 
     plan = DatasetPlan(options.seed, options.count, options.points, options.models_per_shard, options.format)
-    tally, started = Tally(), perf_counter()
+    tally, started = SynthTally(), perf_counter()
     try:
         for summary in with_progress(_summaries(plan, options), plan.count, "models"):
             tally.add(summary)
@@ -195,7 +195,7 @@ def _specimens(options: argparse.Namespace) -> "Iterator[Specimen]":
     return with_progress(made, options.count, "models")
 
 
-def _print_comparison(comparison: "Comparison") -> None:
+def _print_comparison(comparison: "StatisticsTable") -> None:
     from rich.markup import escape
 
     from grafu.cli.tables import plain_table, wide_console
@@ -217,7 +217,7 @@ def _print_comparison(comparison: "Comparison") -> None:
     console.print(_sum(comparison), soft_wrap=True, markup=False, highlight=False)
 
 
-def _sum(comparison: "Comparison") -> str:
+def _sum(comparison: "StatisticsTable") -> str:
     made = f"{comparison.synthetic} synthetic models"
     if not comparison.real:
         return made

@@ -15,7 +15,7 @@ _NAMED_FAULTS = 10  # faulty models that are named; the rest is counted
 
 
 @final
-class Tally:
+class SynthTally:
     """Counts over the models of a run, family by family; it keeps no model."""
 
     def __init__(self) -> None:
@@ -44,7 +44,7 @@ class Tally:
         return sum(counts.total() for counts in self.parts.values())
 
 
-def print_tally(tally: Tally, seconds: float, out: Path, before: int) -> None:
+def print_tally(tally: SynthTally, seconds: float, out: Path, before: int) -> None:
     """Prints the families and the sum on stdout; `before`: how many models earlier runs had made."""
     console = wide_console()
     if tally.models:
@@ -54,7 +54,7 @@ def print_tally(tally: Tally, seconds: float, out: Path, before: int) -> None:
         console.print(line, soft_wrap=True, markup=False, highlight=False)
 
 
-def _families(tally: Tally) -> Table:
+def _families(tally: SynthTally) -> Table:
     table = plain_table("family", "models", "parts", "movable", "defects")
     for family in sorted(tally.parts):
         counts = tally.parts[family]
@@ -64,7 +64,7 @@ def _families(tally: Tally) -> Table:
     return table
 
 
-def _sum(tally: Tally) -> str:
+def _sum(tally: SynthTally) -> str:
     every = sum(tally.parts.values(), Counter[int]())
     parts = sum(number * models for number, models in every.items())
     defects = sum(tally.defects.values(), Counter[str]())
@@ -75,13 +75,13 @@ def _sum(tally: Tally) -> str:
     )
 
 
-def _faults(tally: Tally) -> list[str]:
+def _faults(tally: SynthTally) -> list[str]:
     named = list(tally.faulty.items())[:_NAMED_FAULTS]
     lines = [f"faulty: {model_id}: {'; '.join(faults)}" for model_id, faults in named]
     return [*lines, f"{len(tally.faulty)} models have faults beyond their defects"] if lines else []
 
 
-def _made(tally: Tally, seconds: float, before: int) -> str:
+def _made(tally: SynthTally, seconds: float, before: int) -> str:
     if not tally.fresh:
         return f"nothing to make: {before} models are there"
     kept = f"; {before} were there before" if before else ""

@@ -15,7 +15,7 @@ from grafu.completion.probabilities import Probabilities
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
 from grafu.completion.slots import NewPart
-from grafu.completion.view import View
+from grafu.completion.view import GraphView
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached
 from grafu.graph.edit import with_edges
@@ -29,7 +29,7 @@ from grafu.vocabulary import PartLabel
 class DecodedGraph:
     """A graph whose handles have parents, beside their probabilities."""
 
-    view: View
+    view: GraphView
     decisions: tuple[Decision, ...]
     refused: tuple[Refusal, ...]
 
@@ -50,7 +50,7 @@ def decode_graph(
 
     `given` are the ids of the input's own parts; `parents` states for which door or drawer a handle was added.
     """
-    view = View(graph, probabilities, given, config)
+    view = GraphView(graph, probabilities, given, config)
     decisions: tuple[Decision, ...] = ()
     known = {edge.child for edge in view.graph.attachments}
     found: list[Attached] = []
@@ -67,7 +67,7 @@ def decode_graph(
         else:
             found.append(answer[0])
             decisions += (answer[1],)
-    held = View(with_edges(view.graph, found), probabilities, given, config)
+    held = GraphView(with_edges(view.graph, found), probabilities, given, config)
     return DecodedGraph(held, decisions, tuple(refused))
 
 

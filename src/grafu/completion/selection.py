@@ -20,7 +20,7 @@ from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_fron
 from grafu.completion.drawers import run_drawer, vote_direction
 from grafu.completion.probabilities import softmax
 from grafu.completion.rule_scene import RuleScene
-from grafu.completion.view import View
+from grafu.completion.view import GraphView
 from grafu.completion.votes import Ranking, chosen_of, ranking_of
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.arrays import ATTACHED, HINGE, RAIL
@@ -59,7 +59,7 @@ _MOVES_WITH = frozenset({PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE})
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
-def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | Refusal:
+def choose_parent(handle: PartNode, view: GraphView) -> tuple[Attached, Decision] | Refusal:
     """Returns the door or drawer that a handle is fixed to, or why there is none."""
     if not len(view.moving_bodies):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
@@ -76,7 +76,7 @@ def choose_parent(handle: PartNode, view: View) -> tuple[Attached, Decision] | R
     return Attached(ranking.choice, handle.id), decision_of(handle.id, "parent", ranking)
 
 
-def _sits_on_static(handle: PartNode, view: View) -> bool:
+def _sits_on_static(handle: PartNode, view: GraphView) -> bool:
     """Whether a handle touches what is larger and does not move, and no door, drawer or handle: a knob of an oven.
 
     Smaller things that it touches are its own posts.
@@ -88,7 +88,7 @@ def _sits_on_static(handle: PartNode, view: View) -> bool:
     return any(node.label is PartLabel.MISC and float(np.sort(node.box.size)[1]) > largest for node in touched)
 
 
-def parent_ratios(slot: int, slots: Indices, view: View) -> tuple[Scalars, float]:
+def parent_ratios(slot: int, slots: Indices, view: GraphView) -> tuple[Scalars, float]:
     """Returns how likely each of some doors and drawers is the parent of the handle in a slot, and none of them is.
 
     The choice among all is weighed by the edge of each pair, of which some chance always remains.
@@ -98,7 +98,7 @@ def parent_ratios(slot: int, slots: Indices, view: View) -> tuple[Scalars, float
     return chosen[:-1] * (view.config.some_parent + view.probabilities.edge[slot, slots, ATTACHED]), float(chosen[-1])
 
 
-def choose_hinge(door: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
+def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene) -> MotionAnswer:
     """Returns the hinge of a door with the confidence of each choice, or why it gets none.
 
     The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
@@ -134,7 +134,7 @@ def choose_hinge(door: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
     return (edge,), decisions
 
 
-def choose_rails(drawer: PartNode, view: View, scene: RuleScene) -> MotionAnswer:
+def choose_rails(drawer: PartNode, view: GraphView, scene: RuleScene) -> MotionAnswer:
     """Returns the rails of a drawer, on two flanks where two parts carry it, or why it gets none."""
     if not len(view.supports):
         return Refusal(drawer.id, Reason.NO_MOTION, _NO_SUPPORT)
@@ -160,7 +160,7 @@ def _by(ranking: Ranking[Any]) -> str:
     return BY_BOTH if ranking.runner_up_score > ranking.score else ""
 
 
-def _on_given(answer: MotionAnswer, view: View) -> MotionAnswer | None:
+def _on_given(answer: MotionAnswer, view: GraphView) -> MotionAnswer | None:
     """Returns the rule's answer without what hangs on parts that the input lacks; None where nothing is left."""
     if isinstance(answer, Refusal):
         return None
@@ -179,13 +179,13 @@ def _plain_flap(door: PartNode, said: HingeBorder, scene: RuleScene) -> Ranking[
     return ranking if ranking.choice == flap else None
 
 
-def _flap_mount(door: PartNode, flap: HingeBorder, view: View, scene: RuleScene) -> Ranking[str] | None:
+def _flap_mount(door: PartNode, flap: HingeBorder, view: GraphView, scene: RuleScene) -> Ranking[str] | None:
     """Returns what the rule hangs a plain flap on; None where that is nothing that the input has."""
     mount = vote_mount(door, flap, scene)
     return mount if mount is not None and mount.choice in view.given else None
 
 
-def _by_flank(drawer: PartNode, axis: SignedAxis, slots: Indices, railed: Scalars, view: View) -> list[np.ndarray]:
+def _by_flank(drawer: PartNode, axis: SignedAxis, slots: Indices, railed: Scalars, view: GraphView) -> list[np.ndarray]:
     """Returns the slots in one or two groups, the chosen rail of each first, the rest as runners-up.
 
     The likeliest part comes first; beside it stands the likeliest one on another flank, if it is likely enough.
@@ -201,7 +201,7 @@ def _by_flank(drawer: PartNode, axis: SignedAxis, slots: Indices, railed: Scalar
     return [slots[same], slots[other]]
 
 
-def _flanks(drawer: PartNode, axis: SignedAxis, slots: Indices, view: View) -> Indices:
+def _flanks(drawer: PartNode, axis: SignedAxis, slots: Indices, view: GraphView) -> Indices:
     """Returns for each slot the side of the drawer that it stands on: -1 low, 1 high, 0 on both or on neither."""
     across = 0 if axis // 2 == 1 else 1
     box = drawer.box

@@ -9,7 +9,7 @@ from grafu.completion.answers import decision_of
 from grafu.completion.config import ADDABLE
 from grafu.completion.features import object_frame
 from grafu.completion.selection import parent_ratios
-from grafu.completion.view import View
+from grafu.completion.view import GraphView
 from grafu.completion.votes import ranking_of
 from grafu.geometry.box import Box
 from grafu.geometry.touching import near_pairs
@@ -34,7 +34,7 @@ class NewPart:
     parent: str | None = None
 
 
-def new_parts(view: View, held: frozenset[str]) -> tuple[NewPart, ...]:
+def new_parts(view: GraphView, held: frozenset[str]) -> tuple[NewPart, ...]:
     """Returns what the free slots add, the surest first; `held` are the doors and drawers that have a handle.
 
     A handle comes only to a door or drawer that has none, no part where one of its label is already, and only labels
@@ -67,7 +67,7 @@ def with_parts(graph: FunctionalGraph, parts: tuple[NewPart, ...]) -> Functional
     return with_edges(larger, [Contact(nodes[a].id, nodes[b].id) for a, b in pairs if b >= len(graph.nodes)])
 
 
-def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | None:
+def _part_of(slot: int, view: GraphView, others: tuple[PartNode, ...]) -> NewPart | None:
     """Returns the part of a slot; None if its label may not be added, or if it is a handle without a parent."""
     probabilities = view.probabilities
     ratios = probabilities.label[slot, _ADDABLE]
@@ -91,7 +91,7 @@ def _part_of(slot: int, view: View, others: tuple[PartNode, ...]) -> NewPart | N
     return None if parent is None else NewPart(node, decisions, parent)
 
 
-def _parent_of(slot: int, handle: PartNode, view: View) -> str | None:
+def _parent_of(slot: int, handle: PartNode, view: GraphView) -> str | None:
     near = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.reach * view.extent]
     if not len(near):
         return None
@@ -105,7 +105,7 @@ def _new_id(label: PartLabel, others: tuple[PartNode, ...]) -> str:
     return next(name for name in (f"{stem}{k}" for k in range(1, len(taken) + 2)) if name not in taken)
 
 
-def _is_there(node: PartNode, others: tuple[PartNode, ...], view: View) -> bool:
+def _is_there(node: PartNode, others: tuple[PartNode, ...], view: GraphView) -> bool:
     """Whether a part of this label stands in the same place already."""
     slack = view.config.slack * view.extent
     alike = (other.box for other in others if other.label is node.label)

@@ -15,7 +15,7 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 
 @final
 @dataclass(frozen=True)
-class View:
+class GraphView:
     """A graph whose labels are settled: node k is slot k of the probabilities, and slots beyond the nodes are free.
 
     Only the nodes of `given` may carry a mechanism: they are there, while what was added may still be left out.

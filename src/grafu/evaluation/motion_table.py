@@ -11,7 +11,7 @@ from typing import Final, final
 
 from grafu.evaluation.figures import over_objects, over_parts
 from grafu.evaluation.results import PartOutcome, Results
-from grafu.evaluation.table import Cell, Column, Table
+from grafu.evaluation.table import Cell, Column, ResultTable
 
 SOURCE = "the paper"
 MODELS: Final = {"PN-M": 345, "HSSD": 50}
@@ -85,7 +85,7 @@ _NOTES = (
 )
 
 
-def motion_table(results: Results) -> Table:
+def motion_table(results: Results) -> ResultTable:
     """Returns a row per method and category, over objects and over parts, and the paper's rows."""
     rows: list[tuple[Cell, ...]] = []
     for method in results.made:
@@ -93,7 +93,9 @@ def motion_table(results: Results) -> Table:
         rows += _rows(method, ALL, outcomes)
         for category in results.categories if len(results.categories) > 1 else ():
             rows += _rows(method, category, [o for o in outcomes if o.category == category])
-    return Table("motion", "Motion correctness, collision and connectivity", _COLUMNS, (*rows, *_published()), _NOTES)
+    return ResultTable(
+        "motion", "Motion correctness, collision and connectivity", _COLUMNS, (*rows, *_published()), _NOTES
+    )
 
 
 def _rows(method: str, data: str, outcomes: Sequence[PartOutcome]) -> list[tuple[Cell, ...]]:

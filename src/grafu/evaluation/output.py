@@ -18,7 +18,7 @@ from grafu.evaluation.methods import FOREIGN
 from grafu.evaluation.motion_table import motion_table
 from grafu.evaluation.result_tables import masking_table, models_table, static_table
 from grafu.evaluation.results import Results
-from grafu.evaluation.table import FORMS, Cell, Column, Table, markdown
+from grafu.evaluation.table import FORMS, Cell, Column, ResultTable, markdown
 from grafu.evaluation.tasks import EvaluationPlan
 from grafu.version import __version__
 
@@ -36,7 +36,7 @@ _COLUMNS = (
 )
 
 
-def ood_table(results: Results, method: str, top: int = TOP) -> Table:
+def ood_table(results: Results, method: str, top: int = TOP) -> ResultTable:
     """Returns the `top` models farthest from their nearest training model, with one method's success on them.
 
     Raises:
@@ -62,7 +62,7 @@ def ood_table(results: Results, method: str, top: int = TOP) -> Table:
         f"{_correlation(far_out, aligned)}; with what works: {_correlation(far_out, works)}.",
     )
     title = "Models farthest from the training distribution"
-    return Table("ood", title, _COLUMNS, tuple(rows), notes)
+    return ResultTable("ood", title, _COLUMNS, tuple(rows), notes)
 
 
 def _oddest(scores: tuple[float, ...], count: int = 3) -> str:
@@ -81,7 +81,7 @@ def _correlation(distances: dict[str, float], success: dict[str, float]) -> str:
     return f"{float(spearmanr(far, good).statistic):+.2f}"
 
 
-_BUILDERS: Final[dict[str, Callable[[Results], Table]]] = {
+_BUILDERS: Final[dict[str, Callable[[Results], ResultTable]]] = {
     "motion": motion_table,
     "masking": masking_table,
     "static": static_table,
@@ -110,7 +110,7 @@ Parts of a model on which a method failed count as static.
 """
 
 
-def build_tables(plan: EvaluationPlan, results: Results) -> tuple[Table, ...]:
+def build_tables(plan: EvaluationPlan, results: Results) -> tuple[ResultTable, ...]:
     """Returns the tables that were asked for, in the order of `TABLES`."""
     found = [build(results) for name, build in _BUILDERS.items() if name in plan.tables]
     if "ood" in plan.tables and results.training:
@@ -118,13 +118,15 @@ def build_tables(plan: EvaluationPlan, results: Results) -> tuple[Table, ...]:
     return tuple(found)
 
 
-def output_files(plan: EvaluationPlan, results: Results, tables: tuple[Table, ...], command: str) -> dict[str, bytes]:
+def output_files(
+    plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ...], command: str
+) -> dict[str, bytes]:
     """Returns each file's bytes by its name: `index.md`, and `<table>.md`, `.csv`, `.json` and `.tex` of each table."""
     files = {f"{table.name}.{form}": write(table).encode() for table in tables for form, write in FORMS.items()}
     return {"index.md": _index(plan, results, tables, command).encode(), **files}
 
 
-def _index(plan: EvaluationPlan, results: Results, tables: tuple[Table, ...], command: str) -> str:
+def _index(plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ...], command: str) -> str:
     parts = sum(len(facts.parts) for facts in results.models.values())
     counted = sum(bool(facts.parts) for facts in results.models.values())
     lines = [

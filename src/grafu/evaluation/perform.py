@@ -14,13 +14,13 @@ from grafu.evaluation.moving_parts import MovingPart, counted_parts, raw_object
 from grafu.evaluation.plausible import judge_motion
 from grafu.evaluation.records import (
     CompletenessRecord,
+    EvaluatedMotion,
+    EvaluatedPart,
     MadeFacts,
     MeasureRecord,
     MethodFacts,
     ModelFacts,
-    MotionRecord,
-    PartRecord,
-    Row,
+    ResultRow,
     TruthRecord,
     TwinFacts,
 )
@@ -32,7 +32,7 @@ from grafu.pipeline.functionalize import Functionalized
 from grafu.synth.generate import make_specimen
 
 
-def perform(task: Task) -> Row:
+def perform(task: Task) -> ResultRow:
     """Returns the row of a task; whatever goes wrong but an interruption is said in it."""
     started = perf_counter()
     try:
@@ -44,12 +44,12 @@ def perform(task: Task) -> Row:
     except Exception as fault:  # isolation is this module's task: the next model must still be measured
         facts, error = None, _one_line(f"internal error, which is our fault ({type(fault).__name__}: {fault})")
     seconds = round(perf_counter() - started, 3)
-    return Row(key=key_of(task), task=task.facts(), seconds=seconds, error=error, facts=facts)
+    return ResultRow(key=key_of(task), task=task.facts(), seconds=seconds, error=error, facts=facts)
 
 
-def failed(task: Task, why: str) -> Row:
+def failed(task: Task, why: str) -> ResultRow:
     """Returns the row of a task that could not be finished."""
-    return Row(key=key_of(task), task=task.facts(), seconds=0.0, error=why)
+    return ResultRow(key=key_of(task), task=task.facts(), seconds=0.0, error=why)
 
 
 def _facts(task: Task) -> ModelFacts | MethodFacts | TwinFacts | MadeFacts:
@@ -90,7 +90,7 @@ def method_facts(task: MethodTask) -> MethodFacts:
     for part, bare, fixed in zip(truth, *measures, strict=True):
         judged = judge_motion(raw, asset, part)
         parts.append(
-            PartRecord(
+            EvaluatedPart(
                 part=part.id,
                 raw=MeasureRecord.of(bare),
                 fixed=MeasureRecord.of(fixed),
@@ -108,7 +108,7 @@ def mask_facts(task: MaskTask) -> MethodFacts:
     truth = counted_parts(asset)
     result = made_with_labels_hidden(task.method, asset, task.ratio, task.seed)
     measures = measure_parts(result.object, truth, asset.extent, with_touch=False)
-    records = (PartRecord(part=part.id, fixed=MeasureRecord.of(m)) for part, m in zip(truth, measures, strict=True))
+    records = (EvaluatedPart(part=part.id, fixed=MeasureRecord.of(m)) for part, m in zip(truth, measures, strict=True))
     return MethodFacts(parts=tuple(records))
 
 
@@ -116,8 +116,8 @@ def twin_facts(task: TwinTask) -> TwinFacts:
     """Returns whether two models are one geometry, and the motions that they lend each other."""
     found = compare_twins(_asset(task.model), _asset(task.other))
 
-    def records(motions: dict[str, Motion]) -> dict[str, MotionRecord]:
-        return {part: MotionRecord.of(motion) for part, motion in motions.items()}
+    def records(motions: dict[str, Motion]) -> dict[str, EvaluatedMotion]:
+        return {part: EvaluatedMotion.of(motion) for part, motion in motions.items()}
 
     return TwinFacts(
         same=found.same, for_first=records(dict(found.for_first)), for_second=records(dict(found.for_second))

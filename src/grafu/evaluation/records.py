@@ -24,13 +24,13 @@ from grafu.vocabulary import JointType, PartLabel
 Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
 
 
-class Record(BaseModel):
+class EvaluationRecord(BaseModel):
     """Abstract base: frozen, and strict about unknown fields."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
-class MotionRecord(Record):
+class EvaluatedMotion(EvaluationRecord):
     """A motion: positive along or about the axis opens."""
 
     type: JointType
@@ -40,7 +40,7 @@ class MotionRecord(Record):
     both_ways: bool = False
 
     @classmethod
-    def of(cls, motion: Motion) -> "MotionRecord":
+    def of(cls, motion: Motion) -> "EvaluatedMotion":
         """Returns the record of a motion."""
         axis = motion.axis
         ends = _vector(axis.point), _vector(axis.direction), _vector(motion.center)
@@ -52,10 +52,10 @@ class MotionRecord(Record):
         return Motion(self.type, axis, vec3(*self.center), self.both_ways)
 
 
-class MeasureRecord(Record):
+class MeasureRecord(EvaluationRecord):
     """What was measured on one part of one result (see `PartMeasure`); null where it is static."""
 
-    found: MotionRecord | None
+    found: EvaluatedMotion | None
     aligned: bool
     collision: FiniteFloat | None
     touch: FiniteFloat | None
@@ -68,7 +68,7 @@ class MeasureRecord(Record):
     def of(cls, measure: PartMeasure) -> "MeasureRecord":
         """Returns the record of a measure."""
         return cls(
-            found=MotionRecord.of(measure.found) if measure.found else None,
+            found=EvaluatedMotion.of(measure.found) if measure.found else None,
             aligned=measure.aligned,
             collision=measure.collision,
             touch=measure.touch,
@@ -79,7 +79,7 @@ class MeasureRecord(Record):
         )
 
 
-class PartRecord(Record):
+class EvaluatedPart(EvaluationRecord):
     """One part that counts: on the stated axes alone, and after the geometric fix."""
 
     part: str
@@ -90,7 +90,7 @@ class PartRecord(Record):
     skipped: str = ""
 
 
-class GraspRecord(Record):
+class GraspRecord(EvaluationRecord):
     """How a moving body can be grasped before and after."""
 
     part: str
@@ -98,7 +98,7 @@ class GraspRecord(Record):
     after: str
 
 
-class CompletenessRecord(Record):
+class CompletenessRecord(EvaluationRecord):
     """What of the statics was missing, and what is there now (see `Completeness`)."""
 
     topless: bool
@@ -120,21 +120,21 @@ class CompletenessRecord(Record):
         )
 
 
-class TruthRecord(Record):
+class TruthRecord(EvaluationRecord):
     """A part that counts, as it is annotated."""
 
     part: str
     label: PartLabel
-    motion: MotionRecord
+    motion: EvaluatedMotion
     reference: FiniteFloat
 
     @classmethod
     def of(cls, part: MovingPart) -> "TruthRecord":
         """Returns the record of a part."""
-        return cls(part=part.id, label=part.label, motion=MotionRecord.of(part.motion), reference=part.reference)
+        return cls(part=part.id, label=part.label, motion=EvaluatedMotion.of(part.motion), reference=part.reference)
 
 
-class ModelFacts(Record):
+class ModelFacts(EvaluationRecord):
     """What is true of a model whatever the method."""
 
     kind: Literal["model"] = "model"
@@ -144,24 +144,24 @@ class ModelFacts(Record):
     features: tuple[FiniteFloat, ...]
 
 
-class MethodFacts(Record):
+class MethodFacts(EvaluationRecord):
     """What one method made of a model."""
 
     kind: Literal["method"] = "method"
-    parts: tuple[PartRecord, ...]
+    parts: tuple[EvaluatedPart, ...]
     completeness: CompletenessRecord | None = None
 
 
-class TwinFacts(Record):
+class TwinFacts(EvaluationRecord):
     """Whether two models are of one geometry, and the motions that each one's annotation gives the other's parts."""
 
     kind: Literal["twins"] = "twins"
     same: bool
-    for_first: dict[str, MotionRecord] = {}
-    for_second: dict[str, MotionRecord] = {}
+    for_first: dict[str, EvaluatedMotion] = {}
+    for_second: dict[str, EvaluatedMotion] = {}
 
 
-class MadeFacts(Record):
+class MadeFacts(EvaluationRecord):
     """The features of one synthetic model of the training distribution."""
 
     kind: Literal["made"] = "made"
@@ -171,7 +171,7 @@ class MadeFacts(Record):
 Facts = Annotated[ModelFacts | MethodFacts | TwinFacts | MadeFacts, Field(discriminator="kind")]
 
 
-class Row(Record):
+class ResultRow(EvaluationRecord):
     """One line: which task (its key states all that determines it), what it found, or why it failed."""
 
     key: str
@@ -191,23 +191,23 @@ _MOST_BYTES = 512 * 2**20
 _BEGINNING = b'{"key":'  # of every line, whatever the version
 
 
-def read_rows(path: Path) -> dict[str, Row]:
+def read_rows(path: Path) -> dict[str, ResultRow]:
     """Returns the rows of a file by key; broken lines and those of another form are left out.
 
     Raises:
         ExportError: if there is a file that cannot be read.
     """
-    found: dict[str, Row] = {}
+    found: dict[str, ResultRow] = {}
     for line in _lines(path):
         try:
-            row = Row.model_validate_json(line)
+            row = ResultRow.model_validate_json(line)
         except ValidationError:
             continue
         found[row.key] = row
     return found
 
 
-def begin_rows(path: Path, anew: bool = False) -> dict[str, Row]:
+def begin_rows(path: Path, anew: bool = False) -> dict[str, ResultRow]:
     """Returns the rows of a run that goes on, none of one that begins `anew`; its folder is there then.
 
     Raises:
@@ -232,7 +232,7 @@ def _lines(path: Path) -> list[bytes]:
         raise ExportError(f"{error}: choose another --out") from None
 
 
-def append_rows(path: Path, rows: Iterable[Row]) -> None:
+def append_rows(path: Path, rows: Iterable[ResultRow]) -> None:
     """Adds rows at the end of a file, each with its line break, after whatever half a line a killed run left.
 
     Raises:
@@ -251,6 +251,6 @@ def append_rows(path: Path, rows: Iterable[Row]) -> None:
         raise ExportError(f"`{path}` cannot be written ({error.strerror or type(error).__name__})") from error
 
 
-def done(rows: Mapping[str, Row], key: str) -> bool:
+def done(rows: Mapping[str, ResultRow], key: str) -> bool:
     """Whether a task needs no more work; one that failed is tried again."""
     return key in rows and not rows[key].error

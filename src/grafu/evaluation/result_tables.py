@@ -9,7 +9,7 @@ from grafu.evaluation.measures import OPENS
 from grafu.evaluation.motion_table import HANDLES, INTERIORS, MASKING, MODELS, SOURCE, TOPS
 from grafu.evaluation.records import CompletenessRecord
 from grafu.evaluation.results import PartOutcome, Results
-from grafu.evaluation.table import Cell, Column, Table
+from grafu.evaluation.table import Cell, Column, ResultTable
 
 _EACH_MODEL = (
     Column("method", "Method"),
@@ -28,7 +28,7 @@ _EACH_MODEL_NOTES = (
 )
 
 
-def models_table(results: Results) -> Table:
+def models_table(results: Results) -> ResultTable:
     """Returns a row per method and model; within a method the worst come first."""
     rows: list[tuple[Cell, ...]] = []
     for method in results.made:
@@ -36,7 +36,7 @@ def models_table(results: Results) -> Table:
         for outcome in results.outcomes(method):
             by_model.setdefault(outcome.model, []).append(outcome)
         rows += sorted((_model_row(method, by_model[model]) for model in sorted(by_model)), key=_badness)
-    return Table("models", "Every model, worst first", _EACH_MODEL, tuple(rows), _EACH_MODEL_NOTES)
+    return ResultTable("models", "Every model, worst first", _EACH_MODEL, tuple(rows), _EACH_MODEL_NOTES)
 
 
 def _model_row(method: str, outcomes: Sequence[PartOutcome]) -> tuple[Cell, ...]:
@@ -97,10 +97,10 @@ _STATIC_NOTES = (
 )
 
 
-def static_table(results: Results) -> Table:
+def static_table(results: Results) -> ResultTable:
     """Returns five rows per method, and the paper's."""
     rows = [row for method in results.made for row in _static_rows(method, list(results.completeness(method).values()))]
-    return Table("static", "Static functionalization", _STATIC, (*rows, *_published_static()), _STATIC_NOTES)
+    return ResultTable("static", "Static functionalization", _STATIC, (*rows, *_published_static()), _STATIC_NOTES)
 
 
 def _static_rows(method: str, found: list[CompletenessRecord]) -> list[tuple[Cell, ...]]:
@@ -179,11 +179,11 @@ _MASKING_NOTES = (
 )
 
 
-def masking_table(results: Results) -> Table:
+def masking_table(results: Results) -> ResultTable:
     """Returns a row per method and rate, and the paper's rows."""
     rows = [row for method in results.masked for row in _masking_rows(method, results)]
     title = "Motions where labels are hidden at random"
-    return Table("masking", title, _MASKING, (*rows, *_published_masking()), _MASKING_NOTES)
+    return ResultTable("masking", title, _MASKING, (*rows, *_published_masking()), _MASKING_NOTES)
 
 
 def _masking_rows(method: str, results: Results) -> list[tuple[Cell, ...]]:

@@ -6,13 +6,13 @@ from typing import final
 
 from grafu.evaluation.records import (
     CompletenessRecord,
+    EvaluatedMotion,
+    EvaluatedPart,
     MadeFacts,
     MeasureRecord,
     MethodFacts,
     ModelFacts,
-    MotionRecord,
-    PartRecord,
-    Row,
+    ResultRow,
     TruthRecord,
     TwinFacts,
 )
@@ -41,7 +41,7 @@ class PartOutcome:
     model: str
     category: str
     truth: TruthRecord
-    record: PartRecord
+    record: EvaluatedPart
     alternatives: tuple[Motion, ...] = ()
     error: str = ""
 
@@ -110,12 +110,12 @@ class Results:
             records = {} if isinstance(result, Failure) else {record.part: record for record in result.parts}
             others = self.alternatives.get(model, {})
             for truth in facts.parts:
-                record = records.get(truth.part) or PartRecord(part=truth.part, skipped=error)
+                record = records.get(truth.part) or EvaluatedPart(part=truth.part, skipped=error)
                 found.append(PartOutcome(model, facts.category, truth, record, others.get(truth.part, ()), error))
         return tuple(found)
 
 
-def collect(tasks: Iterable[Task], rows: Mapping[str, Row]) -> Results:
+def collect(tasks: Iterable[Task], rows: Mapping[str, ResultRow]) -> Results:
     """Returns what the rows say about these tasks, in the tasks' order whatever theirs; tasks undone are left out."""
     gathered = _Gathered()
     for task in tasks:
@@ -149,7 +149,7 @@ class _Gathered:
         self.training: list[tuple[float, ...]] = []
         self.failures: list[Failure] = []
 
-    def add(self, task: Task, row: Row) -> None:
+    def add(self, task: Task, row: ResultRow) -> None:
         """Takes one row in."""
         failure = self._failure(task, row)
         match task, row.facts:
@@ -169,11 +169,11 @@ class _Gathered:
         if row.error:
             self.failures.append(failure)
 
-    def _lend(self, model: str, motions: Mapping[str, MotionRecord]) -> None:
+    def _lend(self, model: str, motions: Mapping[str, EvaluatedMotion]) -> None:
         for part, record in motions.items():
             self.alternatives.setdefault(model, {}).setdefault(part, []).append(record.motion())
 
-    def _failure(self, task: Task, row: Row) -> Failure:
+    def _failure(self, task: Task, row: ResultRow) -> Failure:
         named = ("method", "share", "seed", "other_model")
         facts = {name: text for name, text in task.facts().items() if name in named}
         what = ", ".join([task.facts()["task"], *(f"{name} {text}" for name, text in facts.items())])

@@ -85,7 +85,7 @@ class StatisticsRow:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class StatisticsTable:
     """All rows, the number of models on each side, and the real ones that could not be read, with the reason."""
 
     rows: tuple[StatisticsRow, ...]
@@ -117,7 +117,7 @@ class Comparison:
         return "\n".join([*lines, *([""] if self.unread else []), *(f"not read: {why}" for why in self.unread)]) + "\n"
 
 
-def compare(synthetic: Iterable[Specimen], real: Path | None = None) -> Comparison:
+def compare(synthetic: Iterable[Specimen], real: Path | None = None) -> StatisticsTable:
     """Returns the comparison of specimens with the models in a folder (one file or folder each), or without any.
 
     Raises:
@@ -130,7 +130,7 @@ def compare(synthetic: Iterable[Specimen], real: Path | None = None) -> Comparis
 
 def compare_measures(
     made: Sequence[ModelMeasures], real: Sequence[ModelMeasures] = (), unread: tuple[str, ...] = ()
-) -> Comparison:
+) -> StatisticsTable:
     """Returns the comparison of models that have been measured.
 
     Raises:
@@ -142,7 +142,7 @@ def compare_measures(
     values = dict.fromkeys(name for m in models for name in m.values)
     ratios = dict.fromkeys(name for m in models for name in m.tallies)
     rows = [_value_row(name, made, real) for name in values] + [_share_row(name, made, real) for name in ratios]
-    return Comparison(tuple(rows), len(made), len(real), unread)
+    return StatisticsTable(tuple(rows), len(made), len(real), unread)
 
 
 def measure_folder(folder: Path) -> tuple[tuple[ModelMeasures, ...], tuple[str, ...]]:

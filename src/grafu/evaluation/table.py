@@ -32,7 +32,7 @@ class Column:
 
 @final
 @dataclass(frozen=True)
-class Table:
+class ResultTable:
     """A named table; `notes` state what its figures mean.
 
     Raises:
@@ -76,7 +76,7 @@ def shown(cell: Cell, column: Column) -> str:
             return _number(cell, column)
 
 
-def markdown(table: Table) -> str:
+def markdown(table: ResultTable) -> str:
     """Returns the table in Markdown, its title above and its notes below."""
     heads = [column.title + _ARROWS[column.better] for column in table.columns]
     marks = ["---" if column.kind == "text" else "---:" for column in table.columns]
@@ -86,7 +86,7 @@ def markdown(table: Table) -> str:
     return "\n".join([f"# {table.title}", "", *lines, *(["", *notes] if notes else [])]) + "\n"
 
 
-def csv_text(table: Table) -> str:
+def csv_text(table: ResultTable) -> str:
     """Returns the table with a header, numbers in full; of a figure its value, low and high end, in three columns."""
     spread = {c.name: any(isinstance(row[k], Figure) for row in table.rows) for k, c in enumerate(table.columns)}
     text = io.StringIO()
@@ -97,7 +97,7 @@ def csv_text(table: Table) -> str:
     return text.getvalue()
 
 
-def json_text(table: Table) -> str:
+def json_text(table: ResultTable) -> str:
     """Returns the table as records, numbers in full; of a figure its value, ends and count."""
     rows = [{c.name: _plain(cell) for cell, c in _cells(table, row)} for row in table.rows]
     record = {
@@ -111,7 +111,7 @@ def json_text(table: Table) -> str:
     return json.dumps(record, indent=1, ensure_ascii=False) + "\n"
 
 
-def latex(table: Table) -> str:
+def latex(table: ResultTable) -> str:
     """Returns a `booktabs` tabular with caption and label; intervals stand small behind their figures."""
     align = "".join("l" if column.kind == "text" else "r" for column in table.columns)
     heads = [_tex(column.title) + _TEX_ARROWS[column.better] for column in table.columns]
@@ -137,10 +137,15 @@ def latex(table: Table) -> str:
     )
 
 
-FORMS: Final[dict[str, Callable[[Table], str]]] = {"md": markdown, "csv": csv_text, "json": json_text, "tex": latex}
+FORMS: Final[dict[str, Callable[[ResultTable], str]]] = {
+    "md": markdown,
+    "csv": csv_text,
+    "json": json_text,
+    "tex": latex,
+}
 
 
-def _cells(table: Table, row: tuple[Cell, ...]) -> list[tuple[Cell, Column]]:
+def _cells(table: ResultTable, row: tuple[Cell, ...]) -> list[tuple[Cell, Column]]:
     return list(zip(row, table.columns, strict=True))
 
 

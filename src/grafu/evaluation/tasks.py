@@ -19,7 +19,7 @@ from grafu.errors import AssetError, OptionError
 from grafu.evaluation.dataset import ModelRef
 from grafu.evaluation.distribution import TRAINING_COUNT, TRAINING_SEED
 from grafu.evaluation.methods import LEVELS, Method
-from grafu.evaluation.records import ModelFacts, Row
+from grafu.evaluation.records import ModelFacts, ResultRow
 from grafu.evaluation.twins import alike_pairs
 from grafu.version import __version__
 
@@ -204,7 +204,7 @@ class EvaluationPlan:
             found += [MadeTask(TRAINING_SEED, number) for number in range(self.training)]
         return tuple(found)
 
-    def twin_tasks(self, rows: Mapping[str, Row]) -> tuple[Task, ...]:
+    def twin_tasks(self, rows: Mapping[str, ResultRow]) -> tuple[Task, ...]:
         """Returns the pairs of models to compare, once all models were looked at: those whose fingerprints agree."""
         by_id = {model.id: model for model in self.models}
         prints: dict[str, Sequence[float]] = {}

@@ -20,7 +20,7 @@ from grafu.articulation.kinematics import link_origins
 from grafu.articulation.sweep import JointTrack, cycle_tracks
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
-from grafu.export.gltf_mesh import GltfBuffer, GltfMaterials, mesh_of, to_y_up
+from grafu.export.gltf_mesh import GltfBuffer, GltfMaterialWriter, mesh_of, to_y_up
 from grafu.export.names import NameBook
 from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Scalars, Vec3
@@ -71,7 +71,7 @@ class _GlbWriter:
         self._config = config
         self._origins = link_origins(articulated)
         self._buffer = GltfBuffer()
-        self._materials = GltfMaterials(self._buffer)
+        self._materials = GltfMaterialWriter(self._buffer)
         self._names = _reserved_names(articulated)
         self._nodes: list[dict[str, Any]] = []
         self._meshes: list[dict[str, Any]] = []

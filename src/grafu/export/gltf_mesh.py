@@ -74,7 +74,7 @@ _REPEATING = {"wrapS": 10497, "wrapT": 10497}
 
 
 @final
-class GltfMaterials:
+class GltfMaterialWriter:
     """Gives every distinct material an index; images go into the buffer byte for byte."""
 
     def __init__(self, buffer: GltfBuffer) -> None:
@@ -146,14 +146,16 @@ def to_y_up(vectors: Points) -> Points:
     return np.column_stack([vectors[:, 0], vectors[:, 2], -vectors[:, 1]])
 
 
-def mesh_of(visual: Visual, origin: Vec3, writer: tuple[GltfBuffer, GltfMaterials], crease: float) -> dict[str, Any]:
+def mesh_of(
+    visual: Visual, origin: Vec3, writer: tuple[GltfBuffer, GltfMaterialWriter], crease: float
+) -> dict[str, Any]:
     """Returns the glTF mesh of a visual relative to `origin` (metres, object frame); it may have no primitives."""
     primitives = [_primitive(s, origin, writer, crease) for s in visual.surfaces if not s.is_empty]
     return {"name": visual.name, "primitives": primitives}
 
 
 def _primitive(
-    surface: Surface, origin: Vec3, writer: tuple[GltfBuffer, GltfMaterials], crease: float
+    surface: Surface, origin: Vec3, writer: tuple[GltfBuffer, GltfMaterialWriter], crease: float
 ) -> dict[str, Any]:
     buffer, materials = writer
     shading = corner_normals(surface, crease)

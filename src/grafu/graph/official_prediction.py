@@ -41,7 +41,7 @@ class BorderPin:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Slide:
+class OfficialRail:
     """A rail as the authors say it: the signed axis along which it opens."""
 
     axis: SignedAxis
@@ -125,7 +125,7 @@ def _joints(graph: FunctionalGraph) -> tuple[ForeignJoint, ...]:
         axis = pin.axis_on(graph.node(hinge.child).box)
         found[hinge.child] = ForeignJoint(hinge.child, hinge.joint_type, axis, limited=False, code=pin)
     for rail in graph.rails:
-        slide = Slide(rail.axis)
+        slide = OfficialRail(rail.axis)
         axis = slide.axis_on(graph.node(rail.child).box)
         found.setdefault(rail.child, ForeignJoint(rail.child, rail.joint_type, axis, limited=False, code=slide))
     return tuple(found.values())

@@ -20,7 +20,7 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.coupled import Coupled
 from grafu.joints.measuring import Figures, Measured, measure_all
 from grafu.joints.nesting import above, brought_back, riding, seen_from
-from grafu.joints.order import BuiltJoint, Order, order_joints, stand_aside
+from grafu.joints.order import BuiltJoint, OpeningOrder, order_joints, stand_aside
 from grafu.joints.plan import JointRequest
 from grafu.processes.cache import Cache
 from grafu.refusal import Refusal
@@ -40,7 +40,7 @@ class Levels:
     scene: Scene
     built: Mapping[str, Built] = field(default_factory=dict)
     figures: Mapping[str, Figures] = field(default_factory=dict)
-    orders: Mapping[str, Order] = field(default_factory=dict)
+    orders: Mapping[str, OpeningOrder] = field(default_factory=dict)
     skipped: tuple[Refusal, ...] = ()
     parent_of: Mapping[str, str] = field(default_factory=dict)
     couplings: Mapping[str, Coupling] = field(default_factory=dict)
@@ -193,11 +193,11 @@ def _joined(levels: Levels, moving: str, coupling: Coupling, upper: float) -> Le
         leader = couplings[leader].leader
         orders[leader] = replace(orders[leader], upper=max(upper, 0.0))
     orders[leader] = replace(orders[leader], after=apart)
-    orders[moving] = Order((), coupling.value(orders[coupling.leader].upper), orders[moving].note)
+    orders[moving] = OpeningOrder((), coupling.value(orders[coupling.leader].upper), orders[moving].note)
     return replace(levels, orders=orders, couplings=couplings)
 
 
-def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
+def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> dict[str, OpeningOrder]:
     movings = [_built_joint(b, config.hinge.usual_opening) for b in built]
     return stand_aside(order_joints(movings, scene, config), movings, scene, config)
 
@@ -211,7 +211,7 @@ def _built_joint(built: Built, wide: float) -> BuiltJoint:
     return BuiltJoint(built.request.moving, motion, placement.upper, least, placement.in_way)
 
 
-def _without_order(built: Sequence[Built], why: str) -> dict[str, Order]:
+def _without_order(built: Sequence[Built], why: str) -> dict[str, OpeningOrder]:
     """Returns for each moving body an order without waiting; a note states that neighbours may meet, and why."""
     note = f"whether it must wait for its neighbours was not found out: {why}"
-    return {b.request.moving: Order((), b.placement.upper, note) for b in built}
+    return {b.request.moving: OpeningOrder((), b.placement.upper, note) for b in built}

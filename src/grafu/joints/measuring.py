@@ -17,7 +17,7 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, sweep, swept_box
-from grafu.joints.order import Order
+from grafu.joints.order import OpeningOrder
 from grafu.joints.plan import JointRequest
 from grafu.joints.report import Placement
 from grafu.processes.cache import Cache
@@ -40,13 +40,13 @@ class Measured:
 
     built: tuple[Built, ...]
     figures: Mapping[str, Figures]
-    orders: Mapping[str, Order]
+    orders: Mapping[str, OpeningOrder]
     scene: Scene
     skipped: tuple[Refusal, ...] = ()
 
 
 def measure_all(
-    built: Sequence[Built], orders: Mapping[str, Order], scene: Scene, config: RealizationConfig, cache: Cache
+    built: Sequence[Built], orders: Mapping[str, OpeningOrder], scene: Scene, config: RealizationConfig, cache: Cache
 ) -> Measured:
     """Returns what was measured on each joint; one that takes more than its fraction of the time is taken out again."""
     figures: dict[str, Figures] = {}

@@ -39,7 +39,7 @@ class BuiltJoint:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Order:
+class OpeningOrder:
     """What one joint waits for, how far it may open, and what else is to be said of that."""
 
     after: tuple[str, ...]
@@ -47,10 +47,10 @@ class Order:
     note: str = ""
 
 
-def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig) -> dict[str, Order]:
+def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig) -> dict[str, OpeningOrder]:
     """Returns for each moving body the moving bodies that must be open first, and its opening."""
     by_id = {joint.moving: joint for joint in joints}
-    orders: dict[str, Order] = {}
+    orders: dict[str, OpeningOrder] = {}
     waits: dict[str, set[str]] = {}
     for joint in sorted(joints, key=lambda m: len(m.in_way)):
         after, upper = [], joint.upper
@@ -66,13 +66,13 @@ def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: Realization
             else:
                 upper = min(upper, _until(joint, scene.moving_mesh(name), scene, config))
         waits[joint.moving] = set(after)
-        orders[joint.moving] = Order(tuple(after), upper)
+        orders[joint.moving] = OpeningOrder(tuple(after), upper)
     return orders
 
 
 def stand_aside(
-    orders: Mapping[str, Order], joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig
-) -> dict[str, Order]:
+    orders: Mapping[str, OpeningOrder], joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig
+) -> dict[str, OpeningOrder]:
     """Returns the orders in which doors open no wider than leaves their open neighbours free, if they must.
 
     A door that blocks another however little it opens, down to its `least`, opens as wide as before.

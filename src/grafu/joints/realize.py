@@ -29,7 +29,7 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.joint_choice import short_of_chosen
 from grafu.joints.levels import Builder, Levels
 from grafu.joints.nesting import above, bodies_of, bodies_on, posed
-from grafu.joints.order import Order
+from grafu.joints.order import OpeningOrder
 from grafu.joints.plan import AUTOMATIC, JointRequest, RealizationPlan
 from grafu.joints.report import Clearance, Installed, RealizationReport
 from grafu.processes.cache import NO_CACHE, Cache
@@ -89,7 +89,7 @@ def _final_scene(levels: Levels) -> Scene:
     return replace(scene, moving_bodies=bodies, joint_motions=joint_motions)
 
 
-def _final_motion(built: Built, order: Order) -> JointMotion:
+def _final_motion(built: Built, order: OpeningOrder) -> JointMotion:
     return JointMotion(built.placement.axis, built.request.type, order.upper, after=order.after)
 
 
@@ -158,7 +158,7 @@ def _installed(
     )
 
 
-def _note(order: Order) -> tuple[str, ...]:
+def _note(order: OpeningOrder) -> tuple[str, ...]:
     return (order.note,) if order.note else ()
 
 

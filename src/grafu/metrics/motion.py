@@ -34,7 +34,7 @@ class Motion:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Agreement:
+class MotionAgreement:
     """What of one part's true motion was found; nothing of a part that was left static agrees."""
 
     part: str
@@ -48,12 +48,14 @@ class Agreement:
         return self.type and self.direction and self.border
 
 
-def motion_agreement(found: ArticulatedObject, truth: ArticulatedObject, angle: float = ANGLE) -> tuple[Agreement, ...]:
+def motion_agreement(
+    found: ArticulatedObject, truth: ArticulatedObject, angle: float = ANGLE
+) -> tuple[MotionAgreement, ...]:
     """Returns one agreement per moving joint of `truth`; links are matched by id, `angle` is in radians."""
     return compare_motions(motions_of(found), motions_of(truth), angle)
 
 
-def agreement_ratio(agreements: tuple[Agreement, ...]) -> float:
+def agreement_ratio(agreements: tuple[MotionAgreement, ...]) -> float:
     """Returns the fraction of true motions that agree as a whole, 1 where there are none."""
     return sum(a.whole for a in agreements) / len(agreements) if agreements else 1.0
 
@@ -68,18 +70,18 @@ def motions_of(articulated: ArticulatedObject) -> dict[str, Motion]:
 
 def compare_motions(
     found: Mapping[str, Motion], truth: Mapping[str, Motion], angle: float = ANGLE
-) -> tuple[Agreement, ...]:
+) -> tuple[MotionAgreement, ...]:
     """Returns one agreement per part of `truth`, in its order."""
     return tuple(_compare(part, found.get(part), motion, angle) for part, motion in truth.items())
 
 
-def _compare(part: str, found: Motion | None, truth: Motion, angle: float) -> Agreement:
+def _compare(part: str, found: Motion | None, truth: Motion, angle: float) -> MotionAgreement:
     if found is None:
-        return Agreement(part, False, False, False)
+        return MotionAgreement(part, False, False, False)
     same_type = found.type is truth.type
     senses = (truth.axis, truth.axis.reversed()) if truth.both_ways else (truth.axis,)
     same_direction = same_type and any(found.axis.angle_to(sense) <= angle for sense in senses)
-    return Agreement(part, same_type, same_direction, same_direction and _same_border(found, truth))
+    return MotionAgreement(part, same_type, same_direction, same_direction and _same_border(found, truth))
 
 
 def _same_border(found: Motion, truth: Motion) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from grafu.additions.config import AdditionConfig
-from grafu.additions.step import PanelHint, Request, StepResult
+from grafu.additions.step import PanelHint, StepRequest, StepResult
 from grafu.additions.steps import BEFORE_JOINTS, INSIDE, ON_FRONTS, run_steps
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
 from grafu.asset.part import Asset, Part
@@ -35,7 +35,7 @@ def add_before_joints(
     """Returns the asset with the tops, boards and drawer boxes that it lacks and may have: joints must respect them."""
     nodes = completion.completed.nodes
     expected = (completion.completed.node(name) for name in completion.added)
-    request = Request(
+    request = StepRequest(
         plan,
         drawers,
         (asset.name, *(part.source.name for part in asset.parts)),
@@ -54,7 +54,7 @@ def add_after_joints(
     Raises:
         TemplateError: if the config names a handle that there is not.
     """
-    request = Request(handles=_handle_hints(completion), panels=_panel_hints(completion), own_handles=own)
+    request = StepRequest(handles=_handle_hints(completion), panels=_panel_hints(completion), own_handles=own)
     fronts = run_steps(ON_FRONTS, scene, request, config)
     made = fronts.then(run_steps(INSIDE, fronts.scene, request, config))
     forget_large_shapes()

@@ -121,7 +121,7 @@ PATIENCE: Final = 1.5
 
 @final
 @dataclass(frozen=True)
-class Limits:
+class ProcessLimits:
     """Seconds and bytes that one piece of work may take in its process; None: as much as it likes.
 
     Raises:

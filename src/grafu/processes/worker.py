@@ -14,7 +14,7 @@ from time import monotonic
 from typing import Any, Generic, Literal, TypeVar, final
 
 from grafu.processes.lifetime import clear_scratch, end_with_parent, kill, started_by_main_thread
-from grafu.processes.limits import PATIENCE, Ending, Limits, Outcome, refuse_beyond, resident_bytes
+from grafu.processes.limits import PATIENCE, Ending, Outcome, ProcessLimits, refuse_beyond, resident_bytes
 from grafu.processes.signals import interrupts_later, leave_interrupts_to_parent
 
 Item = TypeVar("Item")
@@ -57,7 +57,7 @@ class Worker(Generic[Item, Result]):
     def __init__(
         self,
         run: Callable[[Item], Result],
-        limits: Limits = Limits(),
+        limits: ProcessLimits = ProcessLimits(),
         prepare: Callable[[], None] = nothing,
         start: Start = "spawn",  # a fork would copy locks that native libraries hold
     ) -> None:
@@ -75,7 +75,7 @@ class Worker(Generic[Item, Result]):
     @property
     def patience(self) -> float | None:
         """Seconds until the next check while it reports nothing; None: no check."""
-        if self._limits == Limits():
+        if self._limits == ProcessLimits():
             return None
         left = inf if self._deadline is None else self._deadline - monotonic()
         return next_look(left, inf if self._limits.memory is None else float(self._limits.memory - self._held))
@@ -134,7 +134,7 @@ class Worker(Generic[Item, Result]):
 
 def _serve(
     run: Callable[[Any], object],
-    limits: Limits,
+    limits: ProcessLimits,
     prepare: Callable[[], None],
     connection: Connection,
     started_by_main_thread: bool,
@@ -158,7 +158,7 @@ def run_each(
     items: Sequence[Item],
     workers: int,
     run: Callable[[Item], Result],
-    limits: Limits = Limits(),
+    limits: ProcessLimits = ProcessLimits(),
     prepare: Callable[[], None] = nothing,
     start: Start = "spawn",
 ) -> Generator[tuple[Item, Outcome[Result]], None, None]:

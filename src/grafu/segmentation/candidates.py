@@ -18,7 +18,7 @@ from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Indices
 from grafu.segmentation.config import CandidateConfig, FrameConfig
-from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, View
+from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
 
 _NO_AREA = 1e-300
 
@@ -32,7 +32,7 @@ class Scale:
     outline: ScalarsOfShells  # the area of the object as it is seen
 
     @classmethod
-    def of(cls, view: View) -> "Scale":
+    def of(cls, view: ShellsView) -> "Scale":
         """Returns the scale of each shell."""
         count = int(view.owner.max()) + 1
         low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
@@ -42,7 +42,7 @@ class Scale:
         return cls(np.asarray(size.max(axis=1)), size[:, 0] * size[:, 1])
 
 
-def candidates(view: View, open_to: MaskOfShells, config: CandidateConfig) -> Indices:
+def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig) -> Indices:
     """Returns the shells that could be fronts, the largest first.
 
     Args:
@@ -70,7 +70,7 @@ def candidates(view: View, open_to: MaskOfShells, config: CandidateConfig) -> In
     return np.array(kept, dtype=np.int64)
 
 
-def within(view: View, shell: int, near: float) -> MaskOfShells:
+def within(view: ShellsView, shell: int, near: float) -> MaskOfShells:
     """Returns for each shell whether its outline lies in that of `shell`, which it may leave by `near`."""
     inside = (view.low[:, :2] >= view.low[shell, :2] - near) & (view.high[:, :2] <= view.high[shell, :2] + near)
     found = np.asarray(inside.all(axis=1))
@@ -78,7 +78,7 @@ def within(view: View, shell: int, near: float) -> MaskOfShells:
     return found
 
 
-def overlaps(view: View, shell: int) -> ScalarsOfShells:
+def overlaps(view: ShellsView, shell: int) -> ScalarsOfShells:
     """Returns which fraction of the outline of `shell` that of each shell covers."""
     low = np.maximum(view.low[:, :2], view.low[shell, :2])
     high = np.minimum(view.high[:, :2], view.high[shell, :2])
@@ -86,7 +86,7 @@ def overlaps(view: View, shell: int) -> ScalarsOfShells:
     return np.prod(np.maximum(high - low, 0.0), axis=1) / max(float(size[0] * size[1]), _NO_AREA)
 
 
-def _is_seen(view: View, shell: int, is_frame: bool, near: float, config: CandidateConfig) -> bool:
+def _is_seen(view: ShellsView, shell: int, is_frame: bool, near: float, config: CandidateConfig) -> bool:
     """Whether little hides a shell, and most of its outline shows it or what it holds."""
     rows, columns = view.window(shell)
     first, depth = view.seen[rows, columns], view.depth[rows, columns]
@@ -97,7 +97,7 @@ def _is_seen(view: View, shell: int, is_frame: bool, near: float, config: Candid
     return bool(hidden.mean() <= config.hidden and (is_frame or is_own.mean() >= config.seen))
 
 
-def _has_room(view: View, shell: int, least: float, config: CandidateConfig) -> bool:
+def _has_room(view: ShellsView, shell: int, least: float, config: CandidateConfig) -> bool:
     """Whether what stands behind a shell reaches farther back than the shell is thick."""
     behind = overlaps(view, shell) > config.hidden
     behind[shell] = False
@@ -109,7 +109,7 @@ def _has_room(view: View, shell: int, least: float, config: CandidateConfig) -> 
     return float(view.high[shell, 2]) - back >= 2 * least and thick > least
 
 
-def _is_flanked(view: View, shell: int, scale: Scale, config: CandidateConfig) -> bool:
+def _is_flanked(view: ShellsView, shell: int, scale: Scale, config: CandidateConfig) -> bool:
     """Whether a body stands in another's outline, or between two others as tall and deep: a drawer in its case."""
     low, high = view.low, view.high
     near = config.flank_reach * (config.near * float(scale.extent[shell]))
@@ -124,7 +124,7 @@ def _is_flanked(view: View, shell: int, scale: Scale, config: CandidateConfig) -
     return bool(left.any() and right.any())
 
 
-def framed(view: View, config: FrameConfig) -> list[tuple[int, ...]]:
+def framed(view: ShellsView, config: FrameConfig) -> list[tuple[int, ...]]:
     """Returns the shells of each framed front, a shell in one at most; frames that share a bar are none."""
     size, extent = view.size, Scale.of(view).extent
     found: list[tuple[int, ...]] = []
@@ -142,7 +142,7 @@ def framed(view: View, config: FrameConfig) -> list[tuple[int, ...]]:
     return _without_shared(found)
 
 
-def merged(view: View, groups: list[tuple[int, ...]]) -> tuple[View, list[tuple[int, ...]]]:
+def merged(view: ShellsView, groups: list[tuple[int, ...]]) -> tuple[ShellsView, list[tuple[int, ...]]]:
     """Returns the view with the shells of each group as one, and for each new shell those that it is made of."""
     count = len(view.owner)
     ends = np.array([(group[0], shell) for group in groups for shell in group], dtype=np.int64).reshape(-1, 2)
@@ -152,7 +152,7 @@ def merged(view: View, groups: list[tuple[int, ...]]) -> tuple[View, list[tuple[
     starts = np.searchsorted(number[order], np.arange(total))
     members = [tuple(shells.tolist()) for shells in np.split(order, starts[1:])]
     seen = np.where(view.seen >= 0, number[view.seen], -1).astype(np.int64)
-    return View(
+    return ShellsView(
         view.owner[order][starts],
         np.minimum.reduceat(view.low[order], starts, axis=0),
         np.maximum.reduceat(view.high[order], starts, axis=0),
@@ -164,7 +164,7 @@ def merged(view: View, groups: list[tuple[int, ...]]) -> tuple[View, list[tuple[
     ), members
 
 
-def _pairs(view: View, bars: MaskOfShells, along: int, same: np.ndarray) -> Iterator[tuple[int, list[int]]]:
+def _pairs(view: ShellsView, bars: MaskOfShells, along: int, same: np.ndarray) -> Iterator[tuple[int, list[int]]]:
     """Yields each bar with those of its object beside it that have the same ends and depths: the nearest first."""
     low, high, across = view.low, view.high, 1 - along
     for bar in np.flatnonzero(bars).tolist():
@@ -176,7 +176,7 @@ def _pairs(view: View, bars: MaskOfShells, along: int, same: np.ndarray) -> Iter
             yield bar, others[np.argsort(low[others, across], kind="stable")].tolist()
 
 
-def _level_with(view: View, bar: int, along: int, same: float) -> Indices:
+def _level_with(view: ShellsView, bar: int, along: int, same: float) -> Indices:
     """Returns the shells of a bar's object that reach beyond none of its ends, nor before it or behind it."""
     low, high = view.low, view.high
     inside = (low[:, along] >= low[bar, along] - same) & (high[:, along] <= high[bar, along] + same)
@@ -184,7 +184,7 @@ def _level_with(view: View, bar: int, along: int, same: float) -> Indices:
     return np.flatnonzero(inside & level & (view.owner == view.owner[bar]))
 
 
-def _filled(view: View, pair: tuple[int, int], along: int, extent: float, config: FrameConfig) -> tuple[int, ...]:
+def _filled(view: ShellsView, pair: tuple[int, int], along: int, extent: float, config: FrameConfig) -> tuple[int, ...]:
     """Returns the pair with the bars across and the panels between, empty where they are no filled frame.
 
     The view shows the shells that are level with the pair.
@@ -214,13 +214,13 @@ def _filled(view: View, pair: tuple[int, int], along: int, extent: float, config
     return (*pair, *np.flatnonzero(rails).tolist(), *np.flatnonzero(filling).tolist())
 
 
-def _is_set_back(view: View, bar: int, config: FrameConfig) -> MaskOfShells:
+def _is_set_back(view: ShellsView, bar: int, config: FrameConfig) -> MaskOfShells:
     """Whether each shell lies behind the face of a frame."""
     return np.asarray(view.high[:, 2] < view.high[bar, 2] - config.set_back * view.size[bar, 2])
 
 
 def _fits(
-    view: View,
+    view: ShellsView,
     panels: MaskOfShells,
     pair: tuple[int, int],
     along: int,

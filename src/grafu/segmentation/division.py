@@ -16,7 +16,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.candidates import Scale, candidates, framed, merged, overlaps
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells, fronts_among
-from grafu.segmentation.view import MaskOfShells, OfShells, View, view_of
+from grafu.segmentation.view import MaskOfShells, OfShells, ShellsView, view_of
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
 Faces = Int[np.ndarray, " _"]
@@ -26,7 +26,7 @@ _Z: Final = np.array([0.0, 0.0, 1.0])
 
 @final
 @dataclass(frozen=True, slots=True)
-class Piece:
+class FacePiece:
     """Faces of one object that become a part, and its role in that object.
 
     "front" and "handle" are new parts; "rest" is what is left of an object that hid fronts, and "body" a door or drawer
@@ -39,7 +39,7 @@ class Piece:
 
 @final
 @dataclass(frozen=True)
-class Shells:
+class MeshShells:
     """All faces of several meshes, the shell of each face, and for each shell the mesh that holds it."""
 
     mesh: TriangleMesh
@@ -47,7 +47,7 @@ class Shells:
     owner: OfShells
 
     @classmethod
-    def of(cls, meshes: Sequence[TriangleMesh], materials: Sequence[Indices] | None = None) -> "Shells":
+    def of(cls, meshes: Sequence[TriangleMesh], materials: Sequence[Indices] | None = None) -> "MeshShells":
         """Returns the shells of some meshes; with the material of each face, these are parted by material too."""
         shell = shell_numbers(*meshes)
         if materials is not None:
@@ -63,7 +63,7 @@ def divided(
     whole: Sequence[bool],
     materials: Sequence[Indices] | None = None,
     config: SegmentationConfig = SegmentationConfig(),
-) -> dict[int, list[Piece]]:
+) -> dict[int, list[FacePiece]]:
     """Returns for each mesh that is cut what it is cut into.
 
     Args:
@@ -74,12 +74,12 @@ def divided(
         config: the thresholds.
     """
     may = np.asarray(open_to, dtype=bool)
-    shells = Shells.of(meshes)
+    shells = MeshShells.of(meshes)
     found = _from_the_best_side(shells, may, whole, config)
     pieces = found.pieces(shells)
     if materials is not None:
         left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
-        parted = Shells.of(meshes, materials) if left.any() else shells
+        parted = MeshShells.of(meshes, materials) if left.any() else shells
         pieces |= replace(_from_the_best_side(parted, left, whole, config), hidden={}).pieces(parted)
     return dict(sorted(pieces.items()))
 
@@ -97,7 +97,7 @@ class _Found:
         """Returns the hidden fronts that are clear: several of one object, or one with a handle."""
         return {o: fronts for o, fronts in self.hidden.items() if len(fronts) > 1 or any(f.handles for f in fronts)}
 
-    def pieces(self, shells: Shells) -> dict[int, list[Piece]]:
+    def pieces(self, shells: MeshShells) -> dict[int, list[FacePiece]]:
         """Returns what each object is cut into."""
         counts = np.bincount(shells.owner[shells.shell])
         starts = np.cumsum([0, *counts])
@@ -107,7 +107,7 @@ class _Found:
 
 
 def _from_the_best_side(
-    shells: Shells, may_be_cut: MaskOfObjects, whole: Sequence[bool], config: SegmentationConfig
+    shells: MeshShells, may_be_cut: MaskOfObjects, whole: Sequence[bool], config: SegmentationConfig
 ) -> _Found:
     """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
 
@@ -139,14 +139,14 @@ def axes_from(turn: int) -> Mat3:
     return np.stack([np.cross(_Z, toward), _Z, toward])
 
 
-def _outline(view: View, front: FrontShells) -> float:
+def _outline(view: ShellsView, front: FrontShells) -> float:
     """Returns the area of a front's bounding box as it is seen."""
     shells = [*front.shells]
     size = view.high[shells].max(axis=0) - view.low[shells].min(axis=0)
     return float(size[0] * size[1])
 
 
-def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig) -> _Found:
+def _by_owner(view: ShellsView, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig) -> _Found:
     """Returns the fronts of each object that hides some, and of each that is one with handles."""
     view, members = merged(view, framed(view, config.frames))
     may = may[[shells[0] for shells in members]]
@@ -164,7 +164,7 @@ def _by_owner(view: View, may: MaskOfShells, whole: Sequence[bool], config: Segm
 
 
 def _with_low(
-    view: View, may: MaskOfShells, fronts: tuple[FrontShells, ...], config: SegmentationConfig
+    view: ShellsView, may: MaskOfShells, fronts: tuple[FrontShells, ...], config: SegmentationConfig
 ) -> tuple[FrontShells, ...]:
     """Returns the fronts with those beside them that are lower and have a handle: the drawers of a table."""
     low = candidates(view, may, replace(config.candidates, least=config.division.low))
@@ -176,7 +176,7 @@ def _with_low(
     return (*fronts, *(front for front in found if front.handles and not taken & front.all_shells))
 
 
-def _is_one_with_handles(view: View, owner: int, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
+def _is_one_with_handles(view: ShellsView, owner: int, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
     """Whether an object is one front, or a drawer behind one, with a handle or two."""
     if len(fronts) != 1 or not 0 < len(fronts[0].handles) <= config.most_handles:
         return False
@@ -185,7 +185,7 @@ def _is_one_with_handles(view: View, owner: int, fronts: tuple[FrontShells, ...]
     return _outline(view, fronts[0]) >= config.single * float(size[0] * size[1])
 
 
-def _is_flush(view: View, front: FrontShells, config: DivisionConfig) -> bool:
+def _is_flush(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bool:
     """Whether a front lies near the front of its object, its handles left out, and is no trifle."""
     plate = front.shells[0]
     handles = [shell for handle in front.handles for shell in handle]
@@ -197,7 +197,9 @@ def _is_flush(view: View, front: FrontShells, config: DivisionConfig) -> bool:
     return inside <= config.flush * depth + thick and shorter >= config.small * extent
 
 
-def _hides(view: View, owner: int, fronts: tuple[FrontShells, ...], is_whole: bool, config: SegmentationConfig) -> bool:
+def _hides(
+    view: ShellsView, owner: int, fronts: tuple[FrontShells, ...], is_whole: bool, config: SegmentationConfig
+) -> bool:
     """Whether an object is more than the fronts in it are: a case, or several fronts in one."""
     own = view.owner == owner
     low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
@@ -212,13 +214,13 @@ def _hides(view: View, owner: int, fronts: tuple[FrontShells, ...], is_whole: bo
     return len(major) > 1 or (bool(rest.any()) and _is_case(view, np.flatnonzero(rest), fronts, config))
 
 
-def _major(view: View, fronts: tuple[FrontShells, ...], alike: float) -> tuple[FrontShells, ...]:
+def _major(view: ShellsView, fronts: tuple[FrontShells, ...], alike: float) -> tuple[FrontShells, ...]:
     """Returns the fronts of some size, `alike` of the largest: rails and stiles are far smaller than their panel."""
     areas = [_outline(view, front) for front in fronts]
     return tuple(front for front, area in zip(fronts, areas, strict=True) if area >= alike * max(areas))
 
 
-def _is_beside_panel(view: View, own: Indices, major: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
+def _is_beside_panel(view: ShellsView, own: Indices, major: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
     """Whether a plate is one front beside a plate that is none: a control panel."""
     area = np.prod(view.size[:, :2], axis=1)
     size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
@@ -228,7 +230,7 @@ def _is_beside_panel(view: View, own: Indices, major: tuple[FrontShells, ...], c
     return has_panel and bool(area[[plate, *beside]].sum() >= config.filled * outline)
 
 
-def _is_case(view: View, rest: Indices, fronts: tuple[FrontShells, ...], config: SegmentationConfig) -> bool:
+def _is_case(view: ShellsView, rest: Indices, fronts: tuple[FrontShells, ...], config: SegmentationConfig) -> bool:
     """Whether shells are more than a box behind fronts: they stand out of these, or are closed from above."""
     plates = [front.shells[0] for front in fronts]
     reach = config.division.case_reach
@@ -242,23 +244,23 @@ def _is_case(view: View, rest: Indices, fronts: tuple[FrontShells, ...], config:
     return lid >= config.division.lid * float((high - low)[0] * (high - low)[2])
 
 
-def _pieces(shells: Shells, owner: int, start: int, fronts: tuple[FrontShells, ...]) -> list[Piece]:
+def _pieces(shells: MeshShells, owner: int, start: int, fronts: tuple[FrontShells, ...]) -> list[FacePiece]:
     """Returns what is left of an object, its fronts, and their handles."""
     plates = [front.shells for front in fronts]
     handles = [handle for front in fronts for handle in front.handles]
     rest, found = _split(shells, owner, start, [*plates, *handles])
-    new = [Piece("front", faces) for faces in found[: len(plates)]]
-    new += [Piece("handle", faces) for faces in found[len(plates) :]]
-    return [*([Piece("rest", rest)] if len(rest) else []), *new]
+    new = [FacePiece("front", faces) for faces in found[: len(plates)]]
+    new += [FacePiece("handle", faces) for faces in found[len(plates) :]]
+    return [*([FacePiece("rest", rest)] if len(rest) else []), *new]
 
 
-def _handles_apart(shells: Shells, owner: int, start: int, front: FrontShells) -> list[Piece]:
+def _handles_apart(shells: MeshShells, owner: int, start: int, front: FrontShells) -> list[FacePiece]:
     """Returns a front without its handles, and these."""
     body, found = _split(shells, owner, start, front.handles)
-    return [Piece("body", body), *(Piece("handle", faces) for faces in found)]
+    return [FacePiece("body", body), *(FacePiece("handle", faces) for faces in found)]
 
 
-def _split(shells: Shells, owner: int, start: int, groups: Sequence[tuple[int, ...]]) -> tuple[Faces, list[Faces]]:
+def _split(shells: MeshShells, owner: int, start: int, groups: Sequence[tuple[int, ...]]) -> tuple[Faces, list[Faces]]:
     """Returns the faces of an object that are in none of some groups of shells, and those of each group."""
     faces = np.flatnonzero(shells.owner[shells.shell] == owner)
     of = shells.shell[faces]

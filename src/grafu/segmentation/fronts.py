@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 from grafu.geometry.arrays import Indices
 from grafu.segmentation.candidates import Scale, overlaps, within
 from grafu.segmentation.config import SegmentationConfig
-from grafu.segmentation.view import MaskOfShells, View
+from grafu.segmentation.view import MaskOfShells, ShellsView
 
 _RING_CELLS = 3  # rays around a handle that show where its front lies
 
@@ -37,7 +37,7 @@ class FrontShells:
         )
 
 
-def fronts_among(view: View, plates: Indices, config: SegmentationConfig) -> tuple[FrontShells, ...]:
+def fronts_among(view: ShellsView, plates: Indices, config: SegmentationConfig) -> tuple[FrontShells, ...]:
     """Returns the fronts that candidates form, each shell in one at most.
 
     Args:
@@ -60,7 +60,7 @@ def fronts_among(view: View, plates: Indices, config: SegmentationConfig) -> tup
     return tuple(found)
 
 
-def _ranked(view: View, plates: Indices) -> list[int]:
+def _ranked(view: ShellsView, plates: Indices) -> list[int]:
     """Returns the candidates by outline, of equals the thicker first."""
     area = np.round(np.prod(view.size[:, :2], axis=1), 6)
     return sorted(plates.tolist(), key=lambda k: (-float(area[k]), -float(view.size[k, 2]), k))
@@ -70,7 +70,7 @@ def _ranked(view: View, plates: Indices) -> list[int]:
 class _FrontFinder:
     """Finds the shells of fronts in a view; what it computes once for all fronts is kept."""
 
-    def __init__(self, view: View, config: SegmentationConfig) -> None:
+    def __init__(self, view: ShellsView, config: SegmentationConfig) -> None:
         self._view, self._scale, self._config = view, Scale.of(view), config.members
         self._near = config.candidates.near * self._scale.extent
         self._area = np.prod(view.size[:, :2], axis=1)
@@ -191,7 +191,7 @@ class _FrontFinder:
         return tuple(tuple(shells[group].tolist()) for group, is_thick in zip(groups, thick, strict=True) if is_thick)
 
 
-def _outermost(view: View, shells: Sequence[int] | Indices, nested: float) -> list[int]:
+def _outermost(view: ShellsView, shells: Sequence[int] | Indices, nested: float) -> list[int]:
     """Returns the shells whose outlines lie in no other's, as `MemberConfig.nested` has it."""
     kept: list[int] = []
     for shell in _ranked(view, np.asarray(shells, dtype=np.int64)):

@@ -28,7 +28,7 @@ Groups = list[np.ndarray]
 
 @final
 @dataclass(frozen=True, eq=False)
-class Shells:
+class SceneShells:
     """The shells of the objects of a scene: their meshes, the object that holds each, and its faces there."""
 
     meshes: tuple[TriangleMesh, ...]
@@ -36,7 +36,7 @@ class Shells:
     faces: tuple[np.ndarray, ...]
 
     @classmethod
-    def of(cls, objects: Sequence[TriangleMesh]) -> "Shells":
+    def of(cls, objects: Sequence[TriangleMesh]) -> "SceneShells":
         """Returns the shells of some objects, in order."""
         meshes, owner, faces = [], [], []
         for k, mesh in enumerate(objects):
@@ -63,7 +63,7 @@ class Shells:
         return Box(self.low[group].min(axis=0), self.high[group].max(axis=0))
 
 
-def furniture_pieces(shells: Shells, config: FurnitureConfig = FurnitureConfig()) -> Indices:
+def furniture_pieces(shells: SceneShells, config: FurnitureConfig = FurnitureConfig()) -> Indices:
     """Returns for each shell the number of its piece of furniture; `FLOOR_OR_WALL` or `ALONE` where it is of none.
 
     Pieces are numbered from 0, from left to right as they are seen from -Y, those behind and above later.
@@ -84,7 +84,7 @@ def _place(box: Box) -> tuple[float, ...]:
     return tuple(np.round([box.center[0], box.low[1], box.low[2]], 3).tolist())
 
 
-def _without_room(shells: Shells, config: FurnitureConfig) -> Groups:
+def _without_room(shells: SceneShells, config: FurnitureConfig) -> Groups:
     """Returns the shells that touch, in groups, floors and walls left out."""
     pairs = near_pairs([mesh.box for mesh in shells.meshes], config.touch)
     touching = np.array(touching_pairs(shells.meshes, pairs, config.touch), dtype=np.int64).reshape(-1, 2)
@@ -107,7 +107,7 @@ def _groups(touching: np.ndarray, among: Mask) -> Groups:
     return [np.flatnonzero(among & (label == k)) for k in np.unique(label[among])]
 
 
-def _plates_of_room(shells: Shells, config: FurnitureConfig) -> Mask:
+def _plates_of_room(shells: SceneShells, config: FurnitureConfig) -> Mask:
     """Returns which shells may be floors, carpets or walls by their size and place."""
     low, high = shells.low.min(axis=0), shells.high.max(axis=0)
     size, whole = shells.high - shells.low, high - low
@@ -131,7 +131,7 @@ def _fills(box: Box, plate: Box, filled: float) -> bool:
     return float(np.prod(np.maximum(shared, 0.0))) >= filled * float(np.prod(plate.size[along]))
 
 
-def _with_what_belongs(shells: Shells, groups: Groups, config: FurnitureConfig) -> tuple[Groups, Groups]:
+def _with_what_belongs(shells: SceneShells, groups: Groups, config: FurnitureConfig) -> tuple[Groups, Groups]:
     """Returns the groups that are furniture, with contents, fronts and props of each; and those that lie alone.
 
     Where no group is large enough to be furniture, all are one piece.
@@ -163,12 +163,12 @@ def _lies_in(inner: Box, outer: Box, within: float) -> bool:
     return bool(np.all(shared >= within * inner.size))
 
 
-def _side_by_side(shells: Shells, group: Indices, config: FurnitureConfig) -> Groups:
+def _side_by_side(shells: SceneShells, group: Indices, config: FurnitureConfig) -> Groups:
     """Returns the pieces that stand side by side in a group of shells, along X and then along Y."""
     return [last for first in _parted(shells, group, 0, config) for last in _parted(shells, first, 1, config)]
 
 
-def _parted(shells: Shells, group: Indices, axis: int, config: FurnitureConfig) -> Groups:
+def _parted(shells: SceneShells, group: Indices, axis: int, config: FurnitureConfig) -> Groups:
     """Returns a group cut at the planes across an axis that part two pieces, each with sides at both its ends."""
     rows = _slabs(shells, group, axis, config.crossed)
     pieces = [rows[0]]
@@ -183,7 +183,7 @@ def _parted(shells: Shells, group: Indices, axis: int, config: FurnitureConfig) 
     return pieces if len(pieces) == 1 else _with_outer_sides(shells, pieces, axis, config)
 
 
-def _slabs(shells: Shells, group: Indices, axis: int, crossed: float) -> Groups:
+def _slabs(shells: SceneShells, group: Indices, axis: int, crossed: float) -> Groups:
     """Returns a group cut at every plane across an axis that cuts no object, in order along it."""
     objects, of = np.unique(shells.owner[group], return_inverse=True)
     low, high = np.full(len(objects), np.inf), np.full(len(objects), -np.inf)
@@ -197,7 +197,7 @@ def _slabs(shells: Shells, group: Indices, axis: int, crossed: float) -> Groups:
     return [group[number[of] == k] for k in range(int(slab[-1]) + 1)]
 
 
-def _with_outer_sides(shells: Shells, pieces: Groups, axis: int, config: FurnitureConfig) -> Groups:
+def _with_outer_sides(shells: SceneShells, pieces: Groups, axis: int, config: FurnitureConfig) -> Groups:
     """Returns the pieces of a row, those at its ends that have no outer side, or are a panel, joined to the next."""
     first, last = shells.box(pieces[0]), shells.box(pieces[-1])
     if not _has_side(shells, pieces[0], axis, float(first.low[axis]), 1, config):
@@ -208,7 +208,7 @@ def _with_outer_sides(shells: Shells, pieces: Groups, axis: int, config: Furnitu
     return pieces
 
 
-def _has_side(shells: Shells, group: Indices, axis: int, at: float, sense: int, config: FurnitureConfig) -> bool:
+def _has_side(shells: SceneShells, group: Indices, axis: int, at: float, sense: int, config: FurnitureConfig) -> bool:
     """Whether shells that lie on one side of a plane across an axis have a closed side near it."""
     ends = (at - config.crossed, at + config.beside) if sense > 0 else (at - config.beside, at + config.crossed)
     near = group[(shells.high[group, axis] >= ends[0]) & (shells.low[group, axis] <= ends[1])]

@@ -18,7 +18,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.touching import touching_pairs
 from grafu.segmentation.candidates import candidates, framed, merged
 from grafu.segmentation.config import JoiningConfig, SegmentationConfig
-from grafu.segmentation.division import Shells, axes_from
+from grafu.segmentation.division import MeshShells, axes_from
 from grafu.segmentation.fronts import fronts_among
 from grafu.segmentation.view import SeenFaces
 
@@ -41,7 +41,7 @@ def joined_objects(
     """
     may = np.asarray(open_to, dtype=bool)
     owner = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
-    whole, apart = merge_meshes(meshes), Shells.of(meshes).shell
+    whole, apart = merge_meshes(meshes), MeshShells.of(meshes).shell
     contacts: Final = _Contacts(meshes, config.joining)
     across = _across(whole, owner, apart, may)
     numberings = (apart,) if across.max(initial=0) == apart.max(initial=0) else (across, apart)

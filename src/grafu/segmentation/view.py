@@ -26,7 +26,7 @@ _SPARE = 0.01  # of that distance: rays are traced in single precision
 
 @final
 @dataclass(frozen=True, eq=False, slots=True)
-class View(ArrayValue):
+class ShellsView(ArrayValue):
     """Shells seen from one side, in the viewer's coordinates and the unit of the meshes.
 
     `owner` is the number of the mesh that holds each shell; `low` and `high` are the ends of its box; `faced` is the
@@ -51,10 +51,10 @@ class View(ArrayValue):
         """The extents of the shells."""
         return self.high - self.low
 
-    def of_shells(self, shells: Indices) -> "View":
+    def of_shells(self, shells: Indices) -> "ShellsView":
         """Returns the view of some shells, numbered in their order; what rays meet keeps its number."""
         owner, low, high, faced = (a[shells] for a in (self.owner, self.low, self.high, self.faced))
-        return View(owner, low, high, faced, self.seen, self.depth, self.origin, self.cell)
+        return ShellsView(owner, low, high, faced, self.seen, self.depth, self.origin, self.cell)
 
     def window(self, shell: int) -> tuple[slice, slice]:
         """Returns the rows and columns of the rays within the outline of a shell's box, at least one of each."""
@@ -66,7 +66,7 @@ class View(ArrayValue):
         return slice(first[1], last[1] + 1), slice(first[0], last[0] + 1)
 
 
-def view_of(mesh: TriangleMesh, shell: Indices, owner: OfShells, axes: Mat3) -> View:
+def view_of(mesh: TriangleMesh, shell: Indices, owner: OfShells, axes: Mat3) -> ShellsView:
     """Returns the shells of a mesh as they are seen along the third row of `axes`.
 
     Args:
@@ -84,7 +84,7 @@ class SeenFaces:
     """The faces of a mesh as they are seen from one side, however they are sorted into shells.
 
     `low` and `high` are the ends of the box of each face, `cross` its normal, twice as long as the face is large.
-    `face` is the face that each ray meets first; rays are those of `View`.
+    `face` is the face that each ray meets first; rays are those of `ShellsView`.
     """
 
     low: Points
@@ -116,7 +116,7 @@ class SeenFaces:
         face = np.where(found >= 0, met[found], -1) if len(met) else found
         return cls(low, high, cross, face.reshape(x.shape), (top - distance).reshape(x.shape), origin, cell)
 
-    def view(self, shell: Indices, owner: OfShells) -> View:
+    def view(self, shell: Indices, owner: OfShells) -> ShellsView:
         """Returns the shells, from the number of each face's shell and of the object that holds each shell."""
         order = np.argsort(shell, kind="stable")
         starts = np.searchsorted(shell[order], np.arange(len(owner)))
@@ -125,7 +125,7 @@ class SeenFaces:
         cross = self.cross[order] / 2
         sides = [np.add.reduceat(np.maximum(sign * cross, 0.0), starts, axis=0) for sign in (1.0, -1.0)]
         seen = np.where(self.face >= 0, shell[self.face], -1)
-        return View(owner, low, high, np.maximum(*sides), seen, self.depth, self.origin, self.cell)
+        return ShellsView(owner, low, high, np.maximum(*sides), seen, self.depth, self.origin, self.cell)
 
 
 def _may_be_met(low: Points, high: Points, origin: np.ndarray, cell: float) -> Int[np.ndarray, " _"]:

@@ -20,12 +20,12 @@ from grafu.synth.cabinets.corner import CornerCabinet, make_corner_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Back, Base, FaceFrame, Top
 from grafu.synth.fronts.hold import Hold
-from grafu.synth.fronts.layout import Bay, Door, Drawer, DrawerBox, Layout, LeafStyle, Pair, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, DrawerBox, Layout, LeafStyle, OpenCell, Pair, Stack
 from grafu.synth.fronts.setting import Mount
 from grafu.synth.noise import edits
 from grafu.synth.pieces.finish import textured_finish
 from grafu.synth.tables.desk import Desk, make_desk
-from grafu.synth.tables.table import Table, make_table
+from grafu.synth.tables.table import DrawerTable, make_table
 
 Maker = Callable[[], Asset]
 NARROW = Case(width=0.45)
@@ -56,15 +56,15 @@ TIDY: dict[str, Maker] = {
     "overlay door without a handle": _cabinet(Door(handle="none")),
     "inset pair": _cabinet(Pair(), "inset", Case(), gap=0.002),
     "inset door, tight": _cabinet(Door(), "inset", gap=0.001),
-    "half-overlay doors on one divider": _cabinet(Row((Door("right"), Door("left"))), case=Case()),
-    "three doors in a row": _cabinet(Row((Door("left"), Door("left"), Door("right"))), case=Case(1.2)),
+    "half-overlay doors on one divider": _cabinet(CellRow((Door("right"), Door("left"))), case=Case()),
+    "three doors in a row": _cabinet(CellRow((Door("left"), Door("left"), Door("right"))), case=Case(1.2)),
     "inset doors in a face frame": _cabinet(Pair(), "inset", Case(frame=FaceFrame(0.04)), gap=0.002),
     "overlay doors on a face frame": _cabinet(Pair(), case=Case(frame=FaceFrame(0.04)), lap=0.012),
-    "drawers behind a pair": _cabinet(Pair(behind=Stack((Drawer(handle="knob-round"), Bay()))), case=Case()),
+    "drawers behind a pair": _cabinet(Pair(behind=Stack((Drawer(handle="knob-round"), OpenCell()))), case=Case()),
     "drawers behind an inset door": _cabinet(Door(behind=Stack((Drawer(handle="none"),) * 2)), "inset"),
     "drawers with rails between": _cabinet(Stack((Drawer(),) * 3, between="rail"), "inset"),
     "drawers with panels between": _cabinet(Stack((Drawer(),) * 3)),
-    "drawers side by side without a wall": _cabinet(Row((Drawer(), Drawer()), between="nothing"), case=Case()),
+    "drawers side by side without a wall": _cabinet(CellRow((Drawer(), Drawer()), between="nothing"), case=Case()),
     "drawers tight in their walls": _cabinet(Stack((Drawer(),) * 2), "inset", slide_gap=0.001),
     "whole drawer boxes": _box("whole"),
     "drawer boxes without a bottom": _box("no bottom"),
@@ -78,9 +78,9 @@ TIDY: dict[str, Maker] = {
     "corner door at 30 degrees": lambda: make_corner_cabinet(CornerCabinet(along_x=1.043, along_y=0.75)),
     "cabinet turned by 30 degrees": lambda: yawed(make_cabinet(Cabinet(layout=MIXED)), radians(30)),
     "cabinet that faces +X": lambda: yawed(make_cabinet(Cabinet(layout=MIXED)), radians(90)),
-    "table with hanging drawers": lambda: make_table(Table()),
-    "table without aprons": lambda: make_table(Table(has_aprons=False)),
-    "two-sided table": lambda: make_table(Table(two_sided=True)),
+    "table with hanging drawers": lambda: make_table(DrawerTable()),
+    "table without aprons": lambda: make_table(DrawerTable(has_aprons=False)),
+    "two-sided table": lambda: make_table(DrawerTable(two_sided=True)),
     "desk with a pedestal": lambda: make_desk(Desk()),
     "tall wardrobe": _cabinet(Pair(), case=Case(1.0, 2.2, 0.6, base=Base("plinth"))),
     "thin panels": _cabinet(Pair(), case=Case(panel=0.008, back=Back(thickness=0.003)), front=0.008),
@@ -143,11 +143,11 @@ def furniture_of(parts: int) -> Asset:
     if columns == 0:
         fronts, shelves = divmod(spare - 1, 2)
         layout: Layout = Stack(
-            (*(Drawer(),) * fronts, Bay(shelves)) if shelves else (Drawer(),) * fronts, (), "nothing"
+            (*(Drawer(),) * fronts, OpenCell(shelves)) if shelves else (Drawer(),) * fronts, (), "nothing"
         )
         return make_cabinet(Cabinet(f"wall_{parts}", Case(0.6, 0.25 * (fronts + 1)), layout))
     extra = [spare // columns + (k < spare % columns) for k in range(columns)]
-    layout = Row(tuple(_column(shelves) for shelves in extra))
+    layout = CellRow(tuple(_column(shelves) for shelves in extra))
     return make_cabinet(Cabinet(f"wall_{parts}", Case(0.6 * columns, 2.0), layout))
 
 
@@ -157,7 +157,7 @@ def _column(shelves: int) -> Layout:
 
 def kitchen_base() -> Asset:
     """Returns a kitchen base cabinet: two overlay doors under two drawers, a worktop, a plinth."""
-    drawers = Row((Drawer(), Drawer()))
+    drawers = CellRow((Drawer(), Drawer()))
     layout = Stack((Pair(leaf="shaker", shelves=1), drawers), (3.4, 1.0))
     case = Case(0.9, 0.9, 0.56, base=Base("plinth"), top=Top("over", overhang=0.025))
     return make_cabinet(Cabinet("kitchen_base", case, layout, finish=textured_finish(1)))
@@ -165,7 +165,7 @@ def kitchen_base() -> Asset:
 
 def dresser() -> Asset:
     """Returns a dresser on legs: six inset drawers in a face frame, with knobs."""
-    row = Row((Drawer(handle="knob-round", leaf="chamfered"), Drawer(handle="knob-round", leaf="chamfered")))
+    row = CellRow((Drawer(handle="knob-round", leaf="chamfered"), Drawer(handle="knob-round", leaf="chamfered")))
     layout = Stack((row, row, row), (1.3, 1.15, 1.0), between="rail")
     case = Case(1.3, 0.85, 0.48, base=Base("legs", 0.14), top=Top("over", overhang=0.02), frame=FaceFrame(0.032))
     return make_cabinet(Cabinet("dresser", case, layout, "inset", gap=0.002, finish=textured_finish(2)))
@@ -174,9 +174,11 @@ def dresser() -> Asset:
 def wardrobe() -> Asset:
     """Returns a tall wardrobe: a pair of doors and a single one with drawers behind it, under a moulding."""
     chest = Stack(
-        (Drawer(handle="knob-round"), Drawer(handle="knob-round"), Bay(shelves=2)), (1.0, 1.0, 4.0), between="nothing"
+        (Drawer(handle="knob-round"), Drawer(handle="knob-round"), OpenCell(shelves=2)),
+        (1.0, 1.0, 4.0),
+        between="nothing",
     )
-    layout = Row((Pair(leaf="shaker", shelves=1), Door("right", "shaker", behind=chest)), (2.0, 1.0))
+    layout = CellRow((Pair(leaf="shaker", shelves=1), Door("right", "shaker", behind=chest)), (2.0, 1.0))
     case = Case(1.5, 2.1, 0.58, panel=0.02, base=Base("plinth", 0.08), moulding=0.06)
     return make_cabinet(Cabinet("wardrobe", case, layout, front=0.022, finish=textured_finish(3)))
 
@@ -184,7 +186,7 @@ def wardrobe() -> Asset:
 def sideboard() -> Asset:
     """Returns a sideboard: a glass door, three drawers, a drop-down flap over an open bay."""
     drawers = Stack((Drawer(), Drawer(), Drawer()), between="nothing")
-    layout = Row((Door("left", "glass", "knob-round", shelves=2), drawers, Stack((Bay(), Door("bottom")))))
+    layout = CellRow((Door("left", "glass", "knob-round", shelves=2), drawers, Stack((OpenCell(), Door("bottom")))))
     case = Case(1.6, 0.75, 0.42, base=Base("legs", 0.15))
     return make_cabinet(Cabinet("sideboard", case, layout, finish=textured_finish(4)))
 

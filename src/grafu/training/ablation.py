@@ -180,7 +180,7 @@ _BETTER_LESS = ("centre", "half", "added_centre")
 
 @final
 @dataclass(frozen=True)
-class Result:
+class AblationResult:
     """The figures of one finished run, as `validate` names them."""
 
     experiment: Experiment
@@ -195,12 +195,12 @@ class Result:
         return {name: _mean([figures[name] for figures in every]) for name in _NAMES}
 
 
-def markdown_table(results: Sequence[Result]) -> str:
+def markdown_table(results: Sequence[AblationResult]) -> str:
     """Returns a table with a row for each experiment, in the order of their first results, and what each row means.
 
     The best of a column is bold, unless all are as good. Of several seeds it shows mean and standard deviation.
     """
-    rows: dict[str, list[Result]] = {}
+    rows: dict[str, list[AblationResult]] = {}
     for result in results:
         rows.setdefault(result.experiment.name, []).append(result)
     figures = {name: {column: _seen(ones, column) for column in _COLUMNS} for name, ones in rows.items()}
@@ -212,7 +212,7 @@ def markdown_table(results: Sequence[Result]) -> str:
     return "\n".join([*lines, "", *meanings]) + "\n"
 
 
-def csv_table(results: Sequence[Result]) -> str:
+def csv_table(results: Sequence[AblationResult]) -> str:
     """Returns a line for each run and kind of input, and one for their mean, with every figure there is."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -225,7 +225,7 @@ def csv_table(results: Sequence[Result]) -> str:
     return text.getvalue()
 
 
-def _seen(results: Sequence[Result], column: str) -> list[float]:
+def _seen(results: Sequence[AblationResult], column: str) -> list[float]:
     """Returns a figure of every seed that has it."""
     values = [result.figures["score"] if column == "score" else result.of(MEAN)[column] for result in results]
     return [value for value in values if not math.isnan(value)]

@@ -11,7 +11,7 @@ from urllib.parse import quote
 import numpy as np
 
 from grafu.viewer.pictures import MIME, THUMBNAIL, data_uri
-from grafu.viewer.run_table import LIGHTS, WORDS, Cell, Column, Figure, Run, RunRow, RunTable
+from grafu.viewer.run_table import LIGHTS, WORDS, Cell, Run, RunColumn, RunFigure, RunRow, RunTable
 from grafu.viewer.shell import Html, joined, light_of, section, tag, whole_page
 
 _BINS = 16
@@ -88,7 +88,7 @@ def run_page(run: Run) -> str:
     return whole_page(run.title, joined(body), _STYLES, _SCRIPTS)
 
 
-def _figure(figure: Figure) -> Html:
+def _figure(figure: RunFigure) -> Html:
     value = tag("strong", figure.value, class_="flagged" if figure.flagged else None)
     return tag("div", value, tag("span", figure.what))
 
@@ -110,20 +110,20 @@ def _search(table: RunTable, index: int) -> Html:
 
 
 def _table(table: RunTable, index: int) -> Html:
-    rank = Column("#", "number", about="worst first")
+    rank = RunColumn("#", "number", about="worst first")
     heads = [_head(column, k, pressed=k == 0) for k, column in enumerate((rank, *table.columns))]
     rows = [_row(row, table.columns, number) for number, row in enumerate(table.worst_first, start=1)]
     body = tag("table", tag("thead", tag("tr", *heads)), tag("tbody", *rows), id=f"table-{index}")
     return tag("div", body, class_="scroll", tabindex=0, role="region", aria_label=table.title)
 
 
-def _head(column: Column, index: int, pressed: bool) -> Html:
+def _head(column: RunColumn, index: int, pressed: bool) -> Html:
     button = tag("button", column.name, type="button", data_sort=index, title=column.about or None)
     side = "text" if column.kind in WORDS else "number"
     return tag("th", button, scope="col", class_=side, aria_sort="ascending" if pressed else None)
 
 
-def _row(row: RunRow, columns: tuple[Column, ...], number: int) -> Html:
+def _row(row: RunRow, columns: tuple[RunColumn, ...], number: int) -> Html:
     cells = [tag("td", str(number), class_="number rank", data_value=number), _name(row)]
     cells += [_cell(column, cell) for column, cell in zip(columns[1:], row.cells[1:], strict=True)]
     return tag("tr", *cells, class_="flagged" if row.flagged else None)
@@ -138,7 +138,7 @@ def _name(row: RunRow) -> Html:
     return tag("td", tag("div", *image, words, class_="named"), class_="text", data_value=name)
 
 
-def _cell(column: Column, cell: Cell) -> Html:
+def _cell(column: RunColumn, cell: Cell) -> Html:
     if column.kind == "light":
         light = str(cell)
         return tag("td", light_of(light), class_="text", data_value=f"{LIGHTS.index(light)} {light}")

@@ -22,7 +22,7 @@ LIGHTS = ("failed", "red", "yellow", "green")
 
 @final
 @dataclass(frozen=True, slots=True)
-class Column:
+class RunColumn:
     """A column: its heading, how its values are written, whether their spread is drawn, and what it means in words.
 
     A fraction (0..1) in a column of percents is written as a percentage; a column of lights holds one of `LIGHTS`.
@@ -35,7 +35,7 @@ class Column:
 
     def __post_init__(self) -> None:
         if self.histogram and self.kind in WORDS:
-            raise ValueError(f"`Column.histogram` is for numbers: `{self.name}` is a column of text")
+            raise ValueError(f"`RunColumn.histogram` is for numbers: `{self.name}` is a column of text")
 
     def words(self, value: Cell) -> str:
         """Returns a value as it is written; None is a dash."""
@@ -76,7 +76,7 @@ class RunTable:
     """
 
     title: str
-    columns: tuple[Column, ...]
+    columns: tuple[RunColumn, ...]
     rows: tuple[RunRow, ...]
     lead: str = ""
 
@@ -103,7 +103,7 @@ class RunTable:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Figure:
+class RunFigure:
     """One number of the whole run, and what it counts; `flagged` calls for a look."""
 
     value: str
@@ -117,24 +117,26 @@ class Run:
     """A whole run: its name, its figures and its tables."""
 
     title: str
-    figures: Sequence[Figure]
+    figures: Sequence[RunFigure]
     tables: Sequence[RunTable]
     lead: str = ""
 
 
 _COLUMNS = (
-    Column("model"),
-    Column("verdict", "light", about="red: something does not work; yellow: it works, with something to look at"),
-    Column("to look at"),
-    Column("doors", "number", about="joints that turn"),
-    Column("drawers", "number", about="joints that slide"),
-    Column("not built", "number", about="doors and drawers without a joint, and other requests that were not built"),
-    Column("restricted", "number", about="joints that open less than 70 % of what they should"),
-    Column("collision", "percent", histogram=True, about="the worst joint's fraction of poses that cut into something"),
-    Column("gap, mm", "number", histogram=True, about="the widest gap between a link and what carries it"),
-    Column("no grasp", "number", about="joints that cannot be grasped"),
-    Column("added", "number", histogram=True, about="parts that the input did not have, hinges and rails left out"),
-    Column("seconds", "seconds", histogram=True, about="from reading to writing"),
+    RunColumn("model"),
+    RunColumn("verdict", "light", about="red: something does not work; yellow: it works, with something to look at"),
+    RunColumn("to look at"),
+    RunColumn("doors", "number", about="joints that turn"),
+    RunColumn("drawers", "number", about="joints that slide"),
+    RunColumn("not built", "number", about="doors and drawers without a joint, and other requests that were not built"),
+    RunColumn("restricted", "number", about="joints that open less than 70 % of what they should"),
+    RunColumn(
+        "collision", "percent", histogram=True, about="the worst joint's fraction of poses that cut into something"
+    ),
+    RunColumn("gap, mm", "number", histogram=True, about="the widest gap between a link and what carries it"),
+    RunColumn("no grasp", "number", about="joints that cannot be grasped"),
+    RunColumn("added", "number", histogram=True, about="parts that the input did not have, hinges and rails left out"),
+    RunColumn("seconds", "seconds", histogram=True, about="from reading to writing"),
 )
 # What is worse comes first: the colour above all, then by how much, whatever the numbers below it are.
 _FAILED, _COLOURS = 1e12, {Colour.RED: 1e9, Colour.YELLOW: 1e7, Colour.GREEN: 0.0}
@@ -203,21 +205,21 @@ def _to_look_at(report: Report, verdict: VerdictRecord) -> str:
     return "; ".join([*phrases, *([f"still without {listed(sorted(lacking))}"] if lacking else [])])
 
 
-def _figures(entries: Sequence[RunEntry]) -> list[Figure]:
+def _figures(entries: Sequence[RunEntry]) -> list[RunFigure]:
     reports = [entry.report for entry in entries if entry.report is not None]
     verdicts = [verdict_of(report) for report in reports]
     colours = Counter(verdict.colour for verdict in verdicts)
     faults = Counter(line.kind for verdict in verdicts for line in verdict.lines)
     failed, joints = len(entries) - len(reports), sum(len(report.joints) for report in reports)
     return [
-        Figure(str(len(reports)), "model done" if len(reports) == 1 else "models done"),
-        Figure(str(failed), "failed", failed > 0),
+        RunFigure(str(len(reports)), "model done" if len(reports) == 1 else "models done"),
+        RunFigure(str(failed), "failed", failed > 0),
         *(
-            Figure(str(colours[colour]), colour.value, colour is Colour.RED and colours[colour] > 0)
+            RunFigure(str(colours[colour]), colour.value, colour is Colour.RED and colours[colour] > 0)
             for colour in _ORDER
         ),
-        Figure(str(joints), "joint built" if joints == 1 else "joints built"),
-        Figure(str(faults[FaultKind.NO_JOINT]), "doors and drawers that are static", faults[FaultKind.NO_JOINT] > 0),
-        Figure(str(faults[FaultKind.COLLIDES]), "joints that collide", faults[FaultKind.COLLIDES] > 0),
-        Figure(str(sum(len(report.added) for report in reports)), "parts added"),
+        RunFigure(str(joints), "joint built" if joints == 1 else "joints built"),
+        RunFigure(str(faults[FaultKind.NO_JOINT]), "doors and drawers that are static", faults[FaultKind.NO_JOINT] > 0),
+        RunFigure(str(faults[FaultKind.COLLIDES]), "joints that collide", faults[FaultKind.COLLIDES] > 0),
+        RunFigure(str(sum(len(report.added) for report in reports)), "parts added"),
     ]

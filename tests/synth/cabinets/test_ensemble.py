@@ -3,13 +3,13 @@ import pytest
 from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.cabinets.ensemble import Ensemble, Placed, Slab, make_ensemble
 from grafu.synth.case.case import Case
-from grafu.synth.fronts.layout import Bay, Pair
+from grafu.synth.fronts.layout import OpenCell, Pair
 from grafu.vocabulary import PartLabel
 
 
 def test_members_stand_where_they_are_placed():
     low = Cabinet(case=Case(0.8, 0.8, 0.5), layout=Pair())
-    high = Cabinet(case=Case(0.8, 0.6, 0.3), layout=Bay())
+    high = Cabinet(case=Case(0.8, 0.6, 0.3), layout=OpenCell())
     board = Slab(PartLabel.TOP_PANEL, "worktop", (-0.4, -0.25, 0.8), (0.4, 0.25, 0.82))
     made = make_ensemble(Ensemble("hutch", (Placed(low), Placed(high, (0.0, 0.1, 0.82))), (board,)))
     assert made.box.size[2] == pytest.approx(1.42)

@@ -8,7 +8,7 @@ import pytest
 from grafu.graph.parse import parse_graph
 from grafu.synth.case.bases import METAL
 from grafu.synth.case.legs import Leg, LegShape, lean, leg_meshes
-from grafu.synth.tables.table import Table, make_table
+from grafu.synth.tables.table import DrawerTable, make_table
 
 
 @pytest.mark.parametrize("shape", ["tapered", "splayed", "cabriole"])
@@ -27,7 +27,7 @@ def test_legs_lean_as_their_solids_do(shape: LegShape, z: float) -> None:
 @pytest.mark.parametrize("shape", [shape for shape in get_args(LegShape) if shape not in METAL])
 @pytest.mark.parametrize("kind", ["sides", "box", "H"])
 def test_stretchers_reach_the_legs_of_tables(shape: LegShape, kind: str) -> None:
-    table = make_table(Table(leg_shape=shape, stretcher=kind))  # type: ignore[arg-type]
+    table = make_table(DrawerTable(leg_shape=shape, stretcher=kind))  # type: ignore[arg-type]
     graph = parse_graph(table)
 
     assert all(graph.neighbours[p.id] for p in table.parts if p.id.startswith("stretcher"))

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
-from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Stack
 from grafu.synth.noise.cutting import GROUPS, LEVEL, NAMELESS, ODD, draw_cuts, draw_joined
 from grafu.vocabulary import PartLabel
 from sketches import board, sketch
 
-TIDY = make_cabinet(Cabinet(layout=Row((Door(shelves=2), Stack((Drawer(), Drawer()))))))
+TIDY = make_cabinet(Cabinet(layout=CellRow((Door(shelves=2), Stack((Drawer(), Drawer()))))))
 STILL = {p.id for p in TIDY.parts if p.label.is_support}
 
 

@@ -8,14 +8,14 @@ from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.cabinets.chest import Chest, make_chest
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base
-from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Stack
 from grafu.synth.noise.loose_objects import LOOSE_OBJECTS, with_loose_objects
 from grafu.synth.truth.check import faults_of
 from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import PartLabel
 
 TIDY = make_cabinet(
-    Cabinet(case=Case(0.9, 0.9, base=Base("plinth")), layout=Row((Door(shelves=2), Stack((Drawer(), Drawer())))))
+    Cabinet(case=Case(0.9, 0.9, base=Base("plinth")), layout=CellRow((Door(shelves=2), Stack((Drawer(), Drawer())))))
 )
 
 

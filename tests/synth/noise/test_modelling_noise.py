@@ -8,7 +8,7 @@ import pytest
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.synth.generate import with_noise
-from grafu.synth.noise.modelling_noise import Cut, Joined, Misfit, ModellingNoise, apply_noise, as_given
+from grafu.synth.noise.modelling_noise import Joined, Misfit, ModellingNoise, PartCut, apply_noise, as_given
 from grafu.synth.truth.check import faults_in
 from grafu.vocabulary import PartLabel
 
@@ -34,8 +34,8 @@ DECISIONS = [
     replace(NEAT, loose_objects=("nailers", "things on top")),
     replace(NEAT, joined=(Joined(WALLS, PartLabel.SIDE_PANEL),)),
     replace(NEAT, joined=(Joined(("handle_1", "handle_2"), None),)),
-    replace(NEAT, cuts=(Cut("side_panel_left", "planks", count=3, axis=1), Cut("shelf_1", "edge strip"))),
-    replace(NEAT, cuts=(Cut("drawer", "box apart"), Cut("back_panel", "pieces"))),
+    replace(NEAT, cuts=(PartCut("side_panel_left", "planks", count=3, axis=1), PartCut("shelf_1", "edge strip"))),
+    replace(NEAT, cuts=(PartCut("drawer", "box apart"), PartCut("back_panel", "pieces"))),
     replace(NEAT, faces=(("sheet", ("back_panel", "bottom_panel")), ("doubled", ("door",)))),
     replace(NEAT, faces=(("loose", ("door",)), ("inverted", ("drawer",)), ("shells", ("top_panel", "drawer")))),
     replace(NEAT, misfits=(Misfit("door", (0.0, 0.004, 0.0)), Misfit("drawer", (0.003, 0.0, 0.0), grown=True))),
@@ -72,7 +72,7 @@ def test_decisions_about_parts_that_are_gone_are_passed_over() -> None:
     gone = replace(
         NEAT,
         joined=(Joined(WALLS, PartLabel.MISC),),
-        cuts=(Cut("back_panel", "planks"),),
+        cuts=(PartCut("back_panel", "planks"),),
         misfits=(Misfit("side_panel_left", (0.001, 0.0, 0.0)),),
         faces=(("sheet", ("side_panel_right",)),),
     )

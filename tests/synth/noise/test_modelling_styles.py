@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
-from grafu.synth.fronts.layout import Door, Drawer, Row, Stack
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Stack
 from grafu.synth.noise.modelling_noise import ModellingNoise
 from grafu.synth.noise.modelling_styles import (
     AJAR,
@@ -26,7 +26,7 @@ from grafu.synth.noise.modelling_styles import (
 from grafu.synth.samples import TIDY as KINDS
 from grafu.vocabulary import PartLabel
 
-TIDY = make_cabinet(Cabinet(layout=Row((Door(shelves=2), Stack((Drawer(), Drawer()))))))
+TIDY = make_cabinet(Cabinet(layout=CellRow((Door(shelves=2), Stack((Drawer(), Drawer()))))))
 HANDLES = {p.id for p in TIDY.parts if p.label is PartLabel.HANDLE}
 NUMBER = 2000
 

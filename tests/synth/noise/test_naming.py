@@ -6,12 +6,12 @@ import pytest
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base
-from grafu.synth.fronts.layout import Door, Row
+from grafu.synth.fronts.layout import CellRow, Door
 from grafu.synth.noise.naming import MISTAKES, STYLES, draw_wording, mistaken, with_labels_masked, worded
 from grafu.vocabulary import PartLabel
 from sketches import board, door, sketch
 
-TIDY = make_cabinet(Cabinet(case=Case(base=Base("plinth")), layout=Row((Door(shelves=1), Door()))))
+TIDY = make_cabinet(Cabinet(case=Case(base=Base("plinth")), layout=CellRow((Door(shelves=1), Door()))))
 
 
 def test_inner_uprights_are_side_panels_where_the_maker_says_so() -> None:

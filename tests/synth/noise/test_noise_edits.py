@@ -3,14 +3,14 @@ import pytest
 
 from grafu.graph.parse import parse_graph
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
-from grafu.synth.fronts.layout import Door, Drawer, Row
+from grafu.synth.fronts.layout import CellRow, Door, Drawer
 from grafu.synth.noise import edits
 from grafu.synth.noise.edits import with_anchored_sheets
 from grafu.vocabulary import PartLabel
 from sketches import board, sketch
 from sweeping import collisions
 
-TIDY = make_cabinet(Cabinet(layout=Row((Door(), Drawer()))))
+TIDY = make_cabinet(Cabinet(layout=CellRow((Door(), Drawer()))))
 ADDITIVE = [edits.with_doubled_faces, edits.with_degenerate_faces, edits.with_inverted_normals]
 SAME_BOX = [*ADDITIVE, edits.with_loose_faces]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from grafu.synth.fronts.hold import Inside
-from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Rect
+from grafu.synth.fronts.layout import Door, Drawer, OpenCell, Pair, Rect
 from grafu.synth.sampling.fittings import HINGE_EDGE, fit_bay, fit_door, fit_drawer, fit_pair
 from grafu.synth.sampling.style import draw_style
 
@@ -59,7 +59,7 @@ def test_flaps_take_no_curved_leaf():
 def test_shelves_follow_the_height():
     draw, style = rng(), a_style()
     low = [fit_pair(draw, Pair(), Rect(0.0, 0.8, 0.0, 0.25), style, 1.0).shelves for _ in range(20)]
-    tall = [fit_bay(draw, Bay(), Rect(0.0, 0.8, 0.0, 2.0), style).shelves for _ in range(50)]
+    tall = [fit_bay(draw, OpenCell(), Rect(0.0, 0.8, 0.0, 2.0), style).shelves for _ in range(50)]
     assert set(low) == {0}
     assert max(tall) >= 4
 

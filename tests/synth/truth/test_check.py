@@ -18,7 +18,7 @@ from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import parse_graph
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
-from grafu.synth.fronts.layout import Bay, Door, Drawer, Pair, Stack
+from grafu.synth.fronts.layout import Door, Drawer, OpenCell, Pair, Stack
 from grafu.synth.generate import make_specimen
 from grafu.synth.noise import edits
 from grafu.synth.samples import TIDY
@@ -87,7 +87,7 @@ def test_a_drawer_that_slides_in_hits_the_back():
 
 
 def test_a_drawer_that_does_not_come_out_is_found():
-    asset = make_cabinet(Cabinet(layout=Bay()))
+    asset = make_cabinet(Cabinet(layout=OpenCell()))
     joint = next(j for j in MIXED.joints if j.part == "drawer")
     board = replace(asset.part("back_panel"), id="drawer", label=PartLabel.DRAWER)
     within = replace(asset, parts=(*asset.parts, board), joints=(replace(joint, upper=0.5),))

@@ -30,7 +30,7 @@ FINE_DEPTHS = 17
 
 @final
 @dataclass(frozen=True, eq=False)
-class View:
+class FrontsView:
     """One side to which fronts open: its axes as columns, its moving bodies, the still body's box in it.
 
     `others` are the moving bodies that open to other sides: a back door closes a body, too.
@@ -91,7 +91,7 @@ class Bay(ArrayValue):
         )
 
 
-def find_views(closed: ClosedScene, config: CarcassConfig) -> tuple[View, ...]:
+def find_views(closed: ClosedScene, config: CarcassConfig) -> tuple[FrontsView, ...]:
     """Returns the sides to which upright doors and drawers open, each with its moving bodies."""
     scene = closed.scene
     found = ((r.moving, _outward(closed, r, config)) for r in closed.requests)
@@ -147,16 +147,16 @@ def _view(
     rays: RayCaster,
     group: tuple[Vec3, tuple[str, ...]],
     config: CarcassConfig,
-) -> View:
+) -> FrontsView:
     outward, moving_bodies = group
     y = -outward
     rotation = np.column_stack([np.cross(y, vec3(0.0, 0.0, 1.0)), y, vec3(0.0, 0.0, 1.0)])
     own = {member for moving in moving_bodies for member in scene.moving_bodies[moving].members}
     others = merge_meshes([_coarse(scene.parts[i].mesh, scene.extent, config) for i in sorted(scene.moving_ids - own)])
-    return View(rotation, moving_bodies, Box.around(still.vertices @ rotation), rays, RayCaster(others))
+    return FrontsView(rotation, moving_bodies, Box.around(still.vertices @ rotation), rays, RayCaster(others))
 
 
-def find_bays(view: View, closed: ClosedScene, config: CarcassConfig) -> tuple[Bay, ...]:
+def find_bays(view: FrontsView, closed: ClosedScene, config: CarcassConfig) -> tuple[Bay, ...]:
     """Returns the bays behind the fronts of a view, those that open into one another as one."""
     scene = closed.scene
     doors = {r.moving for r in closed.requests if r.kind.turns}
@@ -180,7 +180,7 @@ def _one_space(a: Bay, b: Bay, extent: float, config: CarcassConfig) -> bool:
     return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < config.apart * extent)
 
 
-def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassConfig) -> Bay | None:
+def _bay(view: FrontsView, scene: Scene, moving: str, is_door: bool, config: CarcassConfig) -> Bay | None:
     """Returns the space behind one front; None where no walls stand on both sides of it."""
     front = view.local(scene.parts[moving].mesh.vertices)
     low, high = front.min(axis=0), front.max(axis=0)
@@ -217,7 +217,7 @@ def _bay(view: View, scene: Scene, moving: str, is_door: bool, config: CarcassCo
     )
 
 
-def _refined(view: View, x: float, z: np.ndarray, span: tuple[float, float]) -> float:
+def _refined(view: FrontsView, x: float, z: np.ndarray, span: tuple[float, float]) -> float:
     """Returns where walls end between a depth without and one with them (or the latter, if both have them)."""
     depths = np.linspace(*span, FINE_DEPTHS)
     both = stands_between_walls(view.cast, vec3(x, 0.0, 0.0), (1, depths), (2, z))

@@ -13,12 +13,12 @@ from typing import final
 
 import numpy as np
 
-from grafu.additions.carcass.bays import Bay, View
+from grafu.additions.carcass.bays import Bay, FrontsView
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.carcass.missing_panels import MissingPanel, missing_panels, panels_missing
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.additions.likeness import surface_like
-from grafu.additions.step import Addition, Deficiency, DeficiencyKind, Request, StepResult, added_part, free_ids
+from grafu.additions.step import Addition, Deficiency, DeficiencyKind, StepRequest, StepResult, added_part, free_ids
 from grafu.geometry.arrays import Points, Scalars, Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.cells import meeting, pieces_in
@@ -150,7 +150,7 @@ class CarcassCompletion:
     refused: tuple[Refusal, ...] = ()
 
 
-def add_carcass_boards(scene: Scene, request: Request, config: CarcassConfig | None) -> StepResult:
+def add_carcass_boards(scene: Scene, request: StepRequest, config: CarcassConfig | None) -> StepResult:
     """Returns the scene with the backs and bottoms that it lacks; without a config it is only said which."""
     made = (
         CarcassCompletion(missing_panels(scene, request.plan, drawers=request.drawers))
@@ -247,7 +247,7 @@ def _fills(board: Box, bay: Bay, ratio: float) -> bool:
     return bool(board.size[thin] > 0 and np.all(board.size[along] > ratio * (bay.high - bay.low)[along]))
 
 
-def _room(view: View, closed: ClosedScene, config: CarcassConfig) -> BoardRoom:
+def _room(view: FrontsView, closed: ClosedScene, config: CarcassConfig) -> BoardRoom:
     moving = [closed.scene.parts[i] for i in sorted(closed.scene.moving_ids)]
     merged = (merge_meshes([p.mesh for p in some]) for some in (closed.scene.static_parts, moving))
     still, moved = (TriangleMesh(view.local(mesh.vertices), mesh.faces) for mesh in merged)

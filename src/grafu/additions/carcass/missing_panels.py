@@ -10,7 +10,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.additions.carcass.bays import Bay, View, find_bays, find_views
+from grafu.additions.carcass.bays import Bay, FrontsView, find_bays, find_views
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.geometry.arrays import vec3
@@ -38,7 +38,7 @@ class MissingPanel:
     moving_bodies: tuple[str, ...]
     covered: float
     why: str
-    view: View
+    view: FrontsView
     bay: Bay
 
 
@@ -76,7 +76,7 @@ def panels_missing(closed: ClosedScene, config: CarcassConfig) -> tuple[MissingP
     return tuple(found)
 
 
-def _missing_panel(what: PartLabel, bay: Bay, covered: float, view: View) -> MissingPanel:
+def _missing_panel(what: PartLabel, bay: Bay, covered: float, view: FrontsView) -> MissingPanel:
     side = "back" if what is PartLabel.BACK_PANEL else "bottom"
     named = ", ".join(bay.moving_bodies[:NAMED]) + (" and others" if len(bay.moving_bodies) > NAMED else "")
     return MissingPanel(
@@ -92,7 +92,7 @@ def _is_carcass(bay: Bay, scene: Scene, config: CarcassConfig) -> bool:
     return filled >= config.filled * max(float(bay.outline[3]) - scene.floor, config.least_height * scene.extent)
 
 
-def _back_covered(view: View, bay: Bay, behind: float) -> float:
+def _back_covered(view: FrontsView, bay: Bay, behind: float) -> float:
     """Returns the fraction of a bay's back at which something stands, seen through the fronts.
 
     It is looked for from this fraction of the bay's depth on.
@@ -104,7 +104,7 @@ def _back_covered(view: View, bay: Bay, behind: float) -> float:
     return float(np.isfinite(hits).mean())
 
 
-def _bottom_covered(view: View, bay: Bay, extent: float, config: CarcassConfig) -> float:
+def _bottom_covered(view: FrontsView, bay: Bay, extent: float, config: CarcassConfig) -> float:
     """Returns the fraction of a bay's bottom at which something stands below it."""
     (x0, y0, z0), (x1, y1, _) = bay.low.tolist(), bay.high.tolist()
     x, y = (a.ravel() for a in np.meshgrid(x0 + RAY_GRID * (x1 - x0), y0 + RAY_GRID * (y1 - y0), indexing="ij"))

@@ -23,7 +23,7 @@ from grafu.additions.step import (
     Changes,
     Deficiency,
     DeficiencyKind,
-    Request,
+    StepRequest,
     StepResult,
     added_part,
     free_ids,
@@ -59,7 +59,7 @@ class DrawerBoxes:
     loose: tuple[tuple[str, str], ...] = ()
 
 
-def add_drawer_boxes(scene: Scene, request: Request, config: DrawerBoxConfig | None) -> StepResult:
+def add_drawer_boxes(scene: Scene, request: StepRequest, config: DrawerBoxConfig | None) -> StepResult:
     """Returns the scene in which drawers have their boxes; without a config it is only said what they lack."""
     boxes = config or DrawerBoxConfig()
     made = complete_drawers(scene, request.plan, boxes, request.drawers, build=config is not None)

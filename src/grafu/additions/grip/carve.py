@@ -11,9 +11,9 @@ from typing import final
 import numpy as np
 
 from grafu.additions.grip.config import GripConfig, GripKind, GripProfile
-from grafu.additions.grip.ground import Site, front_part, site_of
+from grafu.additions.grip.ground import GripSite, front_part, site_of
 from grafu.additions.grip.place import levelled, spots
-from grafu.additions.grip.shape import Cut, cutters, grip_frame, lining, tilted, union
+from grafu.additions.grip.shape import GripCut, cutters, grip_frame, lining, tilted, union
 from grafu.additions.likeness import surface_like
 from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Surface
@@ -94,7 +94,7 @@ def _no_grip(moving_id: str, reason: Reason, details: str = "") -> Refusal:
     return Refusal(moving_id, reason, f"no grip: {reason} ({details})", Asked.GRASP)
 
 
-def _carved(site: Site, cut: Cut, config: GripConfig) -> Carved | Reason:
+def _carved(site: GripSite, cut: GripCut, config: GripConfig) -> Carved | Reason:
     """Returns the part less the grip, unless that would harm it."""
     frame = site.frame
     hulls = [
@@ -122,7 +122,7 @@ def _carved(site: Site, cut: Cut, config: GripConfig) -> Carved | Reason:
     return Carved(part, cut.kind, cut.profile, centre, direction, outward, size, left.volume, left.area)
 
 
-def _walls(site: Site, cut: Cut, left: CutOut, config: GripConfig) -> tuple[Surface, ...]:
+def _walls(site: GripSite, cut: GripCut, left: CutOut, config: GripConfig) -> tuple[Surface, ...]:
     """Returns the faces of the cut in the material of the front that was cut, textured as it is."""
     wall = left.wall
     if cut.is_hollow and cut.size.depth > site.seam:
@@ -135,7 +135,7 @@ def _walls(site: Site, cut: Cut, left: CutOut, config: GripConfig) -> tuple[Surf
     return (surface_like(wall, [like], skin.material),)
 
 
-def _in_object(site: Site, cut: Cut, points: Points) -> Points:
+def _in_object(site: GripSite, cut: GripCut, points: Points) -> Points:
     return site.frame.in_object(tilted(cut, points))
 
 

@@ -32,7 +32,7 @@ Grid = Float[np.ndarray, " _"]  # rising coordinates
 
 @final
 @dataclass(frozen=True, eq=False)
-class Ground(ArrayValue):
+class FrontLayers(ArrayValue):
     """What lines into the front meet first, one row per line; heights are Z of the grip frame.
 
     `face` is where a line enters (-inf: it meets nothing), `back` where the first layer ends, `solid` how much of that
@@ -49,7 +49,7 @@ class Ground(ArrayValue):
     def __post_init__(self) -> None:
         freeze_arrays(self)
 
-    def lowered(self, by: Scalars) -> "Ground":
+    def lowered(self, by: Scalars) -> "FrontLayers":
         """Returns the ground with each line's heights less by some metres: what is tilted comes to lie level."""
         return replace(self, face=self.face - by, back=self.back - by, beneath=self.beneath - by)
 
@@ -80,7 +80,7 @@ class Ground(ArrayValue):
 
 @final
 @dataclass(frozen=True, eq=False)
-class Site:
+class GripSite:
     """A front to carve: its part, its frame, and everything around it as triangles in the grip frame.
 
     `attached` moves with the front (handles, hardware); `still` and `others` do not.
@@ -115,7 +115,7 @@ class Site:
         ]
         return ~np.array(clear)[self.body.owner[self.body.source]]
 
-    def ground(self, xs: Grid, ys: Grid) -> Ground:
+    def ground(self, xs: Grid, ys: Grid) -> FrontLayers:
         """Returns what the lines through a grid meet, the second coordinate running fastest."""
         low, high = self._extent
         near = np.flatnonzero(
@@ -142,7 +142,7 @@ def aside(grid: Grid) -> Grid:
     return grid + ASIDE * (grid[-1] - grid[0]) / max(len(grid) - 1, 1)
 
 
-def _layered(found: Crossings, is_solid: Mask, is_opaque: Mask, lines: int, limits: tuple[float, float]) -> Ground:
+def _layered(found: Crossings, is_solid: Mask, is_opaque: Mask, lines: int, limits: tuple[float, float]) -> FrontLayers:
     """Returns what each line meets first; `limits` are the widest seam and the thickest hollow board, metres."""
     rows = [(-np.inf, -np.inf, 0.0, -np.inf, True)] * lines
     starts = np.searchsorted(found.line, np.arange(lines + 1)).tolist()
@@ -153,13 +153,13 @@ def _layered(found: Crossings, is_solid: Mask, is_opaque: Mask, lines: int, limi
         if span.start < span.stop:
             rows[line] = _first_layer(heights[span], steps[span], opaque[span], *limits)
     face, back, solid, beneath, clear = zip(*rows, strict=True)
-    return Ground(np.array(face), np.array(back), np.array(solid), np.array(beneath), np.array(clear))
+    return FrontLayers(np.array(face), np.array(back), np.array(solid), np.array(beneath), np.array(clear))
 
 
 def _first_layer(
     heights: list[float], steps: list[int], opaque: list[bool], seam: float, board: float
 ) -> tuple[float, float, float, float, bool]:
-    """Returns a row of `Ground` from a line's crossings; a step is +1 into a solid, -1 out of one, 0 at a sheet."""
+    """Returns a row of `FrontLayers` from crossings; a step is +1 into a solid, -1 out of one, 0 at a sheet."""
     face = back = heights[0]
     solid, inside, is_opaque = 0.0, 0, True
     for height, step, is_dull in zip(heights, steps, opaque, strict=True):
@@ -171,7 +171,7 @@ def _first_layer(
     return face, back, solid, -np.inf, is_opaque
 
 
-def site_of(scene: Scene, moving_id: str, frame: GripFrame, part: Part, config: GroundConfig) -> Site:
+def site_of(scene: Scene, moving_id: str, frame: GripFrame, part: Part, config: GroundConfig) -> GripSite:
     """Returns the site on one of the moving body's parts."""
     around = Box.around(frame.in_object(frame.box.corners())).grown(config.around * scene.metre)
     own = [scene.parts[m].mesh for m in scene.moving_bodies[moving_id].members if m != part.id]
@@ -180,7 +180,7 @@ def site_of(scene: Scene, moving_id: str, frame: GripFrame, part: Part, config: 
     still += [v.mesh for owner, v in scene.hardware if not owner]
     others = [scene.equipped_mesh(other) for other in scene.moving_bodies if other != moving_id]
     attached, fixed, moving = (_near(frame, meshes, around) for meshes in (own, still, others))
-    return Site(part, frame, attached, fixed, moving, scene.metre, config)
+    return GripSite(part, frame, attached, fixed, moving, scene.metre, config)
 
 
 def _near(frame: GripFrame, meshes: Sequence[TriangleMesh], around: Box) -> Triangles:

@@ -7,8 +7,8 @@ from itertools import product
 import numpy as np
 
 from grafu.additions.grip.config import GripConfig, GripKind, GripSize
-from grafu.additions.grip.ground import Grid, Ground, Site, Triangles, aside
-from grafu.additions.grip.shape import Cut, GripFrame
+from grafu.additions.grip.ground import FrontLayers, Grid, GripSite, Triangles, aside
+from grafu.additions.grip.shape import GripCut, GripFrame
 from grafu.geometry.arrays import Mask, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import triangle_bounds
@@ -20,7 +20,7 @@ LINES = (21, 17)
 """Lines along and across a grip that look at the front: near enough for beads and narrow mouldings."""
 
 
-def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scene: Scene, wish: Vec3 | None) -> Iterator[Cut]:
+def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scene: Scene, wish: Vec3 | None) -> Iterator[GripCut]:
     """Yields grips to try, best first; their levels are not known yet (0). None: the front is too small.
 
     `wish` is a point of the object frame near which the grip is wanted.
@@ -44,11 +44,11 @@ def spots(frame: GripFrame, config: GripConfig, kind: GripKind, scene: Scene, wi
             x, y, _ = frame.local(wish[None])[0]
             inner = size.width / 2 + margin
             y = edge if kind is GripKind.EDGE else np.clip(y, frame.box.low[1] + inner, frame.box.high[1] - inner)
-            yield Cut(kind, config.profile, float(np.clip(x, low, high)), float(y), size, 0.0, 0.0, 0.0)
+            yield GripCut(kind, config.profile, float(np.clip(x, low, high)), float(y), size, 0.0, 0.0, 0.0)
         middle = best_along(frame, scene, config)
         columns = dict.fromkeys(float(np.clip(middle + s * frame.length, low, high)) for s in config.trials.shifts)
         for y, x in product(rows, columns):
-            yield Cut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
+            yield GripCut(kind, config.profile, x, y, size, 0.0, 0.0, 0.0)
 
 
 def _margin(frame: GripFrame, config: GripConfig, scale: float) -> float:
@@ -73,7 +73,7 @@ def best_along(frame: GripFrame, scene: Scene, config: GripConfig) -> float:
     return min(max(reach, bottom + inset), top - inset) / up
 
 
-def levelled(site: Site, cut: Cut, config: GripConfig) -> Cut | Reason:
+def levelled(site: GripSite, cut: GripCut, config: GripConfig) -> GripCut | Reason:
     """Returns a grip with the levels between which it is cut, or why the front does not bear it there."""
     ring = _margin(site.frame, config, site.scale) / 2
     box = cut.box
@@ -101,7 +101,7 @@ def _tilt(x: Scalars, y: Scalars, face: Scalars) -> tuple[float, float]:
     return float(along), float(across)
 
 
-def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | Reason:
+def _groove(site: GripSite, cut: GripCut, ground: FrontLayers, config: GripConfig) -> GripCut | Reason:
     """Returns a groove as deep as the front allows."""
     if float(ground.thickness.min()) <= config.ground.thinnest * site.scale:
         return Reason.NO_THICKNESS
@@ -116,7 +116,7 @@ def _groove(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | R
     return replace(cut, size=replace(cut.size, depth=depth), top=top, face=face, bottom=face - depth)
 
 
-def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | Reason:
+def _through(site: GripSite, cut: GripCut, ground: FrontLayers, config: GripConfig) -> GripCut | Reason:
     """Returns a hole or notch through the first layer."""
     if float(np.ptp(ground.face)) > config.step * site.scale:
         return Reason.UNEVEN
@@ -132,8 +132,8 @@ def _through(site: Site, cut: Cut, ground: Ground, config: GripConfig) -> Cut | 
 
 
 def _unless_in_the_way(
-    site: Site, cut: Cut, ground: Ground, grid: tuple[Grid, Grid], config: GripConfig
-) -> Cut | Reason:
+    site: GripSite, cut: GripCut, ground: FrontLayers, grid: tuple[Grid, Grid], config: GripConfig
+) -> GripCut | Reason:
     """Returns the grip, unless something sits on it or leaves fingers no room; `ground` lies level."""
     scale, near = site.scale, cut.box.grown(config.clear * site.scale)
     low, high = (*near.low[:2], cut.bottom + site.seam), (*near.high[:2], cut.face + config.away * scale)
@@ -151,7 +151,7 @@ def _unless_in_the_way(
     return cut if (~met)[inside].mean() >= config.shown else Reason.NO_FINGER_ROOM
 
 
-def _within(cut: Cut, x: Scalars, y: Scalars) -> Mask:
+def _within(cut: GripCut, x: Scalars, y: Scalars) -> Mask:
     """Returns which points lie before the part of the grip where fingers reach in: a notch's inner half."""
     box = cut.box
     high = box.high[1] - (0.5 * cut.size.width if cut.kind is GripKind.EDGE else 0.0)

@@ -87,7 +87,7 @@ LEVEL_TOLERANCE = 1e-9
 
 @final
 @dataclass(frozen=True, slots=True)
-class Cut:
+class GripCut:
     """One grip in the grip frame: its middle (x, y), where an edge notch's y is the edge itself; its size; its levels.
 
     It is cut from `top`, above the front, down to `bottom`; `face` is the level of the front's face. `is_hollow` states
@@ -118,12 +118,12 @@ class Cut:
         return Box(np.array([self.x - half, low, self.bottom]), np.array([self.x + half, high, self.face]))
 
 
-def tilted(cut: Cut, points: Points) -> Points:
+def tilted(cut: GripCut, points: Points) -> Points:
     """Returns points that were made for a level front as they lie on the tilted one."""
     return points + np.column_stack([np.zeros((len(points), 2)), cut.lift(points[:, 0], points[:, 1])])
 
 
-def cutters(cut: Cut, sizes: GripSizes) -> tuple[ConvexSolid, ...]:
+def cutters(cut: GripCut, sizes: GripSizes) -> tuple[ConvexSolid, ...]:
     """Returns the solids of a grip, in the grip frame, as they are on a level front."""
     rounded = cut.profile == "rounded"
     if cut.kind is GripKind.GROOVE:
@@ -137,7 +137,7 @@ def cutters(cut: Cut, sizes: GripSizes) -> tuple[ConvexSolid, ...]:
     return tuple(solid for solid in solids if solid is not None)
 
 
-def lining(cut: Cut, sizes: GripSizes) -> TriangleMesh:
+def lining(cut: GripCut, sizes: GripSizes) -> TriangleMesh:
     """Returns the walls of a grip in a hollow board, in the grip frame, as on a level front: they look into it."""
     if cut.kind is GripKind.GROOVE:
         (solid,) = cutters(replace(cut, top=cut.face, is_hollow=False), sizes)
@@ -163,12 +163,12 @@ def _at(outline: Outline, level: float) -> Points:
     return np.column_stack([outline, np.full(len(outline), level)])
 
 
-def _rectangle(cut: Cut) -> Outline:
+def _rectangle(cut: GripCut) -> Outline:
     half = np.array([cut.size.length, cut.size.width]) / 2
     return np.array([cut.x, cut.y]) + half * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
 
 
-def _oval(cut: Cut, grown: float = 0.0) -> Outline:
+def _oval(cut: GripCut, grown: float = 0.0) -> Outline:
     """Returns a slot with round ends, a circle where it is as long as wide; grown or shrunk all round."""
     size = np.array([cut.size.length, cut.size.width])
     radius = float(size.min()) / 2
@@ -178,7 +178,7 @@ def _oval(cut: Cut, grown: float = 0.0) -> Outline:
     return np.array([cut.x, cut.y]) + (radius + grown) * circle + ends * np.sign(np.round(circle, DIGITS))
 
 
-def _groove(cut: Cut, sizes: GripSizes) -> ConvexSolid | None:
+def _groove(cut: GripCut, sizes: GripSizes) -> ConvexSolid | None:
     """Returns a hollow with round ends whose walls curve into its bottom."""
     depth = cut.face - cut.bottom
     radius = sizes.bottom_radius * min(depth, 0.5 * min(cut.size.length, cut.size.width))
@@ -188,7 +188,7 @@ def _groove(cut: Cut, sizes: GripSizes) -> ConvexSolid | None:
     return ConvexSolid.around(np.vstack([_at(_oval(cut), cut.top), *points]))
 
 
-def _notch(cut: Cut, over: float) -> Outline:
+def _notch(cut: GripCut, over: float) -> Outline:
     """Returns half an ellipse or a rectangle that goes `over` metres beyond the edge."""
     half, width = cut.size.length / 2, cut.size.width
     if cut.profile == "sharp":
@@ -199,7 +199,7 @@ def _notch(cut: Cut, over: float) -> Outline:
     return np.array([cut.x, cut.y]) + np.vstack([inner, [(half, over), (-half, over)]])
 
 
-def union(cut: Cut, sizes: GripSizes) -> TriangleMesh | None:
+def union(cut: GripCut, sizes: GripSizes) -> TriangleMesh | None:
     """Returns the watertight surface around all of a grip's cutters, in their frame; None: there is one."""
     if not _is_rounded(cut):
         return None
@@ -217,11 +217,11 @@ def union(cut: Cut, sizes: GripSizes) -> TriangleMesh | None:
     return TriangleMesh(points, np.vstack(faces))
 
 
-def _is_rounded(cut: Cut) -> bool:
+def _is_rounded(cut: GripCut) -> bool:
     return cut.kind is GripKind.HOLE and cut.profile == "rounded" and not cut.is_hollow
 
 
-def _hole_levels(cut: Cut, sizes: GripSizes) -> list[tuple[float, float]]:
+def _hole_levels(cut: GripCut, sizes: GripSizes) -> list[tuple[float, float]]:
     """Returns by how much a hole with a rounded rim is wider, and at which level, upwards: a quarter turn outwards."""
     radius = sizes.rim_radius * (cut.face - cut.bottom)
     angles = np.linspace(np.pi / 2, 0.0, RIM_SLICES + 1)
@@ -229,7 +229,7 @@ def _hole_levels(cut: Cut, sizes: GripSizes) -> list[tuple[float, float]]:
     return [(0.0, cut.bottom), *rim, (radius, cut.top)]
 
 
-def _stages(cut: Cut, sizes: GripSizes) -> list[ConvexSolid | None]:
+def _stages(cut: GripCut, sizes: GripSizes) -> list[ConvexSolid | None]:
     """Returns the convex slices of a hole with a rounded rim."""
     rings = [_at(_oval(cut, grown), level) for grown, level in _hole_levels(cut, sizes)]
     return [ConvexSolid.around(np.vstack(pair)) for pair in pairwise(rings)]

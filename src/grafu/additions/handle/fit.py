@@ -126,7 +126,7 @@ def _met(body: SweptBody, motion: PoseFunction, upper: float, near: Sequence[Obs
 
 @final
 @dataclass(frozen=True, eq=False)
-class Ground:
+class HandleGround:
     """The relief of a front, and what of it can carry a handle."""
 
     relief: Relief
@@ -144,12 +144,12 @@ class Ground:
         return found
 
 
-def ground_of(scene: Scene, moving_id: str, relief: Relief) -> Ground:
+def ground_of(scene: Scene, moving_id: str, relief: Relief) -> HandleGround:
     """Returns the ground for handles on a moving body."""
     members = [scene.parts[m] for m in scene.moving_bodies[moving_id].members]
     solid = [s for p in members for s in p.surfaces if not _is_pane(s)]
     clear = any(_is_pane(s) for p in members for s in p.surfaces)
-    return Ground(relief, RayCaster(merge_meshes([s.mesh for s in solid])) if clear else relief.moving)
+    return HandleGround(relief, RayCaster(merge_meshes([s.mesh for s in solid])) if clear else relief.moving)
 
 
 def _is_pane(surface: Surface) -> bool:
@@ -159,7 +159,7 @@ def _is_pane(surface: Surface) -> bool:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Shape:
+class HandleShape:
     """A handle at one size in its own frame, see `grafu.templates.template`.
 
     Its feet are what lies within `foot_depth` metres of the foot plane.
@@ -182,7 +182,9 @@ class Shape:
         return near[:: max(len(near) // MOST_FOOT_POINTS, 1)] * (1.0, 0.0, 1.0)
 
 
-def fitted(ground: Ground, shape: Shape, spot: Spot, place: tuple[float, float], config: HandleConfig) -> Mat4 | None:
+def fitted(
+    ground: HandleGround, shape: HandleShape, spot: Spot, place: tuple[float, float], config: HandleConfig
+) -> Mat4 | None:
     """Returns the pose, in the object frame, in which a handle sits flush at a place; None: there it cannot sit."""
     u, v = place
     feet = shape.foot @ spot.turn.T

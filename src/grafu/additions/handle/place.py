@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import final
 
 from grafu.additions.handle.config import HandleConfig
-from grafu.additions.handle.fit import HandleObstacles, Shape, fitted, ground_of, handle_obstacles
+from grafu.additions.handle.fit import HandleObstacles, HandleShape, fitted, ground_of, handle_obstacles
 from grafu.additions.handle.grasp_config import ReliefConfig
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.handle.spots import Extent, Spot, spots_on
-from grafu.additions.handle.style import Sibling, Style, choose_style, named_template, siblings_of
+from grafu.additions.handle.style import HandleStyle, Sibling, choose_style, named_template, siblings_of
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Addition, Grasp, added_part, free_ids
 from grafu.geometry.appearance import Surface
@@ -90,7 +90,7 @@ def bodies_without(scene: Scene, grasps: Mapping[str, Grasp], config: HandleConf
 class _Task:
     """What all handles of one model have in common."""
 
-    style: Style
+    style: HandleStyle
     siblings: tuple[Sibling, ...]
     config: HandleConfig
     hints: Mapping[str, Vec3]
@@ -103,7 +103,7 @@ def _handles_for(scene: Scene, moving: str, obstacles: HandleObstacles, task: _T
     ground = ground_of(scene, moving, relief)
     met, tried, blocked = "", False, 0
     for template, length, protrusion in _sizes(task.style, relief, task.config):
-        shape = Shape(template.build(length, protrusion), task.config.foot_depth)
+        shape = HandleShape(template.build(length, protrusion), task.config.foot_depth)
         spots = spots_on(relief, _extent(template, shape), task.siblings, task.hints.get(moving), task.config)
         for spot in _few(spots, task.config.trials.most_spots):
             tried = True
@@ -142,7 +142,7 @@ def _few(spots: Iterable[Spot], most: int) -> Iterator[Spot]:
         yield spot
 
 
-def _sizes(style: Style, relief: Relief, config: HandleConfig) -> Iterator[tuple[HandleTemplate, float, float]]:
+def _sizes(style: HandleStyle, relief: Relief, config: HandleConfig) -> Iterator[tuple[HandleTemplate, float, float]]:
     """Yields templates with lengths and protrusions to try, metres, best first."""
     s, box = relief.factor, relief.outline
     held = relief.front.held
@@ -164,13 +164,13 @@ def _sizes(style: Style, relief: Relief, config: HandleConfig) -> Iterator[tuple
             yield template, length, out * s * template.natural.protrusion
 
 
-def _extent(template: HandleTemplate, shape: Shape) -> Extent:
+def _extent(template: HandleTemplate, shape: HandleShape) -> Extent:
     size = shape.mesh.box.size
     return Extent(float(size[0]), float(size[2]), template.turns, template.id == "bar-profile")
 
 
 def _additions(
-    scene: Scene, moving: str, template: HandleTemplate, shape: Shape, poses: list[Mat4], spot: Spot, task: _Task
+    scene: Scene, moving: str, template: HandleTemplate, shape: HandleShape, poses: list[Mat4], spot: Spot, task: _Task
 ) -> tuple[Addition, ...]:
     names = free_ids(f"handle_{moving}", len(poses), scene.parts)
     found = []
@@ -181,5 +181,5 @@ def _additions(
     return tuple(found)
 
 
-def _surface(mesh: TriangleMesh, style: Style) -> Surface:
+def _surface(mesh: TriangleMesh, style: HandleStyle) -> Surface:
     return surface_like(mesh, style.alike, style.finish)

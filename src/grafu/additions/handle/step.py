@@ -14,7 +14,7 @@ from grafu.additions.handle.grasp import find_grasps
 from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.handle.place import add_handles, bodies_without
 from grafu.additions.handle.relief import Reliefs
-from grafu.additions.step import Changes, Grasp, Request, StepResult
+from grafu.additions.step import Changes, Grasp, StepRequest, StepResult
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.visible import ShortRepr
@@ -32,7 +32,7 @@ class FrontConfig(ShortRepr):
     fronts: Mapping[str, HandleChoice] = field(default_factory=dict)
 
 
-def clear_fronts(scene: Scene, _: Request, config: FrontConfig) -> StepResult:
+def clear_fronts(scene: Scene, _: StepRequest, config: FrontConfig) -> StepResult:
     """Returns the scene without the handles that are replaced by what was chosen."""
     gone = frozenset(
         member
@@ -44,7 +44,7 @@ def clear_fronts(scene: Scene, _: Request, config: FrontConfig) -> StepResult:
     return StepResult(scene.without_parts(gone), changes=Changes(gone))
 
 
-def add_grasps(scene: Scene, request: Request, config: FrontConfig) -> StepResult:
+def add_grasps(scene: Scene, request: StepRequest, config: FrontConfig) -> StepResult:
     """Returns the scene with handles, else grips, on what cannot be grasped, and how all could be grasped before.
 
     Fronts for which something was chosen are left alone.
@@ -86,7 +86,7 @@ def _no_grasp(first: Refusal, *others: Refusal) -> Refusal:
     return replace(first, why=f"nothing to grasp it by: {said}")
 
 
-def add_chosen(scene: Scene, request: Request, config: FrontConfig) -> StepResult:
+def add_chosen(scene: Scene, request: StepRequest, config: FrontConfig) -> StepResult:
     """Returns the scene with the handles and grips that were chosen front by front.
 
     Raises:
@@ -99,7 +99,7 @@ def add_chosen(scene: Scene, request: Request, config: FrontConfig) -> StepResul
     return done
 
 
-def _fitted(scene: Scene, moving: str, choice: HandleChoice, request: Request, config: FrontConfig) -> StepResult:
+def _fitted(scene: Scene, moving: str, choice: HandleChoice, request: StepRequest, config: FrontConfig) -> StepResult:
     if choice.style == ANY_GRIP or choice.style in tuple(GripKind):
         return _carved(scene, moving, choice, config.grips or GripConfig())
     general = config.handles or HandleConfig()

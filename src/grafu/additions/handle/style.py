@@ -37,7 +37,7 @@ class Sibling:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Style:
+class HandleStyle:
     """A template with a length and a protrusion in metres, the parts that its metal is like, else its finish."""
 
     template: HandleTemplate
@@ -66,7 +66,7 @@ def choose_style(
     factor: float,
     config: HandleConfig,
     own: Mapping[str, HandleTemplate],
-) -> Style:
+) -> HandleStyle:
     """Returns the style of all handles that a model gets.
 
     `factor` is the length of a metre on it, `own` are the user's templates by id.
@@ -79,11 +79,11 @@ def choose_style(
     if config.style or not siblings:
         template = named_template(config.style or config.default, own)
         length = config.length or _length(template, fronts, factor, config)
-        return Style(
+        return HandleStyle(
             template, min(length, factor * template.longest), factor * template.natural.protrusion, alike, finish
         )
     template, length, protrusion = _like(siblings, factor, config)
-    return Style(template, config.length or length, protrusion, alike, finish)
+    return HandleStyle(template, config.length or length, protrusion, alike, finish)
 
 
 def named_template(template_id: str, own: Mapping[str, HandleTemplate]) -> HandleTemplate:

@@ -22,7 +22,7 @@ from grafu.additions.interior.arrangement import (
 from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.occupied import is_drawer
-from grafu.additions.interior.panels import Clearing, Place, WallRays, clearing_of, cut_panel, moved_to
+from grafu.additions.interior.panels import Clearing, PanelPlace, WallRays, clearing_of, cut_panel, moved_to
 from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Addition, PanelHint, added_part, free_ids
@@ -49,7 +49,7 @@ class _Panel:
     compartment: int
     label: PartLabel
     mesh: TriangleMesh
-    place: Place
+    place: PanelPlace
 
 
 def furnish(
@@ -226,20 +226,20 @@ class _Maker:
         """Yields panels of one kind in one compartment: at given middles, else `count` equally spaced."""
         if not (count or at):
             return
-        axis = Place(compartment, label, 0.0, 0.0).stack
+        axis = PanelPlace(compartment, label, 0.0, 0.0).stack
         low, high = float(compartment.box.low[axis]), float(compartment.box.high[axis])
         count = min(count, most_that_fit(high - low, self._sizes.thickness, self._sizes.least_pitch))
         middles = list(at) or spaced(low, high, count, self._sizes.thickness)
         room = min(np.diff([low, *middles, high])) if middles else 0.0
         for middle in middles:
-            made = self._tried(Place(compartment, label, middle, self._sizes.inset), float(room))
+            made = self._tried(PanelPlace(compartment, label, middle, self._sizes.inset), float(room))
             if isinstance(made, Refusal):
                 yield made.of(_named(self._number, label), Asked.INTERIOR)
             else:
                 self._clearing.add(f"{label.value}", made.mesh)
                 yield made
 
-    def _tried(self, place: Place, room: float) -> _Panel | Refusal:
+    def _tried(self, place: PanelPlace, room: float) -> _Panel | Refusal:
         """Returns the panel at the place or near it, or why there is none near it."""
         depth = float(place.compartment.box.size[place.compartment.depth_axis])
         deepest = max(self._config.deepest_inset * depth, self._sizes.inset)

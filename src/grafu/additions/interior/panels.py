@@ -96,7 +96,7 @@ def clearing_of(scene: Scene, config: InteriorConfig) -> Clearing:
 
 @final
 @dataclass(frozen=True)
-class Place:
+class PanelPlace:
     """Where a panel is to be.
 
     `at` is its middle along the axis that panels are stacked on, `inset` how far its front edge stands back from the
@@ -136,7 +136,7 @@ class WallRays:
         return WallRays((*self.casters, RayCaster(mesh)))
 
 
-def cut_panel(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | Refusal:
+def cut_panel(place: PanelPlace, walls: WallRays, sizes: Sizes, config: InteriorConfig) -> TriangleMesh | Refusal:
     """Returns a panel that touches the walls at both ends, or why there is none. `walls` are the still meshes."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     inward = -1.0 if place.compartment.opening % 2 else 1.0
@@ -160,7 +160,7 @@ def cut_panel(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfi
     return _prism(place, sizes.thickness, (front, back), ends[0], ends[1])
 
 
-def _back(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfig, inward: float) -> float:
+def _back(place: PanelPlace, walls: WallRays, sizes: Sizes, config: InteriorConfig, inward: float) -> float:
     """Returns where a panel ends at the back: at the wall, else at the compartment's end."""
     box, depth = place.compartment.box, place.compartment.depth_axis
     end = float(box.low[depth] if inward < 0 else box.high[depth])
@@ -177,7 +177,7 @@ def _back(place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfig, i
 
 
 def _distances(
-    place: Place, walls: WallRays, sizes: Sizes, config: InteriorConfig, along: Scalars, sense: float
+    place: PanelPlace, walls: WallRays, sizes: Sizes, config: InteriorConfig, along: Scalars, sense: float
 ) -> Scalars:
     """Returns how far the wall is from the compartment's middle along a panel's end; infinity where there is none."""
     origins = _origins(place, sizes.thickness, place.compartment.depth_axis, along)
@@ -188,7 +188,7 @@ def _distances(
     return np.where(found <= limit, found, np.inf)
 
 
-def _origins(place: Place, thickness: float, axis: int, values: Scalars) -> SomePoints:
+def _origins(place: PanelPlace, thickness: float, axis: int, values: Scalars) -> SomePoints:
     """Returns points in the middle of a compartment at a panel's levels, spread over values along an axis."""
     levels = place.at + thickness / 2 * np.array(EDGE_LEVELS)
     grid = np.stack(np.meshgrid(values, levels, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -213,7 +213,7 @@ def _edge(along: Scalars, found: Scalars, sizes: Sizes, config: InteriorConfig) 
 
 
 def _prism(
-    place: Place, thickness: float, depth: tuple[float, float], low: tuple[float, float], high: tuple[float, float]
+    place: PanelPlace, thickness: float, depth: tuple[float, float], low: tuple[float, float], high: tuple[float, float]
 ) -> TriangleMesh:
     """Returns the closed panel; `low` and `high` are its ends at the front and at the back edge (`depth`)."""
     reach, axis = place.reach, place.compartment.depth_axis
@@ -230,6 +230,6 @@ def _prism(
     return TriangleMesh(vertices, mesh.faces)
 
 
-def moved_to(place: Place, at: float, inset: float) -> Place:
+def moved_to(place: PanelPlace, at: float, inset: float) -> PanelPlace:
     """Returns the same panel at another place along its stack, set back by another inset."""
     return replace(place, at=at, inset=inset)

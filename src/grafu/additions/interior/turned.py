@@ -12,7 +12,7 @@ from grafu.additions.interior.compartments import Compartment, find_compartments
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.furnish import Furnished, furnish
 from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
-from grafu.additions.step import PanelHint, Request, StepResult
+from grafu.additions.step import PanelHint, StepRequest, StepResult
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat4, vec3
@@ -32,7 +32,7 @@ class InteriorChoice:
     compartments: Mapping[int, CompartmentChoice] = field(default_factory=dict)
 
 
-def add_panels(scene: Scene, request: Request, choice: InteriorChoice) -> StepResult:
+def add_panels(scene: Scene, request: StepRequest, choice: InteriorChoice) -> StepResult:
     """Returns the scene with shelves and dividers as chosen; predicted ones are those of the request."""
     hints = request.panels if choice.request.kind is InteriorKind.PREDICTED else ()
     wants_nothing = choice.request.kind is InteriorKind.NONE

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, final
 
-from grafu.additions.step import Changes, Deficiency, DeficiencyKind, Request, StepResult, free_ids
+from grafu.additions.step import Changes, Deficiency, DeficiencyKind, StepRequest, StepResult, free_ids
 from grafu.additions.top.complete import TopVerdict, missing_tops
 from grafu.additions.top.config import TopConfig
 from grafu.asset.languages import word_set
@@ -48,7 +48,7 @@ class ReplacedTop:
     refused: Refusal | None = None
 
 
-def add_tops(scene: Scene, request: Request, choice: TopChoice) -> StepResult:
+def add_tops(scene: Scene, request: StepRequest, choice: TopChoice) -> StepResult:
     """Returns the scene with the tops that it lacks and may have."""
     made = _chosen(scene, request, choice)
     top = made.verdict
@@ -62,7 +62,7 @@ def add_tops(scene: Scene, request: Request, choice: TopChoice) -> StepResult:
     )
 
 
-def _chosen(scene: Scene, request: Request, choice: TopChoice) -> ReplacedTop:
+def _chosen(scene: Scene, request: StepRequest, choice: TopChoice) -> ReplacedTop:
     """Returns whether there is a top, and the one to add or to put in its place."""
     parts, joints = tuple(scene.parts.values()), request.plan.joints
     if choice.config is not None and choice.replaces:
@@ -76,7 +76,7 @@ def _chosen(scene: Scene, request: Request, choice: TopChoice) -> ReplacedTop:
     return ReplacedTop(top, frozenset(), no_top(top.why) if top.missing and top.addition is None else None)
 
 
-def _unwanted(request: Request) -> str:
+def _unwanted(request: StepRequest) -> str:
     """Returns why furniture that is open above stays so, empty where it lacks its top."""
     named = why_no_top(request.names)
     if named or request.plan.joints or request.plan.refused or request.top is not None:

@@ -87,7 +87,7 @@ OF_PLACE = frozenset((PACKED, HANGING))  # the same for all templates of a class
 
 @final
 @dataclass(frozen=True, eq=False)
-class Site:
+class HingeSite:
     """What hinge hardware is tested against: the door, static parts, the other moving bodies and their motions.
 
     `holders` are the parts that alone may hold it (empty: any).
@@ -137,7 +137,7 @@ class InstalledHinge:
         return [visual.mesh for visual in self.dynamic]
 
 
-def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge | None:
+def install(hinge: FittedHinge, pin: PinCandidate, site: HingeSite) -> InstalledHinge | None:
     """Returns the hinge anchored on both sides; None where it finds no hold or gets in the way."""
     dynamic = _anchored_dynamic(hinge, site)
     static = _anchored_static(hinge, pin, site) if dynamic else None
@@ -147,7 +147,7 @@ def install(hinge: FittedHinge, pin: PinCandidate, site: Site) -> InstalledHinge
     return found and replace(found, struck_by=(*found.struck_by, *_flaws(found, hinge, pin, site)))
 
 
-def _flaws(installed: InstalledHinge, hinge: FittedHinge, pin: PinCandidate, site: Site) -> Iterator[str]:
+def _flaws(installed: InstalledHinge, hinge: FittedHinge, pin: PinCandidate, site: HingeSite) -> Iterator[str]:
     """Yields what speaks against a hinge on its own parts."""
     footing = site.config.footing
     if installed.packed > footing.thickest:
@@ -156,7 +156,7 @@ def _flaws(installed: InstalledHinge, hinge: FittedHinge, pin: PinCandidate, sit
         yield HANGING
 
 
-def resting_leaf(hinge: FittedHinge, pin: PinCandidate, site: Site) -> float:
+def resting_leaf(hinge: FittedHinge, pin: PinCandidate, site: HingeSite) -> float:
     """Returns how wide the leaves may be, at most as they are, for enough of each to lie on its part; 0: none."""
     T, size = hinge.T_object_template, hinge.template.size
     pin_line = Axis(T[:3, 3], T[:3, 2])
@@ -165,7 +165,7 @@ def resting_leaf(hinge: FittedHinge, pin: PinCandidate, site: Site) -> float:
     return min(resting_width(snap.transformed(T), pin_line, size, rays, site.config.footing) for snap, rays in ends)
 
 
-def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
+def judged_hinge(hinge: InstalledHinge, site: HingeSite) -> InstalledHinge | None:
     """Returns the hinge and what would hit it; None if an end cuts into the other side or a body at rest."""
     static, dynamic = hinge.static_meshes, hinge.dynamic_meshes
     if _static_in_the_way(static, site) or _dynamic_in_the_way(dynamic, site):
@@ -178,7 +178,7 @@ def judged_hinge(hinge: InstalledHinge, site: Site) -> InstalledHinge | None:
     return replace(hinge, struck_by=tuple(struck_by))
 
 
-def _blocks_itself(hinge: InstalledHinge, site: Site) -> bool:
+def _blocks_itself(hinge: InstalledHinge, site: HingeSite) -> bool:
     """Whether a support block of one end cuts into the other end; without blocks the template keeps them apart."""
     static, dynamic = hinge.static_meshes, hinge.dynamic_meshes
     pairs = [(static, dynamic[1:]), (static[1:], dynamic[:1])]
@@ -189,7 +189,7 @@ def _blocks_itself(hinge: InstalledHinge, site: Site) -> bool:
     )
 
 
-def _body(meshes: list[TriangleMesh], site: Site) -> SweptBody:
+def _body(meshes: list[TriangleMesh], site: HingeSite) -> SweptBody:
     return SweptBody(merge_meshes(meshes), site.depth, pieces=meshes)
 
 
@@ -197,12 +197,12 @@ def _standing(meshes: list[TriangleMesh]) -> list[Obstacle]:
     return [Obstacle("hinge", MeshCollider(mesh)) for mesh in meshes]
 
 
-def _strikes_closed(neighbour: Neighbour, dynamic: list[TriangleMesh], site: Site) -> bool:
+def _strikes_closed(neighbour: Neighbour, dynamic: list[TriangleMesh], site: HingeSite) -> bool:
     """Whether a neighbour runs into the moving end while the door is closed, though not into the door itself."""
     return neighbour.runs_into(*dynamic) and not neighbour.runs_into(site.door)
 
 
-def _static_in_the_way(static: list[TriangleMesh], site: Site) -> bool:
+def _static_in_the_way(static: list[TriangleMesh], site: HingeSite) -> bool:
     """Whether the door, another moving body at rest, or other hardware cuts into the static hardware."""
     if not is_free(site.door_body, site.motion, site.upper, _standing(static), 2 * _POSES):
         return True
@@ -212,7 +212,7 @@ def _static_in_the_way(static: list[TriangleMesh], site: Site) -> bool:
     return any(body.penetrates(other) for other in others)
 
 
-def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: Site) -> bool:
+def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: HingeSite) -> bool:
     """Whether the moving hardware cuts into static parts somewhere, or into other moving bodies at rest."""
     body = _body(dynamic, site)
     box = Box.enclosing(mesh.box for mesh in dynamic)
@@ -232,7 +232,7 @@ class _Hold:
     block: float = 0.0
 
 
-def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> _Hold | None:
+def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: HingeSite) -> _Hold | None:
     """Returns the static end with what bridges it to the static body; None where nothing is in reach."""
     if pin.inset:
         tongue = _tongue(hinge, pin, site)
@@ -244,7 +244,7 @@ def _anchored_static(hinge: FittedHinge, pin: PinCandidate, site: Site) -> _Hold
     return _bridged(hinge.static, snap, site.static_rays, site)
 
 
-def _anchored_dynamic(hinge: FittedHinge, site: Site) -> _Hold | None:
+def _anchored_dynamic(hinge: FittedHinge, site: HingeSite) -> _Hold | None:
     """Returns the dynamic end with what bridges it to the door; None where the door is out of reach."""
     if MeshCollider(hinge.dynamic.mesh).is_within(site.anchor, MeshCollider(site.door)):
         return _Hold((hinge.dynamic,))
@@ -253,7 +253,7 @@ def _anchored_dynamic(hinge: FittedHinge, site: Site) -> _Hold | None:
     return _bridged(hinge.dynamic, snap, site.door_rays, replace(site, reach=reach))
 
 
-def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: Site) -> _Hold | None:
+def _bridged(end: Visual, snap: SnapPlane, target: RayCaster, site: HingeSite) -> _Hold | None:
     """Returns an end with the shortest support block that reaches the target."""
     bridge = shortest_bridge(_footings(end, snap, site.frame, site.config.footing), target, site.reach, site.block)
     if bridge is None:
@@ -277,7 +277,7 @@ def _footings(end: Visual, snap: SnapPlane, frame: BorderFrame, config: FootingC
         yield Footing(start, frame.rotation @ direction, u, v)
 
 
-def _tongue(hinge: FittedHinge, pin: PinCandidate, site: Site) -> Visual:
+def _tongue(hinge: FittedHinge, pin: PinCandidate, site: HingeSite) -> Visual:
     """Returns the strip that carries an inset leaf on through the seam into what stands behind the door."""
     frame, config = site.frame, site.config
     size = hinge.template.size

@@ -17,7 +17,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.joints.config import BlockConfig, RealizationConfig
 from grafu.joints.hinge.candidates import PinCandidate
-from grafu.joints.hinge.hardware import LOOSE, InstalledHinge, Site
+from grafu.joints.hinge.hardware import LOOSE, HingeSite, InstalledHinge
 from grafu.joints.hinge_config import PivotConfig
 from grafu.joints.support_block import METAL, Footing, block
 from grafu.scene.border import BorderFrame
@@ -178,7 +178,7 @@ def _visual(name: str, mesh: TriangleMesh) -> Visual:
     return Visual(name, (Surface(mesh, METAL),), VisualRole.HARDWARE, PartLabel.MISC)
 
 
-def with_flaw(hinge: InstalledHinge, pin: PinCandidate, site: Site) -> InstalledHinge:
+def with_flaw(hinge: InstalledHinge, pin: PinCandidate, site: HingeSite) -> InstalledHinge:
     """Returns a pivot with its flaw, if any: no static part carries it, or it is wide to reach one beside the door."""
     points = site.frame.to_border(hinge.dynamic[0].mesh.vertices)
     is_wide = float(np.ptp(points[:, 0])) > 2 * site.config.pivot.widest * pin.radius
@@ -186,7 +186,7 @@ def with_flaw(hinge: InstalledHinge, pin: PinCandidate, site: Site) -> Installed
     return hinge if is_carried and not is_wide else replace(hinge, struck_by=(*hinge.struck_by, LOOSE))
 
 
-def is_on_mount(hinge: InstalledHinge, site: Site) -> bool:
+def is_on_mount(hinge: InstalledHinge, site: HingeSite) -> bool:
     """Whether the static end sits on what alone may hold it, if that is limited."""
     static = merge_meshes(hinge.static_meshes)
     return not site.holders or site.scene.is_near_static(static, site.anchor, site.holders)

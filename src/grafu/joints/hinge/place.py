@@ -25,8 +25,8 @@ from grafu.joints.hinge.hardware import (
     FLOOR,
     LOOSE,
     OF_PLACE,
+    HingeSite,
     InstalledHinge,
-    Site,
     install,
     judged_hinge,
     resting_leaf,
@@ -191,10 +191,10 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
         yield _Try(placement, lambda: placement)
 
 
-def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
+def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> HingeSite:
     box = search.scene.parts[search.request.moving].box
     extent, mount = search.scene.extent, search.request.choice.mount
-    return Site(
+    return HingeSite(
         moving=search.request.moving,
         frame=search.frame,
         door=search.scene.moving_mesh(search.request.moving),
@@ -216,7 +216,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> Site:
 
 
 def _attempted(
-    model: HingeModel, judged: JudgedPin, site: Site, count: int, search: DoorSearch, is_whole: bool
+    model: HingeModel, judged: JudgedPin, site: HingeSite, count: int, search: DoorSearch, is_whole: bool
 ) -> Placement | None:
     """Returns a placement of one model at one pin; unless `is_whole`, it ends with the first hinge that is struck."""
     hinges: list[InstalledHinge] = []
@@ -230,7 +230,7 @@ def _attempted(
 
 
 def _installed(
-    model: HingeModel, pin: PinCandidate, site: Site, count: int, search: DoorSearch
+    model: HingeModel, pin: PinCandidate, site: HingeSite, count: int, search: DoorSearch
 ) -> Iterator[InstalledHinge | None]:
     """Yields one hinge per height, each shifted along the pin where its place is taken; None where it finds none."""
     size = hinge_size(model, search.frame, pin, count, search.config.hinge, search.request.choice.scale)
@@ -251,7 +251,7 @@ def _installed(
 
 
 def _on_material(
-    model: HingeModel, size: HingeSize, pin: PinCandidate, site: Site, count: int, search: DoorSearch
+    model: HingeModel, size: HingeSize, pin: PinCandidate, site: HingeSite, count: int, search: DoorSearch
 ) -> HingeSize:
     """Returns the size with leaves no wider than what they rest on; as it is where that is too narrow for any."""
     heights = hinge_heights(search.frame.length, count)

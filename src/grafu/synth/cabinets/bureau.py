@@ -14,7 +14,7 @@ from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
 from grafu.synth.fronts.front import front_pieces
 from grafu.synth.fronts.layout import Cell, Door, Drawer, Edges, Rect, Stack
 from grafu.synth.fronts.setting import Setting
-from grafu.synth.pieces.assembly import Piece, assemble, plank, solid
+from grafu.synth.pieces.assembly import PieceDraft, assemble, plank, solid
 from grafu.synth.pieces.shapes import prism_along_x
 from grafu.vocabulary import PartLabel
 
@@ -89,7 +89,7 @@ def make_bureau(spec: Bureau) -> Asset:
     return assemble(spec.name, [*cabinet_pieces(spec.lower), *(piece.transformed(lift) for piece in room)])
 
 
-def _room(spec: Bureau) -> Iterator[Piece]:
+def _room(spec: Bureau) -> Iterator[PieceDraft]:
     """Yields sides, top, back and the rail below the flap, standing on z = 0."""
     case, wood, z = spec.lower.case, spec.lower.finish.case, spec.rise
     y0, y1, t = case.front, case.depth / 2, case.panel
@@ -102,7 +102,7 @@ def _room(spec: Bureau) -> Iterator[Piece]:
     yield plank(PartLabel.BAR, "sill", wood, ((t - x, y0, 0.0), (x - t, y0 + 2 * SILL_RAIL, SILL_RAIL)))
 
 
-def _holes(spec: Bureau) -> Iterator[Piece]:
+def _holes(spec: Bureau) -> Iterator[PieceDraft]:
     """Yields the shelf over the pigeonholes and the boards between them, behind the flap's upper end."""
     case, inside = spec.lower.case, spec.lower.finish.inside
     x, y1, z = case.width / 2 - case.panel, case.depth / 2 - BACK, 0.5 * spec.rise
@@ -115,7 +115,7 @@ def _holes(spec: Bureau) -> Iterator[Piece]:
             yield plank(PartLabel.DIVIDER, "pigeonhole", inside, span)
 
 
-def _flap(spec: Bureau) -> Iterator[Piece]:
+def _flap(spec: Bureau) -> Iterator[PieceDraft]:
     """Yields the flap: made upright, then leant back about its pin."""
     case = spec.lower.case
     x = case.width / 2 - case.panel

@@ -15,7 +15,7 @@ from grafu.synth.fronts.front import front_pieces, partition_pieces
 from grafu.synth.fronts.layout import Layout, Pair, Partition, Rect, divide
 from grafu.synth.fronts.leaf_relief import swept_depth
 from grafu.synth.fronts.setting import Mount, Setting
-from grafu.synth.pieces.assembly import Piece, assemble, plank
+from grafu.synth.pieces.assembly import PieceDraft, assemble, plank
 from grafu.synth.pieces.finish import PLAIN, Finish
 from grafu.vocabulary import PartLabel
 
@@ -96,7 +96,7 @@ def make_cabinet(spec: Cabinet) -> Asset:
     return assemble(spec.name, cabinet_pieces(spec))
 
 
-def cabinet_pieces(spec: Cabinet) -> list[Piece]:
+def cabinet_pieces(spec: Cabinet) -> list[PieceDraft]:
     """Returns the pieces of a cabinet: its case is centred in x and y and stands on z = 0."""
     case = _following(spec.layout, spec.case)
     case = case if spec.rear is None else replace(case, back=Back("none", 0.0))
@@ -117,7 +117,7 @@ def _following(layout: Layout, case: Case) -> Case:
     return replace(case, top=top, bottom=bottom)
 
 
-def _filling(layout: Layout, spec: Cabinet, setting: Setting) -> Iterator[Piece]:
+def _filling(layout: Layout, spec: Cabinet, setting: Setting) -> Iterator[PieceDraft]:
     for item in divide(layout, spec.case.opening, spec.case.edges, spec.case.border):
         if isinstance(item, Partition):
             yield from _partition(item, spec, setting)
@@ -125,7 +125,7 @@ def _filling(layout: Layout, spec: Cabinet, setting: Setting) -> Iterator[Piece]
             yield from front_pieces(item, setting)
 
 
-def _rear(layout: Layout, spec: Cabinet, setting: Setting) -> Iterator[Piece]:
+def _rear(layout: Layout, spec: Cabinet, setting: Setting) -> Iterator[PieceDraft]:
     """Yields the wall and the fronts that face +Y: made facing -Y, then turned about."""
     case, (near, far) = spec.case, spec._wall
     x, high = case.width / 2 - (case.posts or case.panel), case.height - case.top_thickness
@@ -138,7 +138,7 @@ def _rear(layout: Layout, spec: Cabinet, setting: Setting) -> Iterator[Piece]:
         yield piece.transformed(turn)
 
 
-def _partition(item: Partition, spec: Cabinet, setting: Setting) -> Iterator[Piece]:
+def _partition(item: Partition, spec: Cabinet, setting: Setting) -> Iterator[PieceDraft]:
     """Yields a partition's panel and, in a face frame, the frame's bar before it."""
     case, r = spec.case, item.rect
     if case.face is None:

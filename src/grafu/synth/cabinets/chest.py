@@ -16,7 +16,7 @@ from grafu.synth.case.tops import top_meshes
 from grafu.synth.fronts.front import front_pieces, partition_pieces
 from grafu.synth.fronts.layout import Cell, Edges, Layout, Rect, divide
 from grafu.synth.fronts.setting import Setting
-from grafu.synth.pieces.assembly import Piece, PieceMotion, assemble, plank
+from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, assemble, plank
 from grafu.synth.pieces.finish import PLAIN, Finish, surface_of
 from grafu.synth.pieces.shapes import domed_board
 from grafu.vocabulary import JointType, PartLabel
@@ -66,7 +66,7 @@ def make_chest(spec: Chest) -> Asset:
     return assemble(spec.name, [*case_pieces(box, spec.finish, -box.depth / 2), *_front(box, spec), _lid(box, spec)])
 
 
-def _front(box: Case, spec: Chest) -> Iterator[Piece]:
+def _front(box: Case, spec: Chest) -> Iterator[PieceDraft]:
     """Yields the front board and, below it, a floor and the drawers."""
     x, y, t = box.width / 2 - max(box.panel, box.posts), -box.depth / 2, box.panel
     low, z = box.opening.z0, box.opening.z1
@@ -83,7 +83,7 @@ def _front(box: Case, spec: Chest) -> Iterator[Piece]:
     yield plank(PartLabel.SIDE_PANEL, "front_panel", spec.finish.case, ((-x, y, low), (x, y + t, z)))
 
 
-def _lid(box: Case, spec: Chest) -> Piece:
+def _lid(box: Case, spec: Chest) -> PieceDraft:
     """Returns the lid; within the walls it turns about its upper back edge, so that it clears the back."""
     x, y, o, z = box.width / 2, box.depth / 2, spec.overhang, box.height
     if spec.within:
@@ -98,4 +98,4 @@ def _lid(box: Case, spec: Chest) -> Piece:
     domed = spec.dome > 0 and not spec.within
     meshes = [domed_board(shape, spec.dome)] if domed else top_meshes(Top("over", edge=spec.edge), shape)
     motion = PieceMotion(JointType.REVOLUTE, Axis(pin, vec3(-1.0, 0.0, 0.0)), spec.opening)
-    return Piece(PartLabel.DOOR, "lid", tuple(surface_of(mesh, spec.finish.front) for mesh in meshes), motion)
+    return PieceDraft(PartLabel.DOOR, "lid", tuple(surface_of(mesh, spec.finish.front) for mesh in meshes), motion)

@@ -15,7 +15,7 @@ from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.fronts.front import front_pieces
 from grafu.synth.fronts.layout import Blank, Cell, Door, Edge, Edges, Rect
 from grafu.synth.fronts.setting import Mount, Setting
-from grafu.synth.pieces.assembly import Piece, assemble, plank, solid
+from grafu.synth.pieces.assembly import PieceDraft, assemble, plank, solid
 from grafu.synth.pieces.finish import PLAIN, Finish, surface_of
 from grafu.synth.pieces.shapes import framed_opening, prism
 from grafu.vocabulary import PartLabel
@@ -65,7 +65,7 @@ def make_inner_corner(spec: InnerCorner) -> Asset:
     return assemble(spec.name, [*_walls(spec), *_levels(spec), *_toe_kicks(spec), *_fronts(spec)])
 
 
-def _walls(spec: InnerCorner) -> Iterator[Piece]:
+def _walls(spec: InnerCorner) -> Iterator[PieceDraft]:
     """Yields ends, backs and the post in the corner, seen from above: walls on y = 0 and x = 0."""
     x, y, d, t, wood = spec.along_x, spec.along_y, spec.depth, spec.panel, spec.finish.case
     low, high = spec.base, spec.height
@@ -78,7 +78,7 @@ def _walls(spec: InnerCorner) -> Iterator[Piece]:
     yield plank(PartLabel.FACE_FRAME, "corner_post", wood, *boards)
 
 
-def _levels(spec: InnerCorner) -> Iterator[Piece]:
+def _levels(spec: InnerCorner) -> Iterator[PieceDraft]:
     """Yields the L-shaped bottom, shelves and top."""
     t, low, high = spec.panel, spec.base, spec.height
     yield _level(spec, PartLabel.BOTTOM_PANEL, "bottom_panel", low, 0.0)
@@ -89,7 +89,7 @@ def _levels(spec: InnerCorner) -> Iterator[Piece]:
         yield _level(spec, PartLabel.TOP_PANEL, "top_panel", high - t, 0.0)
 
 
-def _level(spec: InnerCorner, label: PartLabel, stem: str, z: float, back: float) -> Piece:
+def _level(spec: InnerCorner, label: PartLabel, stem: str, z: float, back: float) -> PieceDraft:
     """Returns an L of two boards at the height `z` that stays `back` behind the fronts' planes."""
     x, y, d, t = spec.along_x, spec.along_y, spec.depth, spec.panel
     first = (t, back - d, z), (x - t, -t, z + t)
@@ -97,7 +97,7 @@ def _level(spec: InnerCorner, label: PartLabel, stem: str, z: float, back: float
     return plank(label, stem, spec.finish.case, first, second)
 
 
-def _toe_kicks(spec: InnerCorner) -> Iterator[Piece]:
+def _toe_kicks(spec: InnerCorner) -> Iterator[PieceDraft]:
     if spec.base:
         x, y, t, low, wood = spec.along_x, spec.along_y, spec.panel, spec.base, spec.finish.case
         k = spec.depth - spec.recess
@@ -105,7 +105,7 @@ def _toe_kicks(spec: InnerCorner) -> Iterator[Piece]:
         yield plank(PartLabel.SIDE_PANEL, "toe_kick", wood, ((k - t, -y, 0.0), (k, t - k, low)))
 
 
-def _fronts(spec: InnerCorner) -> Iterator[Piece]:
+def _fronts(spec: InnerCorner) -> Iterator[PieceDraft]:
     """Yields the front that faces -Y, and the other: made facing -Y, then turned to face +X."""
     d, t = spec.depth, spec.panel
     low, high = spec.base + t, spec.height - (t if spec.topped else 0.0)
@@ -179,19 +179,19 @@ def make_corner_cabinet(spec: CornerCabinet) -> Asset:
     return assemble(spec.name, [*_case(spec), *_base(spec), *(piece.transformed(T) for piece in _front(spec))])
 
 
-def _front(spec: CornerCabinet) -> Iterator[Piece]:
+def _front(spec: CornerCabinet) -> Iterator[PieceDraft]:
     """Yields the frame and the door before they are turned: the plane y = 0, facing -Y, centred in x."""
     half, thick, b, low = spec.front_width / 2, spec.panel, spec.frame, spec.base
     setting = Setting(0.0, spec.depth, spec.mount, lap=0.6 * b, panel=b, finish=spec.finish)
     frame = framed_opening(Box(vec3(-half, 0.0, low), vec3(half, thick, spec.height)), b)
-    yield Piece(PartLabel.FACE_FRAME, "face_frame", tuple(surface_of(mesh, spec.finish.case) for mesh in frame))
+    yield PieceDraft(PartLabel.FACE_FRAME, "face_frame", tuple(surface_of(mesh, spec.finish.case) for mesh in frame))
     yield from front_pieces(Cell(spec.door, Rect(b - half, half - b, low + b, spec.height - b), Edges()), setting)
     if low:
         span = ((b - half, spec.recess, 0.0), (half - b, spec.recess + thick, low))
         yield plank(PartLabel.SIDE_PANEL, "toe_kick", spec.finish.case, span)
 
 
-def _base(spec: CornerCabinet) -> Iterator[Piece]:
+def _base(spec: CornerCabinet) -> Iterator[PieceDraft]:
     """Yields the boards below the ends."""
     if spec.base:
         x, y, d, t, wood = spec.along_x, spec.along_y, spec.depth, spec.panel, spec.finish.case
@@ -199,7 +199,7 @@ def _base(spec: CornerCabinet) -> Iterator[Piece]:
             yield plank(PartLabel.SIDE_PANEL, "base_side_panel", wood, span)
 
 
-def _case(spec: CornerCabinet) -> Iterator[Piece]:
+def _case(spec: CornerCabinet) -> Iterator[PieceDraft]:
     x, y, t, h, floor = spec.along_x, spec.along_y, spec.panel, spec.height, spec.base
     flat: dict[str, tuple[PartLabel, Outline]] = {
         "side_panel_left": (PartLabel.SIDE_PANEL, ((t, 0.0), _across(spec, 0.0), _across(spec, t), (t, t))),

@@ -9,7 +9,7 @@ from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
-from grafu.synth.pieces.assembly import Piece, assemble
+from grafu.synth.pieces.assembly import PieceDraft, assemble
 from grafu.synth.pieces.finish import surface_of
 from grafu.synth.pieces.shapes import board
 from grafu.vocabulary import PartLabel
@@ -65,11 +65,11 @@ def make_ensemble(spec: Ensemble) -> Asset:
     return assemble(spec.name, list(_pieces(spec)))
 
 
-def _pieces(spec: Ensemble) -> Iterator[Piece]:
+def _pieces(spec: Ensemble) -> Iterator[PieceDraft]:
     for member in spec.members:
         turn = rotation_matrix(vec3(0.0, 0.0, 1.0), pi if member.turned else 0.0)
         T = from_rotation(turn, vec3(*member.at))
         yield from (piece.transformed(T) for piece in cabinet_pieces(member.spec))
     finish = spec.members[0].spec.finish
     for slab in spec.boards:
-        yield Piece(slab.label, slab.stem, (surface_of(board(slab.low, slab.high), finish.case),))
+        yield PieceDraft(slab.label, slab.stem, (surface_of(board(slab.low, slab.high), finish.case),))

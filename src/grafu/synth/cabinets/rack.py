@@ -9,7 +9,7 @@ from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import translation
 from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
-from grafu.synth.pieces.assembly import Piece, Span, assemble, both_sides, plank
+from grafu.synth.pieces.assembly import PieceDraft, Span, assemble, both_sides, plank
 from grafu.vocabulary import PartLabel
 
 LOW_UNIT = Cabinet()
@@ -63,7 +63,7 @@ def make_rack(spec: Rack) -> Asset:
     return assemble(spec.name, [*cabinet, *_uprights(spec), *_shelves(spec)])
 
 
-def _uprights(spec: Rack) -> Iterator[Piece]:
+def _uprights(spec: Rack) -> Iterator[PieceDraft]:
     case, w, d, z = spec.cabinet.case, spec.upright, spec.deep, spec.height
     x, y = case.width / 2, case.depth / 2
     if spec.kind == "panel":
@@ -80,7 +80,7 @@ def _uprights(spec: Rack) -> Iterator[Piece]:
             yield plank(PartLabel.BAR, stem, spec.material, at)
 
 
-def _shelves(spec: Rack) -> Iterator[Piece]:
+def _shelves(spec: Rack) -> Iterator[PieceDraft]:
     """Yields the shelves, between the uprights, and the brackets below their ends."""
     case, t = spec.cabinet.case, spec.shelf
     x, y = case.width / 2, case.depth / 2

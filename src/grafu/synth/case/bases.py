@@ -7,7 +7,7 @@ from grafu.geometry.box import Box
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Stretcher
 from grafu.synth.case.legs import Leg, lean, leg_meshes
-from grafu.synth.pieces.assembly import Piece, Span, both_sides, plank, solid
+from grafu.synth.pieces.assembly import PieceDraft, Span, both_sides, plank, solid
 from grafu.synth.pieces.finish import Finish
 from grafu.synth.pieces.shapes import arched_rail, board
 from grafu.vocabulary import PartLabel
@@ -17,7 +17,7 @@ METAL = ("hairpin", "caster")
 CORNERS = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 
 
-def base_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
+def base_pieces(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields everything below the case's bottom, and the corner posts."""
     kind = case.base.kind
     if kind == "plinth":
@@ -31,7 +31,9 @@ def base_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
         yield from _sled(case, finish)
 
 
-def leg_piece(leg: Leg, at: tuple[float, float], outward: tuple[float, float], high: float, finish: Finish) -> Piece:
+def leg_piece(
+    leg: Leg, at: tuple[float, float], outward: tuple[float, float], high: float, finish: Finish
+) -> PieceDraft:
     """Returns one leg up to the height `high`."""
     material = finish.metal if leg.shape in METAL else finish.case
     stem = "caster" if leg.shape == "caster" else "foot" if leg.shape in FEET else "leg"
@@ -45,7 +47,7 @@ def waist(leg: Leg) -> float:
 
 def stretcher_pieces(
     kind: Stretcher, feet: tuple[float, float], bar: float, z: float, finish: Finish, wide: float
-) -> Iterator[Piece]:
+) -> Iterator[PieceDraft]:
     """Yields square bars between legs that stand at (+-x, +-y) and are `wide` at the height `z`."""
     (x, y), h, free = feet, bar / 2, max(wide, bar) / 2
     if kind == "none":
@@ -61,7 +63,7 @@ def stretcher_pieces(
         yield plank(PartLabel.SHELF, "low_shelf", finish.case, span)
 
 
-def _plinth(case: Case, finish: Finish) -> Iterator[Piece]:
+def _plinth(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     if case.lies_under:  # the sides end above: the plinth goes all around
         yield from _toe_kick(case, finish, 4)
         return
@@ -69,7 +71,7 @@ def _plinth(case: Case, finish: Finish) -> Iterator[Piece]:
     yield plank(PartLabel.BAR, "plinth", finish.case, ((-x, y, 0.0), (x, y + t, case.floor)))
 
 
-def _toe_kick(case: Case, finish: Finish, boards: int) -> Iterator[Piece]:
+def _toe_kick(case: Case, finish: Finish, boards: int) -> Iterator[PieceDraft]:
     x, y, t, z = case.width / 2, case.depth / 2, case.panel, case.floor
     y0 = case.base.recess - y
     yield plank(PartLabel.SIDE_PANEL, "toe_kick", finish.case, ((t - x, y0, 0.0), (x - t, y0 + t, z)))
@@ -80,7 +82,7 @@ def _toe_kick(case: Case, finish: Finish, boards: int) -> Iterator[Piece]:
             yield plank(PartLabel.SIDE_PANEL, "base_side_panel", finish.case, at)
 
 
-def _legs(case: Case, finish: Finish) -> Iterator[Piece]:
+def _legs(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     leg, high = case.base.leg, case.floor
     x, y = leg_feet(case)
     for sx, sy in CORNERS:
@@ -103,7 +105,7 @@ def leg_feet(case: Case) -> tuple[float, float]:
     return max(case.width / 2 - spare, leg.thick), max(case.depth / 2 - spare, leg.thick)
 
 
-def _below(case: Case, finish: Finish) -> Iterator[Piece]:
+def _below(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields the stretchers between the legs and the apron before them."""
     base, feet = case.base, leg_feet(case)
     if base.skirt and base.leg.shape == "square":
@@ -123,7 +125,7 @@ def _below(case: Case, finish: Finish) -> Iterator[Piece]:
         yield solid(PartLabel.BAR, "apron", finish.case, [mesh])
 
 
-def _skirt(case: Case, finish: Finish, feet: tuple[float, float]) -> Iterator[Piece]:
+def _skirt(case: Case, finish: Finish, feet: tuple[float, float]) -> Iterator[PieceDraft]:
     """Yields boards between the legs on all four sides, flush with the legs' outer faces."""
     (x, y), h = feet, case.base.leg.thick / 2
     t = min(case.panel, 2 * h)
@@ -134,7 +136,7 @@ def _skirt(case: Case, finish: Finish, feet: tuple[float, float]) -> Iterator[Pi
         yield plank(PartLabel.SIDE_PANEL, "base_side_panel", finish.case, at)
 
 
-def _sled(case: Case, finish: Finish) -> Iterator[Piece]:
+def _sled(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields a frame of three bars under either side."""
     w = min(case.base.leg.thick, 0.03)
     x, y = case.width / 2 - case.base.inset, case.depth / 2 - case.base.inset

@@ -12,7 +12,7 @@ from grafu.synth.case.bases import base_pieces
 from grafu.synth.case.case import Case
 from grafu.synth.case.panels import back_pieces, bottom_pieces, side_pieces
 from grafu.synth.case.tops import top_pieces
-from grafu.synth.pieces.assembly import Corner, Piece, Span, both_sides, plank, solid, straight
+from grafu.synth.pieces.assembly import Corner, PieceDraft, Span, both_sides, plank, solid, straight
 from grafu.synth.pieces.finish import Finish
 from grafu.synth.pieces.shapes import arched_rail
 from grafu.vocabulary import PartLabel
@@ -21,7 +21,7 @@ MOULDING_DEPTH = 0.02  # metres that a moulding juts out before the fronts
 PILASTER_DEPTH = 0.012  # metres that a pilaster does
 
 
-def frame_pieces(case: Case, finish: Finish, out: float) -> Iterator[Piece]:
+def frame_pieces(case: Case, finish: Finish, out: float) -> Iterator[PieceDraft]:
     """Yields frame, moulding and pilasters; `out` is the y of the fronts' outer faces."""
     x = case.width / 2 - (case.panel if case.sides.beyond else 0.0)
     if case.face is not None:
@@ -39,7 +39,7 @@ def frame_pieces(case: Case, finish: Finish, out: float) -> Iterator[Piece]:
             yield plank(PartLabel.BAR, "pilaster", finish.case, at)
 
 
-def _frame(case: Case, finish: Finish) -> Iterator[Piece]:
+def _frame(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     spans, face = [*_stiles(case), *_rails(case)], case.face
     assert face is not None
     if face.kind != "one":
@@ -80,7 +80,7 @@ def _rails(case: Case) -> Iterator[tuple[str, Span]]:
             yield "rail", ((-x, case.front, low), (x, case.carcass, high))
 
 
-def case_pieces(case: Case, finish: Finish, out: float) -> tuple[Piece, ...]:
+def case_pieces(case: Case, finish: Finish, out: float) -> tuple[PieceDraft, ...]:
     """Returns the still parts of a case; `out` is the y of the fronts' outer faces, which a moulding juts beyond."""
     return (
         *side_pieces(case, finish),

@@ -7,7 +7,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Sides
-from grafu.synth.pieces.assembly import Corner, Piece, Span, both_sides, plank, solid
+from grafu.synth.pieces.assembly import Corner, PieceDraft, Span, both_sides, plank, solid
 from grafu.synth.pieces.finish import Finish
 from grafu.synth.pieces.shapes import bow_fronted_board
 from grafu.vocabulary import PartLabel
@@ -15,7 +15,7 @@ from grafu.vocabulary import PartLabel
 UPRIGHT = 0.03  # metres: the depth of a metal upright's tube
 
 
-def side_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
+def side_pieces(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields the sides."""
     x, t = case.width / 2, case.panel
     y0, y1, low = case.carcass - case.sides.beyond, case.depth / 2, _foot(case)
@@ -33,7 +33,7 @@ def side_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
         yield from {"framed": _framed, "slats": _slatted, "metal": _metal}[case.sides.kind](case.sides, finish, span)
 
 
-def back_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
+def back_pieces(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields the back's panels and rails."""
     back, low, high = case.back, case.foot, case.crown
     if case.top.kind == "stretchers" and not back.rails:
@@ -51,7 +51,7 @@ def back_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
     yield from _back_rails(case, finish)
 
 
-def bottom_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
+def bottom_pieces(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields the bottom, if there is one."""
     bottom, low = case.bottom, case.floor
     if bottom.kind == "none":
@@ -81,7 +81,7 @@ def _foot(case: Case) -> float:
     return 0.0 if case.base.kind == "plinth" and not case.lies_under else case.foot
 
 
-def _framed(sides: Sides, finish: Finish, span: Span) -> Iterator[Piece]:
+def _framed(sides: Sides, finish: Finish, span: Span) -> Iterator[PieceDraft]:
     """Yields two stiles, two rails and a thin panel between them on either side."""
     (x0, y0, z0), (x1, y1, z1) = span
     w = min(sides.frame, (y1 - y0) / 4, (z1 - z0) / 4)
@@ -100,7 +100,7 @@ def _framed(sides: Sides, finish: Finish, span: Span) -> Iterator[Piece]:
             yield plank(PartLabel.BAR, stem, finish.case, at)
 
 
-def _slatted(sides: Sides, finish: Finish, span: Span) -> Iterator[Piece]:
+def _slatted(sides: Sides, finish: Finish, span: Span) -> Iterator[PieceDraft]:
     """Yields upright slats between two bars on either side."""
     (x0, y0, z0), (x1, y1, z1) = span
     rail, count = min(0.04, (z1 - z0) / 6), sides.slats
@@ -114,7 +114,7 @@ def _slatted(sides: Sides, finish: Finish, span: Span) -> Iterator[Piece]:
             yield plank(PartLabel.BAR, "slat", finish.case, at)
 
 
-def _metal(_sides: Sides, finish: Finish, span: Span) -> Iterator[Piece]:
+def _metal(_sides: Sides, finish: Finish, span: Span) -> Iterator[PieceDraft]:
     """Yields two uprights and two bars between them on either side."""
     (x0, y0, z0), (x1, y1, z1) = span
     d = min(UPRIGHT, (y1 - y0) / 5)
@@ -129,7 +129,7 @@ def _metal(_sides: Sides, finish: Finish, span: Span) -> Iterator[Piece]:
             yield plank(PartLabel.BAR, stem, finish.metal, at)
 
 
-def _back_rails(case: Case, finish: Finish) -> Iterator[Piece]:
+def _back_rails(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields level rails across the back, the lowest at the bottom and the highest below the top."""
     rails, height = case.back.rails, case.back.rail
     x, y = case.width / 2 - (case.posts or case.panel), case.depth / 2

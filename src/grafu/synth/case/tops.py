@@ -9,7 +9,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Top
 from grafu.synth.case.panels import level_spans
-from grafu.synth.pieces.assembly import Piece, Span, both_sides, plank, solid
+from grafu.synth.pieces.assembly import PieceDraft, Span, both_sides, plank, solid
 from grafu.synth.pieces.finish import Finish
 from grafu.synth.pieces.shapes import board, bow_fronted_board, table_board
 from grafu.vocabulary import PartLabel
@@ -19,7 +19,7 @@ BASIN_DEPTH = 0.15  # metres: a usual kitchen sink
 MOULDED_STEP = 0.012  # metres by which the lower board of a moulded top stands back
 
 
-def top_pieces(case: Case, finish: Finish) -> Iterator[Piece]:
+def top_pieces(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields the top and what belongs to it."""
     kind, wood = case.top.kind, finish.glass if case.top.glass else finish.case
     if kind == "between":
@@ -47,7 +47,7 @@ def over_box(case: Case) -> Box:
     return Box(vec3(-x, y0, case.crown), vec3(x, case.depth / 2 + top.back, case.height))
 
 
-def _over(top: Top, box: Box, wood: Material, finish: Finish) -> Iterator[Piece]:
+def _over(top: Top, box: Box, wood: Material, finish: Finish) -> Iterator[PieceDraft]:
     """Yields the top that lies over the sides, a cornice in two parts."""
     meshes = top_meshes(top, box)
     if top.edge == "cornice" and len(meshes) == 2:
@@ -87,7 +87,7 @@ def _around(box: Box, hole: Box) -> list[TriangleMesh]:
     ]
 
 
-def _basin(hole: Box, rim: float, finish: Finish) -> Piece:
+def _basin(hole: Box, rim: float, finish: Finish) -> PieceDraft:
     (x0, y0, _), (x1, y1, _) = hole.low.tolist(), hole.high.tolist()
     w, low = BASIN_WALL, rim - BASIN_DEPTH
     spans: tuple[Span, ...] = (
@@ -100,14 +100,14 @@ def _basin(hole: Box, rim: float, finish: Finish) -> Piece:
     return plank(PartLabel.MISC, "basin", finish.metal, *spans)
 
 
-def _rim(case: Case, finish: Finish) -> Iterator[Piece]:
+def _rim(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     if case.top.rim:
         box = over_box(case)
         (x0, _, _), (x1, y1, z1) = box.low.tolist(), box.high.tolist()
         yield plank(PartLabel.BAR, "splashback", finish.case, ((x0, y1 - case.panel, z1), (x1, y1, z1 + case.top.rim)))
 
 
-def _stretchers(case: Case, finish: Finish) -> Iterator[Piece]:
+def _stretchers(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     """Yields flat bars along both sides, an upright one at the back and, without a face frame, a flat one in front."""
     t, h, inner = case.panel, case.height, case.width / 2 - max(case.panel, case.posts)
     w = min(case.top.width, inner / 3, (case.inner_back - case.carcass) / 4)
@@ -122,14 +122,14 @@ def _stretchers(case: Case, finish: Finish) -> Iterator[Piece]:
         yield plank(PartLabel.BAR, "top_stretcher", finish.case, ((w - inner, y0, h - t), (inner - w, y0 + w, h)))
 
 
-def _back_stretcher(case: Case, finish: Finish, inner: float) -> Piece:
+def _back_stretcher(case: Case, finish: Finish, inner: float) -> PieceDraft:
     """Returns the upright bar in line with the back, which ends below it."""
     y1 = max(case.depth / 2, case.inner_back + 0.006)
     span = ((-inner, case.inner_back, case.height - case.top.width), (inner, y1, case.height))
     return plank(PartLabel.BAR, "top_stretcher", finish.case, span)
 
 
-def _corner_blocks(case: Case, finish: Finish) -> Iterator[Piece]:
+def _corner_blocks(case: Case, finish: Finish) -> Iterator[PieceDraft]:
     w, h, x = case.top.width, case.height, case.width / 2 - max(case.panel, case.posts)
     for y in (case.carcass, case.inner_back - w):
         for _, at in both_sides(((x - w, y, h - case.panel), (x, y + w, h))):

@@ -11,8 +11,8 @@ from grafu.synth.case.case import Case
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, drawer_stack
 from grafu.synth.fronts.hold import Inside
-from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, Pair, Rect, Row, Stack, Tilt
-from grafu.synth.sampling.carpentry import Site, fitted
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Stack, Tilt
+from grafu.synth.sampling.carpentry import PieceSite, fitted
 from grafu.synth.sampling.casework import EDGES, ORNATE_EDGES, Build, draw_base
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.synth.sampling.style import chunky, draw_style, pushed
@@ -27,7 +27,7 @@ HANGING = Inside(rod=True)
 DOMED = 0.2  # lids of chests, as of old travelling chests
 MIRRORS = 0.06  # wardrobe doors with a mirror
 # nightstands and dressers are a little below the hand of someone who stands before them
-STAND = Site(hand=0.9)
+STAND = PieceSite(hand=0.9)
 
 
 def wardrobe(rng: np.random.Generator) -> Cabinet:
@@ -44,8 +44,8 @@ def wardrobe(rng: np.random.Generator) -> Cabinet:
     elif kind == "above":
         layout = Stack((doors, doors_across(rng, size[0])), (between(rng, (2.5, 4.5)), 1.0), style.between)
     elif kind == "open" and size[0] > 1.0:
-        open_part = Stack((drawer_stack(rng, style, count(rng, 2, 4)), Bay()), (between(rng, (0.4, 1.0)), 1.0))
-        layout = Row((doors, open_part) if chance(rng, 0.5) else (open_part, doors), (2.0, 1.0))
+        open_part = Stack((drawer_stack(rng, style, count(rng, 2, 4)), OpenCell()), (between(rng, (0.4, 1.0)), 1.0))
+        layout = CellRow((doors, open_part) if chance(rng, 0.5) else (open_part, doors), (2.0, 1.0))
     else:
         layout = doors
     return build_cabinet(rng, "wardrobe", style, size, layout, LOW_LEGS)
@@ -64,7 +64,7 @@ def dresser(rng: np.random.Generator) -> Cabinet:
         small = drawer_row(rng, 2 if chance(rng, 0.7) else 3)
         layout = Stack((*(Drawer(),) * (min(rows, 5) - 1), small), (), style.between)
     if columns > 1 and chance(rng, 0.12):
-        layout = Row((layout, Door()), (float(columns), 1.0))
+        layout = CellRow((layout, Door()), (float(columns), 1.0))
     return build_cabinet(rng, "dresser", style, size, layout, OVER, STAND)
 
 
@@ -75,7 +75,7 @@ def nightstand(rng: np.random.Generator) -> Cabinet:
     kind = pick(rng, {"drawers": 0.45, "drawer over bay": 0.3, "drawer over door": 0.17, "door": 0.08})
     layouts: dict[str, Layout] = {
         "drawers": drawer_stack(rng, style, count(rng, 1, 3)),
-        "drawer over bay": Stack((Bay(), Drawer()), (between(rng, (1.0, 2.0)), 1.0)),
+        "drawer over bay": Stack((OpenCell(), Drawer()), (between(rng, (1.0, 2.0)), 1.0)),
         "drawer over door": Stack((Door(), Drawer()), (between(rng, (1.5, 2.5)), 1.0), style.between),
         "door": Door(),
     }
@@ -90,7 +90,7 @@ def shoe_cabinet(rng: np.random.Generator) -> Cabinet:
     style = replace(style, moulding=0.0)
     size = draw_size(rng, (0.45, 1.1), (0.2, 0.36), (0.6, 1.3))
     rows = max(1, min(4, round(size[2] / between(rng, (0.32, 0.45)))))
-    tilt: Layout = Row((Tilt(), Tilt())) if size[0] > 0.8 else Tilt()
+    tilt: Layout = CellRow((Tilt(), Tilt())) if size[0] > 0.8 else Tilt()
     cells: tuple[Layout, ...] = (tilt,) * rows
     ratios: tuple[float, ...] = (1.0,) * rows
     if chance(rng, 0.3):
@@ -120,7 +120,7 @@ def apothecary(rng: np.random.Generator) -> Cabinet:
     size = (columns * between(rng, (0.18, 0.3)), between(rng, (0.28, 0.45)), 0.1 + rows * between(rng, (0.13, 0.2)))
     if columns * rows > 12:  # each in a box of its own would make more parts than a model may have
         column = drawer_stack(rng, replace(style, between="nothing"), rows)
-        return build_cabinet(rng, "apothecary", style, size, Row((column,) * columns), OVER, STAND)
+        return build_cabinet(rng, "apothecary", style, size, CellRow((column,) * columns), OVER, STAND)
     return build_cabinet(rng, "apothecary", style, size, drawer_grid(rng, style, columns, rows), OVER, STAND)
 
 
@@ -151,7 +151,7 @@ def chest(rng: np.random.Generator) -> Chest:
 
 def _hung(rng: np.random.Generator, layout: Layout) -> Layout:
     """Returns wardrobe doors with rods and few shelves behind, drawers inside now and then."""
-    if isinstance(layout, Row):
+    if isinstance(layout, CellRow):
         return replace(layout, cells=tuple(_hung(rng, cell) for cell in layout.cells))
     if not isinstance(layout, Door | Pair) or layout.behind is not None or chance(rng, 0.4):
         return layout

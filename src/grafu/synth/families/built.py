@@ -6,10 +6,10 @@ from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.families.layouts import with_inner_drawers
 from grafu.synth.fronts.layout import Layout
-from grafu.synth.sampling.carpentry import FREE, Site, fitted, needed_gap
+from grafu.synth.sampling.carpentry import FREE, PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import ANY, Build, draw_case
 from grafu.synth.sampling.chance import Span, between, spread
-from grafu.synth.sampling.style import Style
+from grafu.synth.sampling.style import MakerStyle
 
 INNER_DEPTH = 0.42  # metres: drawers behind doors need some length
 INNER_HEIGHT = 1.2  # metres: families of tall pieces say themselves what is behind their doors
@@ -24,11 +24,11 @@ def draw_size(rng: np.random.Generator, width: Span, depth: Span, height: Span) 
 def build_cabinet(
     rng: np.random.Generator,
     name: str,
-    style: Style,
+    style: MakerStyle,
     size: Size,
     layout: Layout,
     build: Build = ANY,
-    site: Site = FREE,
+    site: PieceSite = FREE,
 ) -> Cabinet:
     """Returns the cabinet with every front decided and gaps wide enough for its doors to turn.
 
@@ -41,10 +41,10 @@ def build_cabinet(
 def cabinet_of(
     rng: np.random.Generator,
     name: str,
-    style: Style,
+    style: MakerStyle,
     case: Case,
     layout: Layout,
-    site: Site = FREE,
+    site: PieceSite = FREE,
     rear: Layout | None = None,
 ) -> Cabinet:
     """Returns a cabinet with this case, its fronts decided; `rear` faces +Y.

@@ -13,11 +13,11 @@ from grafu.synth.families.built import build_cabinet, cabinet_of
 from grafu.synth.families.kitchen import BASE, KITCHEN, ON_WALL, base_layout, tall_layout, wall_layout
 from grafu.synth.families.layouts import doors_across, doors_under_drawers, drawer_stack
 from grafu.synth.families.living import GLASS, LIVING
-from grafu.synth.fronts.layout import Bay, Layout, Pair, Row, Side, Stack
-from grafu.synth.sampling.carpentry import Site
+from grafu.synth.fronts.layout import CellRow, Layout, OpenCell, Pair, Side, Stack
+from grafu.synth.sampling.carpentry import PieceSite
 from grafu.synth.sampling.casework import Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick
-from grafu.synth.sampling.style import Style, draw_style
+from grafu.synth.sampling.style import MakerStyle, draw_style
 from grafu.vocabulary import PartLabel
 
 UNIT_WIDTHS = {0.3: 1.0, 0.4: 1.5, 0.45: 1.0, 0.5: 1.5, 0.6: 3.0, 0.8: 1.5, 0.9: 1.0}  # metres: the trade's modules
@@ -33,7 +33,7 @@ def hutch(rng: np.random.Generator) -> Ensemble:
     width, depth, height = between(rng, (0.8, 1.7)), between(rng, (0.4, 0.55)), between(rng, (0.75, 0.95))
     low = build_cabinet(
         rng, "hutch", style, (width, depth, height), doors_under_drawers(rng, style, width, height),
-        replace(OVER, tops=("over",), moulded=False), Site(hand=0.9),
+        replace(OVER, tops=("over",), moulded=False), PieceSite(hand=0.9),
     )  # fmt: skip
     shelf = replace(style, frame=0.0, mount="overlay") if chance(rng, 0.3) else style
     above = (width * between(rng, (0.9, 1.0)), depth * between(rng, (0.55, 0.75)), between(rng, (0.7, 1.15)))
@@ -41,11 +41,11 @@ def hutch(rng: np.random.Generator) -> Ensemble:
     layout = pick(rng, {"doors": 0.5, "open": 0.2, "bay below": 0.3})
     fronts = {
         "doors": doors,
-        "open": Row((Bay(shelves=2), Bay(shelves=2))) if above[0] > 0.9 else Bay(shelves=2),
-        "bay below": Stack((Bay(), doors), (1.0, between(rng, (1.5, 3.0)))),
+        "open": CellRow((OpenCell(shelves=2), OpenCell(shelves=2))) if above[0] > 0.9 else OpenCell(shelves=2),
+        "bay below": Stack((OpenCell(), doors), (1.0, between(rng, (1.5, 3.0)))),
     }[layout]
     high = build_cabinet(
-        rng, "hutch", shelf, above, fronts, Build(bases=("none",), tops=("over", "between")), Site(hand=0.2)
+        rng, "hutch", shelf, above, fronts, Build(bases=("none",), tops=("over", "between")), PieceSite(hand=0.2)
     )
     back = (depth - above[1]) / 2
     return Ensemble("hutch", (Placed(low), Placed(high, (0.0, back, height))))
@@ -55,16 +55,16 @@ def island(rng: np.random.Generator) -> Cabinet:
     """Returns a kitchen island: fronts to -Y, and fronts or open shelves to +Y, under one worktop."""
     style = replace(draw_style(rng, KITCHEN), moulding=0.0, leaf="slab" if chance(rng, 0.3) else "shaker")
     size = between(rng, (0.9, 1.9)), between(rng, (0.6, 1.0)), between(rng, (0.8, 0.95))
-    other = Bay(shelves=count(rng, 1, 3)) if chance(rng, 0.5) else doors_across(rng, size[0])
+    other = OpenCell(shelves=count(rng, 1, 3)) if chance(rng, 0.5) else doors_across(rng, size[0])
     build = Build(("toe kick", "plinth", "none", "legs"), ("over",), legs=(0.05, 0.12), top_thickness=(0.02, 0.05))
     case = draw_case(rng, style, size, build)
     front = _island_front(rng, style, size[0], size[2])
-    return cabinet_of(rng, "island", style, case, front, Site(hand=0.95), rear=other)
+    return cabinet_of(rng, "island", style, case, front, PieceSite(hand=0.95), rear=other)
 
 
-def _island_front(rng: np.random.Generator, style: Style, width: float, height: float) -> Layout:
+def _island_front(rng: np.random.Generator, style: MakerStyle, width: float, height: float) -> Layout:
     if width > 1.2 and chance(rng, 0.5):
-        return Row((drawer_stack(rng, style, 3), doors_across(rng, width * 0.6)), (1.0, between(rng, (1.2, 2.0))))
+        return CellRow((drawer_stack(rng, style, 3), doors_across(rng, width * 0.6)), (1.0, between(rng, (1.2, 2.0))))
     return doors_under_drawers(rng, style, width, height) if chance(rng, 0.6) else doors_across(rng, width)
 
 
@@ -108,7 +108,7 @@ def kitchen_units(rng: np.random.Generator) -> Ensemble:
     return Ensemble("kitchen", tuple(members), tuple(boards))
 
 
-def _unit(rng: np.random.Generator, style: Style, size: tuple[float, float, float], build: Build) -> Cabinet:
+def _unit(rng: np.random.Generator, style: MakerStyle, size: tuple[float, float, float], build: Build) -> Cabinet:
     return build_cabinet(rng, "kitchen", style, size, base_layout(rng, style, size), build)
 
 
@@ -137,7 +137,7 @@ def _flush(unit: Cabinet, base: Base) -> Cabinet:
 
 
 def _wall_units(
-    rng: np.random.Generator, style: Style, widths: list[float], depth: float, low: float, tall_side: int
+    rng: np.random.Generator, style: MakerStyle, widths: list[float], depth: float, low: float, tall_side: int
 ) -> list[Placed]:
     """Returns wall units over the base units, flush with the back."""
     high, deep = between(rng, (0.4, 0.8)), between(rng, (0.3, 0.37))
@@ -151,7 +151,7 @@ def _wall_units(
         )
         size = (width, deep, high)
         unit = build_cabinet(
-            rng, "kitchen", style, size, wall_layout(rng, style, size), build, Site(wall, ON_WALL.hand)
+            rng, "kitchen", style, size, wall_layout(rng, style, size), build, PieceSite(wall, ON_WALL.hand)
         )
         placed.append(Placed(_flush(unit, unit.case.base), (x, (depth - deep) / 2, low)))
     return placed

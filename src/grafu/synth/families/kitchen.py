@@ -15,12 +15,12 @@ from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner
 from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.fronts.layout import Bay, Blank, Door, Layout, Pair, Rect, Row, Side, Stack
-from grafu.synth.sampling.carpentry import FREE, Site, fitted, needed_gap
+from grafu.synth.fronts.layout import Blank, CellRow, Door, Layout, OpenCell, Pair, Rect, Side, Stack
+from grafu.synth.sampling.carpentry import FREE, PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.synth.sampling.fittings import fit_door
-from grafu.synth.sampling.style import Style, chunky, draw_style, pushed
+from grafu.synth.sampling.style import MakerStyle, chunky, draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
 
 BATH: Mapping[TraditionName, float] = {"frameless": 0.62, "minimal": 0.15, "flat-pack": 0.15, "shaker": 0.08}
@@ -29,7 +29,7 @@ HUNG = Build(
 )
 FRONTS = {1: 0.4, 2: 0.42, 0: 0.18}  # drawers above each other; 0: doors
 SLABS = 0.35  # washstands with a slab on them, for a basin that stands on it or hangs in it
-HAND = Site(hand=0.8)  # it hangs a hand's breadth above the knee
+HAND = PieceSite(hand=0.8)  # it hangs a hand's breadth above the knee
 
 
 def washstand(rng: np.random.Generator) -> Cabinet:
@@ -62,7 +62,7 @@ BASE = Build(
 TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "over"), legs=(0.05, 0.15))
 NARROW = 0.09  # base units for bottles, towels, trays
 BRIDGES = 0.41  # wall units that are wide and low, over a hood or a fridge (46408)
-ON_WALL = Site(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
+ON_WALL = PieceSite(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
 BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
 
@@ -73,7 +73,7 @@ def base_cabinet(rng: np.random.Generator) -> Cabinet:
     return build_cabinet(rng, "base_cabinet", style, size, base_layout(rng, style, size), BASE)
 
 
-def base_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
+def base_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layout:
     """Returns the fronts of a base unit of this size."""
     width, _, height = size
     kind = pick(rng, BASE_FRONTS)
@@ -84,7 +84,7 @@ def base_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
     if kind == "beside" and width > 0.7:
         return doors_beside_drawers(rng, style, width, count(rng, 3, 4))
     if kind == "open":
-        return Stack((doors_across(rng, width), Bay()), (between(rng, (1.0, 2.5)), 1.0))
+        return Stack((doors_across(rng, width), OpenCell()), (between(rng, (1.0, 2.5)), 1.0))
     return doors_across(rng, width)
 
 
@@ -98,7 +98,7 @@ def wall_cabinet(rng: np.random.Generator) -> Cabinet:
     )
 
 
-def wall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
+def wall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layout:
     """Returns the fronts of a wall unit of this size."""
     width, _, height = size
     if width > 1.5 * height and chance(rng, 0.8):
@@ -107,7 +107,7 @@ def wall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
         return Stack((Door("top"), Door("top")), between=style.between)
     doors = doors_across(rng, width)
     if height > 0.6 and chance(rng, 0.08):
-        return Stack((Bay(), doors), (1.0, between(rng, (1.5, 3.0))))
+        return Stack((OpenCell(), doors), (1.0, between(rng, (1.5, 3.0))))
     return doors
 
 
@@ -119,7 +119,7 @@ def tall_cabinet(rng: np.random.Generator) -> Cabinet:
     return build_cabinet(rng, "tall_cabinet", style, size, layout, TALL, _beside(rng, FREE))
 
 
-def tall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
+def tall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layout:
     """Returns the fronts of a tall unit of this size."""
     width = size[0]
     doors = doors_across(rng, width)
@@ -130,7 +130,7 @@ def tall_layout(rng: np.random.Generator, style: Style, size: Size) -> Layout:
     if kind == "drawers":
         return Stack((drawer_stack(rng, style, count(rng, 2, 4)), doors), (low, 1.5), style.between)
     if kind == "niche":
-        return Stack((drawer_stack(rng, style, count(rng, 1, 2)), Bay(), doors), (1.0, 0.8, 1.2))
+        return Stack((drawer_stack(rng, style, count(rng, 1, 2)), OpenCell(), doors), (1.0, 0.8, 1.2))
     cells = (doors,) * (2 if kind == "two" else 3)
     return Stack(cells, (low, *(1.0 for _ in cells[1:])), style.between)
 
@@ -142,7 +142,7 @@ def sink_cabinet(rng: np.random.Generator) -> Cabinet:
     doors: Layout = Pair() if size[0] > 0.65 else Door()
     if chance(rng, 0.7):
         ratio = between(rng, (0.14, 0.2)) / 0.75
-        blank: Layout = Row((Blank(), Blank())) if size[0] > 0.8 and chance(rng, 0.5) else Blank()
+        blank: Layout = CellRow((Blank(), Blank())) if size[0] > 0.8 and chance(rng, 0.5) else Blank()
         doors = Stack((doors, blank), (1.0 - ratio, ratio), "rail" if style.between == "panel" else style.between)
     case = draw_case(rng, style, size, BASE)
     if chance(rng, 0.5):
@@ -151,11 +151,11 @@ def sink_cabinet(rng: np.random.Generator) -> Cabinet:
     return cabinet_of(rng, "sink_cabinet", style, case, doors)
 
 
-def _beside(rng: np.random.Generator, site: Site) -> Site:
+def _beside(rng: np.random.Generator, site: PieceSite) -> PieceSite:
     """Returns the site, in one of five cases with a wall or a tall unit on one side."""
     if not chance(rng, 0.2):
         return site
-    return Site("left" if chance(rng, 0.5) else "right", site.hand)
+    return PieceSite("left" if chance(rng, 0.5) else "right", site.hand)
 
 
 FRONT = Rect(0.0, 0.4, 0.1, 0.75)  # metres: about what a corner's door closes
@@ -167,7 +167,7 @@ def corner_cabinet(rng: np.random.Generator) -> CornerCabinet | InnerCorner:
     return _angled(rng, style) if chance(rng, 0.6) else _inner(rng, style)
 
 
-def _angled(rng: np.random.Generator, style: Style) -> CornerCabinet:
+def _angled(rng: np.random.Generator, style: MakerStyle) -> CornerCabinet:
     wall = chance(rng, 0.5)
     depth = between(rng, (0.3, 0.38)) if wall else between(rng, (0.45, 0.6))
     along = depth + between(rng, (0.28, 0.45))
@@ -184,7 +184,7 @@ def _angled(rng: np.random.Generator, style: Style) -> CornerCabinet:
     )
 
 
-def _inner(rng: np.random.Generator, style: Style) -> InnerCorner:
+def _inner(rng: np.random.Generator, style: MakerStyle) -> InnerCorner:
     """Returns an L-shaped unit; its doors hang at the far ends, as the shape demands."""
     depth, post = between(rng, (0.3, 0.6)), between(rng, (0.05, 0.09))
     along = depth + post + between(rng, (0.28, 0.5))
@@ -208,7 +208,7 @@ def _inner(rng: np.random.Generator, style: Style) -> InnerCorner:
     )
 
 
-def _door(rng: np.random.Generator, style: Style, side: Side | None = None) -> Door:
+def _door(rng: np.random.Generator, style: MakerStyle, side: Side | None = None) -> Door:
     """Returns a door in the style, on the given side."""
     if side is not None:
         return fit_door(rng, Door(), side, FRONT, style, 1.05)

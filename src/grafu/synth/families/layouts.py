@@ -10,10 +10,10 @@ from functools import partial
 import numpy as np
 
 from grafu.synth.fronts.hold import HandleStyle
-from grafu.synth.fronts.layout import Bay, Between, Blank, Door, Drawer, Layout, Pair, Row, Stack
+from grafu.synth.fronts.layout import Between, Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Stack
 from grafu.synth.sampling.carpentry import drawer_heights
 from grafu.synth.sampling.chance import between, chance, count, pick, weights
-from grafu.synth.sampling.style import Style
+from grafu.synth.sampling.style import MakerStyle
 
 WIDEST_DOOR = 0.62  # metres: wider single doors are rare, wider openings have a pair
 WIDEST_PAIR = 1.15
@@ -29,18 +29,18 @@ def doors_across(rng: np.random.Generator, width: float) -> Layout:
     if width < 0.4 or (width < WIDEST_DOOR and chance(rng, 0.55)):
         return Door()
     if width < WIDEST_PAIR:
-        return Pair() if chance(rng, 0.86) else Row((Door(), Door()))
+        return Pair() if chance(rng, 0.86) else CellRow((Door(), Door()))
     number = max(2, round(width / between(rng, (0.4, 0.6))))
     pairs, single = divmod(number, 2)
     cells: list[Layout] = [Pair()] * pairs
     if chance(rng, 0.25):
-        return Row((Door(),) * number)
+        return CellRow((Door(),) * number)
     if single:
         cells.insert(pick(rng, {0: 1.0, pairs: 1.0}), Door())
-    return Row(tuple(cells), tuple(1.0 if isinstance(cell, Door) else 2.0 for cell in cells))
+    return CellRow(tuple(cells), tuple(1.0 if isinstance(cell, Door) else 2.0 for cell in cells))
 
 
-def drawer_stack(rng: np.random.Generator, style: Style, number: int) -> Layout:
+def drawer_stack(rng: np.random.Generator, style: MakerStyle, number: int) -> Layout:
     """Returns drawers above each other, parted as the style states."""
     if number == 1:
         return Drawer()
@@ -51,20 +51,20 @@ def drawer_row(rng: np.random.Generator, number: int, spread: float = 0.0) -> La
     """Returns drawers side by side, parted by panels: their slides need a wall."""
     if number == 1:
         return Drawer()
-    return Row((Drawer(),) * number, weights(rng, number, spread))
+    return CellRow((Drawer(),) * number, weights(rng, number, spread))
 
 
-def drawer_grid(rng: np.random.Generator, style: Style, columns: int, rows: int) -> Layout:
+def drawer_grid(rng: np.random.Generator, style: MakerStyle, columns: int, rows: int) -> Layout:
     """Returns drawers in rows, or in columns parted by uprights from top to bottom."""
     if columns == 1:
         return drawer_stack(rng, style, rows)
     if chance(rng, 0.5):
-        return Row((drawer_stack(rng, style, rows),) * columns)
+        return CellRow((drawer_stack(rng, style, rows),) * columns)
     row = drawer_row(rng, columns)
     return Stack((row,) * rows, drawer_heights(rng, rows), _level(style))
 
 
-def doors_under_drawers(rng: np.random.Generator, style: Style, width: float, height: float) -> Layout:
+def doors_under_drawers(rng: np.random.Generator, style: MakerStyle, width: float, height: float) -> Layout:
     """Returns doors with a drawer above, or one above each door, or a false front."""
     below = doors_across(rng, width)
     number = 1 if width < 0.6 or chance(rng, 0.45) else 2 if width < 1.3 else round(width / 0.55)
@@ -73,21 +73,21 @@ def doors_under_drawers(rng: np.random.Generator, style: Style, width: float, he
     return Stack((below, above), (1.0 - ratio, ratio), _level(style))
 
 
-def doors_beside_drawers(rng: np.random.Generator, style: Style, width: float, number: int) -> Layout:
+def doors_beside_drawers(rng: np.random.Generator, style: MakerStyle, width: float, number: int) -> Layout:
     """Returns a stack of drawers with doors on one side of it or on both."""
     drawers = drawer_stack(rng, style, number)
     if width > 1.0 and chance(rng, 0.5):
         if chance(rng, 0.65):
-            return Row((Door(), drawers, Door()), (1.0, between(rng, (0.8, 1.5)), 1.0))
+            return CellRow((Door(), drawers, Door()), (1.0, between(rng, (0.8, 1.5)), 1.0))
         side = drawer_stack(rng, style, number)
-        return Row((side, Pair(), side), (1.0, between(rng, (1.2, 2.0)), 1.0))
+        return CellRow((side, Pair(), side), (1.0, between(rng, (1.2, 2.0)), 1.0))
     doors: Layout = Pair() if width > 0.9 and chance(rng, 0.6) else Door()
     cells = (doors, drawers) if chance(rng, 0.5) else (drawers, doors)
     wide = 1.5 if isinstance(doors, Pair) else 1.0
-    return Row(cells, (wide, 1.0) if cells[0] is doors else (1.0, wide))
+    return CellRow(cells, (wide, 1.0) if cells[0] is doors else (1.0, wide))
 
 
-def free_layout(rng: np.random.Generator, style: Style, width: float, height: float, depth: int = 3) -> Layout:
+def free_layout(rng: np.random.Generator, style: MakerStyle, width: float, height: float, depth: int = 3) -> Layout:
     """Returns a random layout: the opening is split into rows and stacks down to `depth`, each cell then filled."""
     splits = {"row": max(width - 0.5, 0.0), "stack": max(height - 0.45, 0.0), "leaf": 0.4 if depth < 3 else 0.1}
     kind = pick(rng, splits) if depth > 0 else "leaf"
@@ -98,12 +98,12 @@ def free_layout(rng: np.random.Generator, style: Style, width: float, height: fl
     whole = sum(ratios)
     if kind == "row":
         cells = tuple(free_layout(rng, style, width * ratio / whole, height, depth - 1) for ratio in ratios)
-        return Row(cells, ratios)
+        return CellRow(cells, ratios)
     cells = tuple(free_layout(rng, style, width, height * ratio / whole, depth - 1) for ratio in ratios)
-    return Stack(cells, ratios, "panel" if any(isinstance(cell, Bay) for cell in cells) else _level(style))
+    return Stack(cells, ratios, "panel" if any(isinstance(cell, OpenCell) for cell in cells) else _level(style))
 
 
-def free_leaf(rng: np.random.Generator, style: Style, width: float, height: float) -> Layout:
+def free_leaf(rng: np.random.Generator, style: MakerStyle, width: float, height: float) -> Layout:
     """Returns what fills one opening of this size: doors, drawers, a flap, or nothing."""
     low = height < 0.3
     kinds = {
@@ -121,10 +121,10 @@ def free_leaf(rng: np.random.Generator, style: Style, width: float, height: floa
         case "flap":
             return Door("top" if chance(rng, 0.4) else "bottom")
         case _:
-            return Bay()
+            return OpenCell()
 
 
-def _level(style: Style) -> Between:
+def _level(style: MakerStyle) -> Between:
     """Returns what lies between rows of fronts: what the style puts there."""
     return style.between
 
@@ -132,7 +132,7 @@ def _level(style: Style) -> Between:
 def with_inner_drawers(rng: np.random.Generator, layout: Layout, width: float) -> Layout:
     """Returns the layout with drawers, and open room above them, behind a few of its doors; seldom."""
     match layout:
-        case Row(cells=cells):
+        case CellRow(cells=cells):
             ratios = layout.weights or (1.0,) * len(cells)
             widths = [width * ratio / sum(ratios) for ratio in ratios]
             return replace(layout, cells=tuple(map(partial(with_inner_drawers, rng), cells, widths)))
@@ -147,4 +147,4 @@ def with_inner_drawers(rng: np.random.Generator, layout: Layout, width: float) -
 def _inner_drawers(rng: np.random.Generator) -> Layout:
     knob = pick(rng, INNER_KNOBS)
     drawers = (Drawer(handle=knob),) * count(rng, 1, 3)
-    return Stack((*drawers, Bay()), (*(1.0 for _ in drawers), between(rng, (1.0, 3.0))))
+    return Stack((*drawers, OpenCell()), (*(1.0 for _ in drawers), between(rng, (1.0, 3.0))))

@@ -13,11 +13,11 @@ from grafu.synth.cabinets.rack import Rack
 from grafu.synth.case.construction import Sides
 from grafu.synth.families.built import build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, drawer_row, drawer_stack, free_layout
-from grafu.synth.fronts.layout import Bay, Door, Drawer, Layout, LeafStyle, Pair, Row, Stack
-from grafu.synth.sampling.carpentry import Site
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, LeafStyle, OpenCell, Pair, Stack
+from grafu.synth.sampling.carpentry import PieceSite
 from grafu.synth.sampling.casework import Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick, weights
-from grafu.synth.sampling.style import Style, draw_style
+from grafu.synth.sampling.style import MakerStyle, draw_style
 from grafu.synth.sampling.traditions import TraditionName
 
 RACKS: Mapping[TraditionName, float] = {"minimal": 0.6, "flat-pack": 0.4}
@@ -25,7 +25,7 @@ PLAIN = Build(
     ("none", "plinth", "legs"), ("between", "over"), (0.04, 0.15), open_back=True, framed=False, moulded=False
 )
 HELD = Build(("none",), ("between", "over"), framed=False, moulded=False)
-STAND = Site(hand=0.9)
+STAND = PieceSite(hand=0.9)
 
 
 def rack(rng: np.random.Generator) -> Cabinet | Rack:
@@ -34,15 +34,17 @@ def rack(rng: np.random.Generator) -> Cabinet | Rack:
     return _cased(rng, style) if chance(rng, 0.45) else _held(rng, style)
 
 
-def _cased(rng: np.random.Generator, style: Style) -> Cabinet:
+def _cased(rng: np.random.Generator, style: MakerStyle) -> Cabinet:
     size = draw_size(rng, (0.45, 1.0), (0.28, 0.42), (1.1, 2.1))
     number = count(rng, 1, 3)
     case = replace(draw_case(rng, style, size, PLAIN), sides=Sides("slats" if chance(rng, 0.4) else "metal"))
-    layout = Stack((_low(rng, style, number), Bay(shelves=count(rng, 2, 4))), (0.22 * number, between(rng, (0.9, 1.4))))
+    layout = Stack(
+        (_low(rng, style, number), OpenCell(shelves=count(rng, 2, 4))), (0.22 * number, between(rng, (0.9, 1.4)))
+    )
     return cabinet_of(rng, "rack", style, case, layout, STAND)
 
 
-def _held(rng: np.random.Generator, style: Style) -> Rack:
+def _held(rng: np.random.Generator, style: MakerStyle) -> Rack:
     number = count(rng, 1, 3)
     size = (between(rng, (0.45, 0.95)), between(rng, (0.3, 0.42)), 0.04 + number * between(rng, (0.16, 0.26)))
     cabinet = build_cabinet(rng, "rack", style, size, _low(rng, style, number), HELD, STAND)
@@ -62,7 +64,7 @@ def _held(rng: np.random.Generator, style: Style) -> Rack:
     )
 
 
-def _low(rng: np.random.Generator, style: Style, number: int) -> Layout:
+def _low(rng: np.random.Generator, style: MakerStyle, number: int) -> Layout:
     return drawer_stack(rng, style, number) if chance(rng, 0.75) else Door()
 
 
@@ -97,21 +99,21 @@ def sideboard(rng: np.random.Generator) -> Cabinet:
     elif kind == "flap":
         layout = _beside_flap(rng, style, width)
     else:
-        bay: Layout = Bay() if chance(rng, 0.5) else Stack((Drawer(), Bay()), (1.0, between(rng, (1.0, 2.0))))
+        bay: Layout = OpenCell() if chance(rng, 0.5) else Stack((Drawer(), OpenCell()), (1.0, between(rng, (1.0, 2.0))))
         cells: tuple[Layout, ...] = (Door(), bay, Door()) if width > 1.1 else (Door(), bay)
-        layout = Row(cells, weights(rng, len(cells), 0.25))
+        layout = CellRow(cells, weights(rng, len(cells), 0.25))
     return build_cabinet(rng, "sideboard", style, size, layout, LOW, STAND)
 
 
-def _beside_flap(rng: np.random.Generator, style: Style, width: float) -> Layout:
+def _beside_flap(rng: np.random.Generator, style: MakerStyle, width: float) -> Layout:
     """Returns a column whose upper front drops down as a bar's or a desk's does, with doors or drawers beside it."""
-    below: Mapping[Layout, float] = {Pair(): 0.3, Drawer(): 0.35, Bay(): 0.2, Stack((Drawer(), Drawer())): 0.15}
+    below: Mapping[Layout, float] = {Pair(): 0.3, Drawer(): 0.35, OpenCell(): 0.2, Stack((Drawer(), Drawer())): 0.15}
     column = Stack((pick(rng, below), Door("bottom")), (between(rng, (0.8, 1.6)), 1.0), style.between)
     aside: Layout = drawer_stack(rng, style, count(rng, 2, 4)) if chance(rng, 0.45) else Door()
     cells: tuple[Layout, ...] = (column, aside) if chance(rng, 0.5) else (aside, column)
     if width > 1.3 and chance(rng, 0.6):
         cells = (Door(), column, aside)
-    return Row(cells, tuple(between(rng, (1.2, 1.6)) if cell is column else 1.0 for cell in cells))
+    return CellRow(cells, tuple(between(rng, (1.2, 1.6)) if cell is column else 1.0 for cell in cells))
 
 
 def tv_stand(rng: np.random.Generator) -> Cabinet:
@@ -123,15 +125,15 @@ def tv_stand(rng: np.random.Generator) -> Cabinet:
     closed = pick(rng, fronts)
     kind = pick(rng, {"sides": 0.45, "below": 0.23, "middle": 0.13, "row": 0.09, "drawers": 0.1})
     if kind == "sides":
-        layout: Layout = Row((closed, Bay(), closed), (1.0, between(rng, (0.9, 1.8)), 1.0))
+        layout: Layout = CellRow((closed, OpenCell(), closed), (1.0, between(rng, (0.9, 1.8)), 1.0))
     elif kind == "below":
-        layout = Stack((drawer_row(rng, count(rng, 2, 3)), Bay()), (between(rng, (0.8, 1.4)), 1.0))
+        layout = Stack((drawer_row(rng, count(rng, 2, 3)), OpenCell()), (between(rng, (0.8, 1.4)), 1.0))
     elif kind == "drawers" and size[0] < WIDEST_DRAWER:
         layout = drawer_stack(rng, style, count(rng, 1, 2))
     elif kind == "middle":
-        layout = Row((Bay(), Pair() if isinstance(closed, Door) else closed, Bay()), (1.0, 1.4, 1.0))
+        layout = CellRow((OpenCell(), Pair() if isinstance(closed, Door) else closed, OpenCell()), (1.0, 1.4, 1.0))
     else:
-        layout = Row((closed,) * count(rng, 2, 4))
+        layout = CellRow((closed,) * count(rng, 2, 4))
     return build_cabinet(rng, "tv_stand", style, size, layout, LOW, STAND)
 
 
@@ -145,10 +147,10 @@ def lowboard(rng: np.random.Generator) -> Cabinet:
         columns = 1
     cells: list[Layout] = [flap] * columns
     if columns > 1 and chance(rng, 0.4):
-        cells[count(rng, 0, columns - 1)] = Bay() if chance(rng, 0.5) else Drawer()
+        cells[count(rng, 0, columns - 1)] = OpenCell() if chance(rng, 0.5) else Drawer()
     if chance(rng, 0.3):
-        cells = [Stack((cell, Bay()), (1.0, between(rng, (0.4, 0.8)))) for cell in cells]
-    layout = Row(tuple(cells)) if columns > 1 else cells[0]
+        cells = [Stack((cell, OpenCell()), (1.0, between(rng, (0.4, 0.8)))) for cell in cells]
+    layout = CellRow(tuple(cells)) if columns > 1 else cells[0]
     return build_cabinet(rng, "lowboard", style, size, layout, LOW if chance(rng, TOPPED) else PLAIN_LOW, STAND)
 
 
@@ -159,15 +161,15 @@ def bookcase(rng: np.random.Generator) -> Cabinet:
     size = draw_size(rng, (0.22, 0.4) if tower else (0.35, 1.6), (0.18, 0.3) if tower else (0.24, 0.42), (1.2, 2.2))
     width, _, height = size
     low: Layout = doors_across(rng, width) if chance(rng, 0.75) else drawer_stack(rng, style, count(rng, 1, 3))
-    bay = Bay(shelves=max(2, round(0.65 * height / between(rng, (0.2, 0.4)))))
+    bay = OpenCell(shelves=max(2, round(0.65 * height / between(rng, (0.2, 0.4)))))
     above: Layout = bay
     if width > 0.9:
-        above = Row((bay,) * (2 if width < 1.35 else 3))
+        above = CellRow((bay,) * (2 if width < 1.35 else 3))
     kind = pick(rng, {"below": 0.72, "all": 0.1, "middle": 0.18})
     if kind == "all":
-        layout: Layout = Row((doors_across(rng, width / 2), bay)) if width > 0.8 else doors_across(rng, width)
+        layout: Layout = CellRow((doors_across(rng, width / 2), bay)) if width > 0.8 else doors_across(rng, width)
     elif kind == "middle":
-        layout = Stack((Bay(shelves=1), low, replace(bay, shelves=2)), (1.0, 0.8, 1.4))
+        layout = Stack((OpenCell(shelves=1), low, replace(bay, shelves=2)), (1.0, 0.8, 1.4))
     else:
         layout = Stack((low, above), (1.0, between(rng, (1.3, 2.6))))
     return build_cabinet(rng, "bookcase", style, size, layout, SLENDER, STAND)
@@ -180,7 +182,7 @@ def display_cabinet(rng: np.random.Generator) -> Cabinet:
     glass = pick(rng, GLASS)
     tall: Layout = Door(leaf=glass) if size[0] < 0.55 else Pair(leaf=glass)
     if size[0] > 1.1:
-        tall = Row((Door(leaf=glass), Pair(leaf=glass)), (1.0, 2.0)) if chance(rng, 0.4) else Pair(leaf=glass)
+        tall = CellRow((Door(leaf=glass), Pair(leaf=glass)), (1.0, 2.0)) if chance(rng, 0.4) else Pair(leaf=glass)
     if chance(rng, 0.5):
         low = doors_across(rng, size[0]) if chance(rng, 0.6) else drawer_row(rng, 1 if size[0] < 0.7 else 2)
         ratio = between(rng, (1.5, 3.0)) if not isinstance(low, Drawer) else 6.0
@@ -198,13 +200,13 @@ def open_shelf(rng: np.random.Generator) -> Cabinet:
 
     def cell() -> Layout:
         if not chance(rng, closed):
-            return Bay()
+            return OpenCell()
         return pick(rng, CLOSED)
 
     stacks = [Stack(tuple(cell() for _ in range(rows))) for _ in range(columns)]
-    if all(isinstance(c, Bay) for stack in stacks for c in stack.cells):
+    if all(isinstance(c, OpenCell) for stack in stacks for c in stack.cells):
         stacks[0] = replace(stacks[0], cells=(Door(), *stacks[0].cells[1:]))
-    layout: Layout = Row(tuple(stacks)) if columns > 1 else stacks[0]
+    layout: Layout = CellRow(tuple(stacks)) if columns > 1 else stacks[0]
     return build_cabinet(rng, "open_shelf", style, size, layout, replace(SLENDER, moulded=False, framed=False), STAND)
 
 
@@ -213,6 +215,6 @@ def free_form(rng: np.random.Generator) -> Cabinet:
     style = draw_style(rng, dict.fromkeys(LIVING, 1.0) | {"office": 1.0, "face frame": 1.0})
     size = draw_size(rng, (0.4, 2.2), (0.3, 0.65), (0.4, 2.2))
     layout = free_layout(rng, style, size[0], size[2], count(rng, 2, 3) if size[0] * size[2] < 2.0 else 2)
-    if isinstance(layout, Bay):
+    if isinstance(layout, OpenCell):
         layout = doors_across(rng, size[0])
     return build_cabinet(rng, "cabinet", style, size, layout)

@@ -13,14 +13,14 @@ from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import drawer_stack
 from grafu.synth.fronts.layout import Blank, Door, Drawer, Layout, Pair, Rect, Stack
-from grafu.synth.sampling.carpentry import Site, fitted
+from grafu.synth.sampling.carpentry import PieceSite, fitted
 from grafu.synth.sampling.casework import Build
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.synth.sampling.style import draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
 
 HOME: Mapping[TraditionName, float] = {"ornate": 0.35, "shaker": 0.35, "mid-century": 0.3}
-STAND = Site(hand=0.9)
+STAND = PieceSite(hand=0.9)
 LOWER = Build(bases=("none", "plinth", "legs"), tops=("between",), legs=(0.05, 0.25), framed=False, moulded=False)
 
 

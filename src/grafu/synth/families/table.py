@@ -22,9 +22,9 @@ from grafu.synth.cabinets.rack import Rack, make_rack
 from grafu.synth.families import bedroom, composed, kitchen, living, office, tables
 from grafu.synth.sampling.chance import pick
 from grafu.synth.tables.desk import Desk, make_desk
-from grafu.synth.tables.table import Table, make_table
+from grafu.synth.tables.table import DrawerTable, make_table
 
-Spec = Cabinet | Table | Desk | Chest | CornerCabinet | InnerCorner | Rack | Ensemble | Bureau
+Spec = Cabinet | DrawerTable | Desk | Chest | CornerCabinet | InnerCorner | Rack | Ensemble | Bureau
 Draw = Callable[[np.random.Generator], Spec]
 
 FAMILIES: Mapping[str, tuple[float, Draw]] = {
@@ -67,7 +67,7 @@ ATTEMPTS = 50  # draws of one family before giving up: at a rejection rate of 20
 
 MAKERS: dict[type, Callable[[Any], Asset]] = {
     Cabinet: make_cabinet,
-    Table: make_table,
+    DrawerTable: make_table,
     Desk: make_desk,
     Chest: make_chest,
     CornerCabinet: make_corner_cabinet,

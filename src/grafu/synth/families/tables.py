@@ -10,14 +10,14 @@ from grafu.synth.case.construction import Stretcher
 from grafu.synth.case.legs import Leg, LegShape
 from grafu.synth.families.built import Size, build_cabinet, draw_size
 from grafu.synth.families.layouts import drawer_stack
-from grafu.synth.fronts.layout import Bay, Between, Door, Drawer, Layout, Rect, Row, Stack
-from grafu.synth.sampling.carpentry import Site, fitted, needed_gap
+from grafu.synth.fronts.layout import Between, CellRow, Door, Drawer, Layout, OpenCell, Rect, Stack
+from grafu.synth.sampling.carpentry import PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import EDGES, ORNATE_EDGES, Build, draw_base, draw_leg
 from grafu.synth.sampling.chance import Span, between, chance, count, only, pick, spread, weights
-from grafu.synth.sampling.style import Style, draw_style, pushed
+from grafu.synth.sampling.style import MakerStyle, draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
 from grafu.synth.tables.desk import Desk
-from grafu.synth.tables.table import Table
+from grafu.synth.tables.table import DrawerTable
 
 HOME: Mapping[TraditionName, float] = {
     "shaker": 0.3, "mid-century": 0.22, "ornate": 0.2, "minimal": 0.18, "flat-pack": 0.1
@@ -25,7 +25,7 @@ HOME: Mapping[TraditionName, float] = {
 DESK: Mapping[TraditionName, float] = {
     "office": 0.3, "minimal": 0.2, "mid-century": 0.17, "shaker": 0.13, "ornate": 0.1, "flat-pack": 0.1
 }  # fmt: skip
-STAND = Site(hand=0.9)
+STAND = PieceSite(hand=0.9)
 ON_TABLE = Build(bases=("none",), tops=("between",), moulded=False, framed=False, open_back=True)
 STRETCHERS: Mapping[Stretcher, float] = {"none": 0.6, "sides": 0.1, "H": 0.1, "box": 0.08, "shelf": 0.12}
 TABLE_LEGS: tuple[LegShape, ...] = ("square", "tapered", "round", "cone", "turned", "splayed", "cabriole")
@@ -90,7 +90,7 @@ def desk(rng: np.random.Generator) -> Desk:
     )
 
 
-def _pedestal(rng: np.random.Generator, style: Style) -> Layout:
+def _pedestal(rng: np.random.Generator, style: MakerStyle) -> Layout:
     kind = pick(rng, {"drawers": 0.72, "door": 0.1, "mixed": 0.18})
     if kind == "drawers":
         return drawer_stack(rng, style, count(rng, 2, 4))
@@ -99,14 +99,14 @@ def _pedestal(rng: np.random.Generator, style: Style) -> Layout:
     return Stack((Door(), Drawer()), (between(rng, (2.0, 3.0)), 1.0), style.between)
 
 
-def _middle(rng: np.random.Generator, style: Style) -> Layout:
+def _middle(rng: np.random.Generator, style: MakerStyle) -> Layout:
     """Returns what hangs between the pedestals: a drawer, two, or a keyboard tray without a front."""
     drawer = Drawer("tray", handle="none") if chance(rng, TRAY) else Drawer()
-    bare: Layout = drawer if chance(rng, 0.8) else Row((Drawer(), Drawer()), between="nothing")
+    bare: Layout = drawer if chance(rng, 0.8) else CellRow((Drawer(), Drawer()), between="nothing")
     return fitted(rng, bare, Rect(0.0, 0.5, 0.6, 0.7), style, STAND)
 
 
-def writing_desk(rng: np.random.Generator) -> Table:
+def writing_desk(rng: np.random.Generator) -> DrawerTable:
     """Returns a desk on legs with one to three drawers in its apron, a hutch on it now and then."""
     style = draw_style(rng, HOME)
     size = draw_size(rng, (0.8, 1.8), (0.45, 0.75), (0.7, 0.8))
@@ -114,7 +114,7 @@ def writing_desk(rng: np.random.Generator) -> Table:
     return _table(rng, "writing_desk", style, size, count(rng, 1, 3), (0.034, 0.1), hutch=hutch)
 
 
-def drawer_table(rng: np.random.Generator) -> Table:
+def drawer_table(rng: np.random.Generator) -> DrawerTable:
     """Returns a table with drawers: side tables, consoles, dining and coffee tables, on one side or two."""
     style = draw_style(rng, HOME)
     kind = pick(rng, KINDS)
@@ -124,7 +124,7 @@ def drawer_table(rng: np.random.Generator) -> Table:
     return _table(rng, "drawer_table", style, size, count(rng, *numbers), APRONS[kind], two_sided=two_sided)
 
 
-def vanity(rng: np.random.Generator) -> Table:
+def vanity(rng: np.random.Generator) -> DrawerTable:
     """Returns a dressing table with small drawers, mostly with a mirror."""
     style = draw_style(rng, HOME)
     size = draw_size(rng, (0.75, 1.3), (0.38, 0.55), (0.7, 0.8))
@@ -135,14 +135,14 @@ def vanity(rng: np.random.Generator) -> Table:
 def _table(
     rng: np.random.Generator,
     name: str,
-    style: Style,
+    style: MakerStyle,
     size: Size,
     number: int,
     apron: Span,
     two_sided: bool = False,
     hutch: Cabinet | None = None,
     mirror: float = 0.0,
-) -> Table:
+) -> DrawerTable:
     """Returns a table with this many drawers in its apron."""
     width, depth, height = size
     thick = width < 0.8 and chance(rng, THICK_LEGS)
@@ -152,13 +152,13 @@ def _table(
     zone = min(spread(rng, apron), 0.35 * height)
     rails = between(rng, (0.1, 0.22)) * zone if chance(rng, RAILED) and zone > LOW_APRON else 0.0
     gaps: Between = "panel" if chance(rng, PARTED) else "nothing"
-    drawers: Layout = Row((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
+    drawers: Layout = CellRow((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
     if number == 1:
         tray = name == "writing_desk" and chance(rng, DESK_TRAY)
         drawers = Drawer("tray", handle="none") if tray else Drawer()
     room = Rect(leg.thick - width / 2, width / 2 - leg.thick, height - zone, height)
     low = chance(rng, 0.25)
-    return Table(
+    return DrawerTable(
         name=name,
         width=width,
         depth=depth,
@@ -192,21 +192,21 @@ def _table(
     )
 
 
-def _table_leg(rng: np.random.Generator, style: Style, side: float) -> Leg:
+def _table_leg(rng: np.random.Generator, style: MakerStyle, side: float) -> Leg:
     """Returns a leg of a shape that carries tables; no feet and casters."""
     return replace(draw_leg(rng, style, side), shape=pick(rng, only(style.rules.leg, TABLE_LEGS)))
 
 
-def _hutch(rng: np.random.Generator, style: Style, width: float, depth: float) -> Cabinet:
+def _hutch(rng: np.random.Generator, style: MakerStyle, width: float, depth: float) -> Cabinet:
     """Returns the low cabinet that stands at the back of a desk: pigeonholes and small drawers."""
     size = (width * between(rng, (0.85, 1.0)), depth * between(rng, (0.3, 0.5)), between(rng, (0.18, 0.4)))
-    middle: Layout = Bay() if chance(rng, 0.6) else Stack((Drawer(), Bay()), (1.0, between(rng, (0.8, 1.5))))
+    middle: Layout = OpenCell() if chance(rng, 0.6) else Stack((Drawer(), OpenCell()), (1.0, between(rng, (0.8, 1.5))))
     side: Layout = _end(rng)
-    layout = Row((side, middle, side), (1.0, between(rng, (1.0, 2.0)), 1.0))
+    layout = CellRow((side, middle, side), (1.0, between(rng, (1.0, 2.0)), 1.0))
     return build_cabinet(rng, "hutch", style, size, layout, ON_TABLE, STAND)
 
 
 def _end(rng: np.random.Generator) -> Layout:
     """Returns what closes the ends of a hutch: drawers, a small door, or nothing."""
-    sides: Mapping[Layout, float] = {Stack((Drawer(), Drawer())): 0.45, Door(): 0.2, Bay(): 0.2, Drawer(): 0.15}
+    sides: Mapping[Layout, float] = {Stack((Drawer(), Drawer())): 0.45, Door(): 0.2, OpenCell(): 0.2, Drawer(): 0.15}
     return pick(rng, sides)

@@ -15,7 +15,6 @@ from grafu.synth.fronts.handles import gripped_side, handle_pieces, held_along, 
 from grafu.synth.fronts.interior import RUNNER, interior_pieces, runner_pieces
 from grafu.synth.fronts.layout import (
     CURVED,
-    Bay,
     Blank,
     Cell,
     Door,
@@ -23,6 +22,7 @@ from grafu.synth.fronts.layout import (
     Edge,
     Edges,
     Layout,
+    OpenCell,
     Pair,
     Partition,
     Rect,
@@ -33,7 +33,7 @@ from grafu.synth.fronts.layout import (
 from grafu.synth.fronts.leaf_relief import LeafShape, bend_at_hinge
 from grafu.synth.fronts.leaves import leaf_surfaces
 from grafu.synth.fronts.setting import Setting, front_rect, inner_span
-from grafu.synth.pieces.assembly import Piece, PieceMotion, plank
+from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, plank
 from grafu.synth.pieces.finish import surface_of
 from grafu.synth.pieces.shapes import board
 from grafu.vocabulary import JointType, PartLabel
@@ -45,12 +45,12 @@ HINGE_RAIL = (0.016, 0.01)  # metres below and above a seam: drawers' boxes keep
 BEHIND_SIDE = 0.035  # metres on either side of the fronts behind a door: an inset door stands there when open
 
 
-def front_pieces(cell: Cell, setting: Setting) -> tuple[Piece, ...]:
+def front_pieces(cell: Cell, setting: Setting) -> tuple[PieceDraft, ...]:
     """Returns everything that fills a cell: fronts, what lies behind them, shelves."""
     return tuple(_MAKERS[type(cell.leaf)](cell, setting))
 
 
-def partition_pieces(partition: Partition, setting: Setting) -> Iterator[Piece]:
+def partition_pieces(partition: Partition, setting: Setting) -> Iterator[PieceDraft]:
     """Yields a divider or shelf that runs to the back, a rail 60 mm deep behind the front, or an open level frame.
 
     The frame has such a rail in front and at the back and a drawer's rail along either wall; an upright one is a panel.
@@ -70,7 +70,7 @@ def partition_pieces(partition: Partition, setting: Setting) -> Iterator[Piece]:
             yield plank(PartLabel.BAR, "drawer_rail", wood, ((low, y0 + depth, r.z0), (high, y1 - depth, r.z1)))
 
 
-def _door_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _door_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     door = cell.leaf
     assert isinstance(door, Door)
     rect = front_rect(cell, setting)
@@ -82,7 +82,7 @@ def _door_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
         yield from interior_pieces(door.shelves, door.inside, cell, setting)
 
 
-def _pair_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _pair_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     pair, o, e = cell.leaf, cell.opening, cell.edges
     assert isinstance(pair, Pair)
     middle, edge = o.center[0], Edge.STOP if pair.muntin else Edge.SEAM
@@ -102,7 +102,7 @@ def _pair_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
         yield from interior_pieces(pair.shelves, pair.inside, cell, setting)
 
 
-def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     drawer, rect, finish = cell.leaf, front_rect(cell, setting), setting.finish
     assert isinstance(drawer, Drawer)
     o, start = cell.opening, setting.plane if drawer.box == "tray" else setting.behind
@@ -110,7 +110,7 @@ def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     side = setting.slide_gap if drawer.box != "tray" or drawer.runners else TRAY_GAP
     inner = Rect(o.x0 + side, o.x1 - side, o.z0 + 0.012, max(o.z1 - 0.02, o.z0 + 0.02))
     surfaces = [surface_of(mesh, finish.inside) for mesh in drawer_box(drawer.box, inner, (start, start + depth))]
-    handle: tuple[Piece, ...] = ()
+    handle: tuple[PieceDraft, ...] = ()
     if drawer.box != "tray":
         leaf = _leaf(drawer, rect, None, setting)
         surfaces = [*leaf_surfaces(leaf, finish), *surfaces]
@@ -118,14 +118,14 @@ def _drawer_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     middle = rect.center
     slide = Axis(vec3(middle[0], setting.front, middle[1]), vec3(0.0, -1.0, 0.0))
     motion = PieceMotion(JointType.PRISMATIC, slide, drawer.travel * depth)
-    yield Piece(PartLabel.DRAWER, "drawer", tuple(surfaces), motion, handle)
+    yield PieceDraft(PartLabel.DRAWER, "drawer", tuple(surfaces), motion, handle)
     thick = min(RUNNER[0], 0.8 * setting.slide_gap)
     if drawer.runners and thick > 0.002:
         z = tray_level(inner) + 0.01 if drawer.box == "tray" else o.z0 + 0.35 * o.height
         yield from runner_pieces(cell, setting, z, thick)
 
 
-def _tilt_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _tilt_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields a front that tilts about its lower edge, its tray with it."""
     tilt, o, rect = cell.leaf, cell.opening, front_rect(cell, setting)
     assert isinstance(tilt, Tilt)
@@ -139,33 +139,33 @@ def _tilt_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
     yield door
 
 
-def _blank_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _blank_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields a board that touches the case: against its front where overlaid, filling the opening where inset."""
     blank = cell.leaf
     assert isinstance(blank, Blank)
     tight = replace(setting, seat=0.0, gap=0.0) if setting.mount == "inset" else replace(setting, seat=0.0)
     leaf = LeafShape(blank.leaf, front_rect(cell, tight), tight.front, tight.thickness)
-    yield Piece(PartLabel.FACE_FRAME, blank.name, leaf_surfaces(leaf, setting.finish))
+    yield PieceDraft(PartLabel.FACE_FRAME, blank.name, leaf_surfaces(leaf, setting.finish))
     for handle in handle_pieces(blank.handle, blank.hold, leaf, None, setting.finish.metal):
         yield replace(handle, label=PartLabel.MISC, stem="false_pull")
 
 
-def _bay_pieces(cell: Cell, setting: Setting) -> Iterator[Piece]:
-    assert isinstance(cell.leaf, Bay)
+def _bay_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
+    assert isinstance(cell.leaf, OpenCell)
     yield from interior_pieces(cell.leaf.shelves, cell.leaf.inside, cell, setting)
 
 
-_MAKERS: dict[type, Callable[[Cell, Setting], Iterator[Piece]]] = {
+_MAKERS: dict[type, Callable[[Cell, Setting], Iterator[PieceDraft]]] = {
     Door: _door_pieces,
     Pair: _pair_pieces,
     Drawer: _drawer_pieces,
     Tilt: _tilt_pieces,
     Blank: _blank_pieces,
-    Bay: _bay_pieces,
+    OpenCell: _bay_pieces,
 }
 
 
-def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
+def _door(door: Door, rect: Rect, setting: Setting) -> PieceDraft:
     (x, z), y = rect.center, setting.front
     pins = {
         "left": (vec3(rect.x0, y, z), vec3(0.0, 0.0, -1.0)),
@@ -176,10 +176,10 @@ def _door(door: Door, rect: Rect, setting: Setting) -> Piece:
     motion = PieceMotion(JointType.REVOLUTE, Axis(*pins[door.hinge]), door.opening)
     leaf = _leaf(door, rect, door.hinge, setting)
     handle = handle_pieces(door.handle, door.hold, leaf, door.hinge, setting.finish.metal)
-    return Piece(PartLabel.DOOR, "door", leaf_surfaces(leaf, setting.finish), motion, handle)
+    return PieceDraft(PartLabel.DOOR, "door", leaf_surfaces(leaf, setting.finish), motion, handle)
 
 
-def _hinge_rail(door: Door, cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _hinge_rail(door: Door, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields the bar that carries a flap which meets another front at its hinge: behind it, beyond the seam."""
     if door.hinge not in ("top", "bottom") or getattr(cell.edges, door.hinge) is not Edge.SEAM:
         return
@@ -208,20 +208,20 @@ def _opening(door: Door, edges: Edges, width: float) -> float:
     return door.opening if clear else min(door.opening, square)
 
 
-def _muntin(rect: Rect, setting: Setting) -> Piece:
+def _muntin(rect: Rect, setting: Setting) -> PieceDraft:
     back = max(setting.plane, setting.behind)
     mesh = board((rect.x0, setting.front, rect.z0), (rect.x1, back, rect.z1))
-    return Piece(PartLabel.BAR, "muntin", (surface_of(mesh, setting.finish.front),))
+    return PieceDraft(PartLabel.BAR, "muntin", (surface_of(mesh, setting.finish.front),))
 
 
-def _behind(layout: Layout, cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _behind(layout: Layout, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields inset fronts inside an opening, between two fillers that keep them clear of the door."""
     o, plane = cell.opening, setting.inner + BEHIND_ROOM
     side = BEHIND_SIDE if setting.mount == "inset" else 0.018
     rect = replace(o, x0=o.x0 + side, x1=o.x1 - side)
     for low, high in zip(inner_span(cell, setting), (rect.x0, rect.x1), strict=True):
         mesh = board((min(low, high), plane, o.z0), (max(low, high), setting.back, o.z1))
-        yield Piece(PartLabel.DIVIDER, "divider", (surface_of(mesh, setting.finish.inside),))
+        yield PieceDraft(PartLabel.DIVIDER, "divider", (surface_of(mesh, setting.finish.inside),))
     inner = replace(setting, plane=plane, mount="inset", wall=0.0, case_wall=None, borders=None, frame=0.0)
     for item in divide(layout, rect, Edges(), setting.panel):
         yield from partition_pieces(item, inner) if isinstance(item, Partition) else front_pieces(item, inner)

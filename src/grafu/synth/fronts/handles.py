@@ -13,7 +13,7 @@ from grafu.synth.fronts.hold import HandleStyle, Hold
 from grafu.synth.fronts.layout import Side
 from grafu.synth.fronts.leaf_relief import LeafShape
 from grafu.synth.fronts.leaves import face_at, filled_rect
-from grafu.synth.pieces.assembly import Piece
+from grafu.synth.pieces.assembly import PieceDraft
 from grafu.synth.pieces.finish import surface_of
 from grafu.templates.handles import handle_template
 from grafu.templates.template import HandleTemplate
@@ -60,7 +60,7 @@ def held_along(hold: Hold, side: Side | None) -> float:
 
 def handle_pieces(
     style: HandleStyle, hold: Hold, leaf: LeafShape, hinge: Side | None, material: Material
-) -> tuple[Piece, ...]:
+) -> tuple[PieceDraft, ...]:
     """Returns the handles of a front, none for the style "none"; `hinge` None: a drawer.
 
     They stay inside the leaf's border. A bar stands on the lower of the faces under its two ends.
@@ -140,10 +140,10 @@ def _within(middle: float, low: float, high: float, box: Box, axis: int) -> floa
     return (first + last) / 2 if first > last else min(max(middle, first), last)
 
 
-def _piece(leaf: LeafShape, x: float, z: float, surfaces: Sequence[Surface], box: Box) -> Piece:
+def _piece(leaf: LeafShape, x: float, z: float, surfaces: Sequence[Surface], box: Box) -> PieceDraft:
     dx, _, dz = (FEET * box.size).tolist()
     dx, dz = (dx if dx > 1.2 * dz else 0.0), (dz if dz > 1.2 * dx else 0.0)  # a knob stands on one foot
     y = max(face_at(leaf, x + sign * dx, z + sign * dz) for sign in (-1.0, 1.0))
     offset = vec3(x, y, z)
     moved = tuple(Surface(s.mesh.translated(offset), s.material, s.uv) for s in surfaces)
-    return Piece(PartLabel.HANDLE, "handle", moved)
+    return PieceDraft(PartLabel.HANDLE, "handle", moved)

@@ -7,7 +7,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.synth.fronts.hold import Inside
 from grafu.synth.fronts.layout import Cell, Edge
 from grafu.synth.fronts.setting import Setting, inner_span
-from grafu.synth.pieces.assembly import Piece, Span, plank, solid
+from grafu.synth.pieces.assembly import PieceDraft, Span, plank, solid
 from grafu.synth.pieces.shapes import rod
 from grafu.vocabulary import PartLabel
 
@@ -22,7 +22,7 @@ ROD = 0.0125  # metres: the radius of a hanging rod, 25 mm tubes being the usual
 RUNNER = (0.011, 0.035)  # metres: how thick and how high slides are
 
 
-def interior_pieces(shelves: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
+def interior_pieces(shelves: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields the shelves and fittings of one opening."""
     yield from _shelves(shelves, inside, cell, setting)
     o, (x0, x1) = cell.opening, inner_span(cell, setting)
@@ -47,7 +47,7 @@ def interior_pieces(shelves: int, inside: Inside, cell: Cell, setting: Setting) 
     yield from _wall_rails(min(inside.rails, 1) if inside.dividers else inside.rails, cell, setting)
 
 
-def runner_pieces(cell: Cell, setting: Setting, z: float, thick: float) -> Iterator[Piece]:
+def runner_pieces(cell: Cell, setting: Setting, z: float, thick: float) -> Iterator[PieceDraft]:
     """Yields a slide on either wall of a cell at the height `z`, where there is a wall; `thick` into the opening."""
     o, (x0, x1) = cell.opening, inner_span(cell, setting)
     y0, y1, half = setting.inner + FRONT_ROOM, setting.back - 0.01, min(RUNNER[1], 0.3 * o.height) / 2
@@ -59,7 +59,7 @@ def runner_pieces(cell: Cell, setting: Setting, z: float, thick: float) -> Itera
             )
 
 
-def _shelves(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _shelves(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     (x0, x1), y0, finish = inner_span(cell, setting), _shelf_front(inside, setting), setting.finish
     lip = 0.0 if inside.shelf == "glass" else min(inside.lip, 0.3 * cell.opening.height / (count + 1))
     near = y0 + (LIP if lip else 0.0)
@@ -85,7 +85,7 @@ def _levels(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterato
         yield z - half, z + half
 
 
-def _cleats(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _cleats(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields a bar under either end of each shelf, where there is a wall."""
     (x0, x1), w = inner_span(cell, setting), CLEAT[0]
     high = min(CLEAT[1], 0.25 * cell.opening.height / (count + 1))
@@ -97,7 +97,7 @@ def _cleats(count: int, inside: Inside, cell: Cell, setting: Setting) -> Iterato
                 yield plank(PartLabel.BAR, "cleat", setting.finish.inside, ((a, y0, low - high), (b, y1, low)))
 
 
-def _blocks(inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _blocks(inside: Inside, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields blocks in the upper corners of a cell's room."""
     o, (x0, x1), (w, high) = cell.opening, inner_span(cell, setting), BLOCK
     y0, y1 = setting.inner + FRONT_ROOM, setting.back - (WALL_RAIL if inside.rails else 0.0)
@@ -111,7 +111,7 @@ def _blocks(inside: Inside, cell: Cell, setting: Setting) -> Iterator[Piece]:
             yield plank(PartLabel.MISC, "corner_block", setting.finish.inside, span)
 
 
-def _dividers(count: int, room: Span, setting: Setting) -> Iterator[Piece]:
+def _dividers(count: int, room: Span, setting: Setting) -> Iterator[PieceDraft]:
     (x0, y0, z0), (x1, y1, z1) = room
     half = min(setting.panel, 0.012) / 2
     for k in range(count):
@@ -154,7 +154,7 @@ def _wire(start: tuple[float, float, float], end: tuple[float, float, float]) ->
     return rod(vec3(*start), vec3(*end), WIRE, 4)
 
 
-def _wall_rails(count: int, cell: Cell, setting: Setting) -> Iterator[Piece]:
+def _wall_rails(count: int, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields bars along the back wall: the first below the top, the second above the bottom."""
     o, (x0, x1), high = cell.opening, inner_span(cell, setting), min(0.07, 0.2 * cell.opening.height)
     for z in (o.z1 - high, o.z0)[:count]:

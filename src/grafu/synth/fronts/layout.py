@@ -128,7 +128,7 @@ class Blank:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Bay:
+class OpenCell:
     """An opening without a front."""
 
     shelves: int = 0
@@ -137,7 +137,7 @@ class Bay:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Row:
+class CellRow:
     """Cells from left to right; `weights` share the width (none: equally)."""
 
     cells: tuple["Layout", ...]
@@ -145,7 +145,7 @@ class Row:
     between: Between = "panel"
 
     def __post_init__(self) -> None:
-        _check_weights("Row", self.cells, self.weights)
+        _check_weights("CellRow", self.cells, self.weights)
 
 
 @final
@@ -161,8 +161,8 @@ class Stack:
         _check_weights("Stack", self.cells, self.weights)
 
 
-Leaf = Door | Pair | Drawer | Tilt | Blank | Bay
-Layout = Leaf | Row | Stack
+Leaf = Door | Pair | Drawer | Tilt | Blank | OpenCell
+Layout = Leaf | CellRow | Stack
 
 
 class Edge(Enum):
@@ -241,10 +241,10 @@ def divide(layout: Layout, opening: Rect, edges: Edges, thickness: float) -> Ite
     Raises:
         ValueError: if a cell or partition is left no room.
     """
-    if not isinstance(layout, Row | Stack):
+    if not isinstance(layout, CellRow | Stack):
         yield Cell(layout, opening, edges)
         return
-    row = isinstance(layout, Row)
+    row = isinstance(layout, CellRow)
     spans = list(_spans(layout, opening.width if row else opening.height, thickness))
     inner = Edge.SEAM if layout.between == "nothing" else Edge.SHARED
     for k, (start, end) in enumerate(spans):
@@ -255,7 +255,7 @@ def divide(layout: Layout, opening: Rect, edges: Edges, thickness: float) -> Ite
             yield Partition(_slice(opening, row, end, spans[k + 1][0]), row, layout.between)
 
 
-def _spans(layout: Row | Stack, length: float, thickness: float) -> Iterator[tuple[float, float]]:
+def _spans(layout: CellRow | Stack, length: float, thickness: float) -> Iterator[tuple[float, float]]:
     gap = 0.0 if layout.between == "nothing" else thickness
     weights = layout.weights or (1.0,) * len(layout.cells)
     free, start = length - gap * (len(weights) - 1), 0.0

@@ -69,7 +69,7 @@ STEP = 0.0006  # metres that an upright step of the relief is wide: a grid has n
 
 @final
 @dataclass(frozen=True, eq=False, slots=True)
-class Relief:
+class LeafRelief:
     """A board as a grid, columns from left to right by rows from bottom to top, metres.
 
     `x` and `back` have a value for each column, `z` and `front` (the y of the outer face) one for each point.
@@ -95,21 +95,21 @@ class Relief:
 
 
 @lru_cache(128)
-def relief_of(leaf: LeafShape) -> Relief | None:
+def relief_of(leaf: LeafShape) -> LeafRelief | None:
     """Returns the relief of a leaf (none, if its style has frames and panes, or is a plain board)."""
     if leaf.grip in _GRIPS:
         return _gripped(leaf, *_GRIPS[leaf.grip])
     return _RELIEFS[leaf.style](leaf) if leaf.style in _RELIEFS else None
 
 
-def _flat(leaf: LeafShape, x: Sequence[float] | Line, z: Sequence[float] | Line, depth: Grid) -> Relief:
+def _flat(leaf: LeafShape, x: Sequence[float] | Line, z: Sequence[float] | Line, depth: Grid) -> LeafRelief:
     """Returns a board of the leaf's thickness, its outer face `depth` metres behind the front's plane."""
     columns = np.asarray(x, dtype=np.float64)
     rows = np.broadcast_to(np.asarray(z, dtype=np.float64), (len(columns), len(z)))
-    return Relief(columns, rows, leaf.front + depth, np.full(len(columns), leaf.front + leaf.thickness))
+    return LeafRelief(columns, rows, leaf.front + depth, np.full(len(columns), leaf.front + leaf.thickness))
 
 
-def _curved(relief: Relief, leaf: LeafShape) -> Relief:
+def _curved(relief: LeafRelief, leaf: LeafShape) -> LeafRelief:
     """Returns the relief on a board that comes forward: in the middle, or towards the free side."""
     u = (relief.x - leaf.rect.x0) / leaf.rect.width
     if leaf.style == "bowed":
@@ -117,7 +117,7 @@ def _curved(relief: Relief, leaf: LeafShape) -> Relief:
     else:
         v = u if leaf.free == "right" else 1 - u
         out = swept_depth(leaf.rect.width) * (1 - (1 - v) ** 2)
-    return Relief(relief.x, relief.z, relief.front - out[:, None], relief.back - out)
+    return LeafRelief(relief.x, relief.z, relief.front - out[:, None], relief.back - out)
 
 
 def swept_depth(width: float) -> float:
@@ -132,21 +132,21 @@ def bend_at_hinge(style: LeafStyle, width: float) -> float:
     return atan(2 * swept_depth(width) / width) if style in ("swept", "swept frame") else 0.0
 
 
-def _bent(leaf: LeafShape) -> Relief:
+def _bent(leaf: LeafShape) -> LeafRelief:
     x = np.linspace(leaf.rect.x0, leaf.rect.x1, 13)
     return _curved(_flat(leaf, x, (leaf.rect.z0, leaf.rect.z1), np.zeros((13, 2))), leaf)
 
 
-def _arched(leaf: LeafShape) -> Relief:
+def _arched(leaf: LeafShape) -> LeafRelief:
     r, u = leaf.rect, np.linspace(0.0, 1.0, 17)
     away = {"arched": 2 * u - 1}.get(leaf.style, 1 - u if leaf.free == "right" else u)
     flat = _flat(leaf, r.x0 + u * r.width, (r.z0, r.z1), np.zeros((17, 2)))
     z = flat.z.copy()
     z[:, 1] -= leaf.rise * away**2
-    return Relief(flat.x, z, flat.front, flat.back)
+    return LeafRelief(flat.x, z, flat.front, flat.back)
 
 
-def _planks(leaf: LeafShape) -> Relief:
+def _planks(leaf: LeafShape) -> LeafRelief:
     r, deep = leaf.rect, min(0.004, 0.25 * leaf.thickness)
     seams = r.x0 + r.width * np.arange(1, count := int(np.clip(round(r.width / PLANK), 2, 12))) / count
     wide = min(0.003, r.width / 60)
@@ -155,7 +155,7 @@ def _planks(leaf: LeafShape) -> Relief:
     return _flat(leaf, x, (r.z0, r.z1), np.column_stack([depth, depth]))
 
 
-def _raised(leaf: LeafShape) -> Relief:
+def _raised(leaf: LeafShape) -> LeafRelief:
     """Returns a frame around a field with a bevelled border."""
     deep = 0.35 * leaf.thickness
     bevel = min(0.03, 0.5 * (min(leaf.rect.width, leaf.rect.height) / 2 - leaf.frame))
@@ -163,12 +163,12 @@ def _raised(leaf: LeafShape) -> Relief:
     return _panelled(leaf, 1, profile)
 
 
-def _two_panels(leaf: LeafShape) -> Relief:
+def _two_panels(leaf: LeafShape) -> LeafRelief:
     """Returns a frame with a rail (on wide leaves: a stile) between two sunk fields."""
     return _panelled(leaf, 2, _sunk(leaf))
 
 
-def _swept_frame(leaf: LeafShape) -> Relief:
+def _swept_frame(leaf: LeafShape) -> LeafRelief:
     return _curved(_panelled(leaf, 1, _sunk(leaf), 9), leaf)
 
 
@@ -179,7 +179,7 @@ def _sunk(leaf: LeafShape) -> tuple[tuple[float, ...], tuple[float, ...]]:
 
 def _panelled(
     leaf: LeafShape, fields: int, profile: tuple[tuple[float, ...], tuple[float, ...]], steps: int = 0
-) -> Relief:
+) -> LeafRelief:
     """Returns a board with sunk fields; `profile` gives depths at distances inwards from a field's border.
 
     `steps` more columns follow a curve.
@@ -207,7 +207,7 @@ def _inside(at: Line, spans: Sequence[tuple[float, float]]) -> Line:
     return np.max([np.minimum(at - low, high - at) for low, high in spans], axis=0)
 
 
-def _gripped(leaf: LeafShape, distances: Sequence[float], depths: Sequence[float]) -> Relief:
+def _gripped(leaf: LeafShape, distances: Sequence[float], depths: Sequence[float]) -> LeafRelief:
     """Returns a slab whose face has a profile of depths (fractions of the thickness) from the grip's edge inwards."""
     r, side = leaf.rect, leaf.grip_side
     upright = side in ("left", "right")
@@ -223,7 +223,7 @@ def _gripped(leaf: LeafShape, distances: Sequence[float], depths: Sequence[float
     return _flat(leaf, (r.x0, r.x1), at, np.stack([depth, depth]))
 
 
-def _short_lip(leaf: LeafShape, at: Line, depth: Line) -> Relief:
+def _short_lip(leaf: LeafShape, at: Line, depth: Line) -> LeafRelief:
     """Returns a leaf whose lip ends before its hinge: there it would strike the case as the door opens."""
     r, end = leaf.rect, min(LIP_END, leaf.rect.width / 6)
     x, ratios = np.array([r.x0, r.x0 + end, r.x0 + end + STEP, r.x1]), np.array([0.0, 0.0, 1.0, 1.0])
@@ -237,7 +237,7 @@ _GRIPS: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
     "edge channel": ((0.0, 0.02, 0.032), (0.65, 0.65, 0.0)),
     "lip": ((0.0, 0.01, 0.01 + STEP), (-0.8, -0.8, 0.0)),
 }
-_RELIEFS: dict[str, Callable[[LeafShape], Relief]] = {
+_RELIEFS: dict[str, Callable[[LeafShape], LeafRelief]] = {
     "bowed": _bent,
     "swept": _bent,
     "swept frame": _swept_frame,

@@ -20,7 +20,7 @@ from grafu.vocabulary import PartLabel
 
 @final
 @dataclass(frozen=True)
-class Addition:
+class LooseObject:
     """A part to be: `fits` states that it must keep out of still parts, too; `carried_by` names what carries it."""
 
     label: PartLabel
@@ -45,7 +45,7 @@ def sheet_of(box: Box) -> TriangleMesh:
 CLEAR = 0.001  # metres between a drawer's box and its runner
 
 
-def runners(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def runners(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     """Yields a bar on either side of each drawer's box, in the gap to what stands there; or one more on the drawer."""
     height, double, ratio = between(rng, (0.012, 0.04)), chance(rng, 0.5), between(rng, (0.0, 0.6))
     still = [p for p in asset.parts if p.label.is_support]
@@ -62,10 +62,10 @@ def runners(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
             if not 0.003 < gap < 0.06:
                 continue
             reach = (0.5 * gap, 0.95 * gap) if double else (CLEAR, 0.95 * gap)
-            yield Addition(PartLabel.MISC, "drawer_runner", _bar_beside(body, 1 - along, side, reach, z, height))
+            yield LooseObject(PartLabel.MISC, "drawer_runner", _bar_beside(body, 1 - along, side, reach, z, height))
             if double:
                 mesh = _bar_beside(body, 1 - along, side, (0.0, 0.4 * gap), z, 0.6 * height)
-                yield Addition(PartLabel.MISC, "drawer_slider", mesh, carried_by=joint.part)
+                yield LooseObject(PartLabel.MISC, "drawer_slider", mesh, carried_by=joint.part)
 
 
 def _body(drawer: Part, along: int, sense: float) -> Box | None:

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.synth.noise.modelling_noise import Cut, Joined
+from grafu.synth.noise.modelling_noise import Joined, PartCut
 from grafu.synth.noise.segmentation import is_board
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.vocabulary import PartLabel
@@ -75,21 +75,21 @@ def _joined(rng: np.random.Generator, parts: Sequence[Part]) -> Joined:
     return Joined(tuple(p.id for p in parts), label, named=alike or not nameless)
 
 
-def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], ratio: float) -> tuple[Cut, ...]:
+def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], ratio: float) -> tuple[PartCut, ...]:
     """Returns which of the parts are in several pieces: frames often, panels with chance `ratio`."""
     found = []
     label = PartLabel.BAR if chance(rng, 0.7) else PartLabel.FACE_FRAME
     if chance(rng, FRAME_IN_BARS):
         frames = (p for p in parts if p.label is PartLabel.FACE_FRAME and len(p.surfaces) > 1)
-        found += [Cut(p.id, "pieces", label) for p in frames]
+        found += [PartCut(p.id, "pieces", label) for p in frames]
     if not chance(rng, ratio):
         return tuple(found)
     boards = [p for p in parts if p.label in (*_CASE, PartLabel.SHELF) and is_board(p) and p.box.size.min() > 0.002]
     if boards and chance(rng, STRIP):
         width = between(rng, (0.01, 0.04))
-        return (*found, *(Cut(p.id, "edge strip", width=width) for p in boards if p.box.thin_axis != 1))
+        return (*found, *(PartCut(p.id, "edge strip", width=width) for p in boards if p.box.thin_axis != 1))
     if chance(rng, BOX_APART):
-        return (*found, *(Cut(j.part, "box apart") for j in asset.joints))
+        return (*found, *(PartCut(j.part, "box apart") for j in asset.joints))
     weights = np.array([WALLS.get(board.label, 1.0) for board in boards])
     number = min(count(rng, 1, 2), len(boards))
     for k in rng.choice(len(boards), number, replace=False, p=weights / weights.sum()) if number else ():
@@ -97,7 +97,7 @@ def draw_cuts(rng: np.random.Generator, asset: Asset, parts: Sequence[Part], rat
     return (*found, *_twins(rng, boards, found))
 
 
-def _twins(rng: np.random.Generator, boards: Sequence[Part], cuts: Sequence[Cut]) -> Iterator[Cut]:
+def _twins(rng: np.random.Generator, boards: Sequence[Part], cuts: Sequence[PartCut]) -> Iterator[PartCut]:
     """Yields the cuts of boards whose twins, of the same label and size, are cut: one side as the other."""
     whole = {board.id: board for board in boards}
     done = {cut.part for cut in cuts}
@@ -110,8 +110,8 @@ def _twins(rng: np.random.Generator, boards: Sequence[Part], cuts: Sequence[Cut]
         done |= {twin.id for twin in twins}
 
 
-def _planks(rng: np.random.Generator, board: Part) -> Cut:
+def _planks(rng: np.random.Generator, board: Part) -> PartCut:
     """Returns a board in two to five, square to its longer or (seldom) shorter side."""
     order = np.argsort(board.box.size)
     axis = int(order[1] if chance(rng, 0.6) else order[2])
-    return Cut(board.id, "planks", count=count(rng, 2, 5), axis=axis)
+    return PartCut(board.id, "planks", count=count(rng, 2, 5), axis=axis)

@@ -20,7 +20,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import transform_points
-from grafu.synth.noise.addition import Addition, block, runners, sheet_of
+from grafu.synth.noise.addition import LooseObject, block, runners, sheet_of
 from grafu.synth.noise.segmentation import fresh_ids
 from grafu.synth.pieces.finish import BIRCH, STEEL
 from grafu.synth.pieces.shapes import turned
@@ -73,7 +73,7 @@ def _swept_boxes(asset: Asset) -> Boxes:
     return np.concatenate(found)
 
 
-def _is_free(addition: Addition, swept: Boxes, still: Boxes) -> bool:
+def _is_free(addition: LooseObject, swept: Boxes, still: Boxes) -> bool:
     box = addition.mesh.box
     twins = np.abs(still - np.stack([box.low, box.high])).max(axis=(1, 2)) < SAME
     if _overlap(box, swept, CLEAR) or bool(twins.any()):
@@ -98,27 +98,27 @@ def _thing(rng: np.random.Generator, foot: tuple[float, float, float]) -> Triang
     return block((x - w / 2, y - d / 2, z), (x + w / 2, y + d / 2, z + height * 0.7))
 
 
-def _on(rng: np.random.Generator, panel: Part, number: int) -> Iterator[Addition]:
+def _on(rng: np.random.Generator, panel: Part, number: int) -> Iterator[LooseObject]:
     box = panel.box
     for _ in range(number):
         ratio = rng.uniform(0.2, 0.8, 2)
         x, y = (box.low[:2] + ratio * box.size[:2]).tolist()
-        yield Addition(PartLabel.MISC, "object", _thing(rng, (x, y, float(box.high[2]))), fits=True)
+        yield LooseObject(PartLabel.MISC, "object", _thing(rng, (x, y, float(box.high[2]))), fits=True)
 
 
-def _things_on_top(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _things_on_top(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     tops = [p for p in asset.parts if p.label is PartLabel.TOP_PANEL]
     if tops:
         yield from _on(rng, max(tops, key=lambda p: p.box.high[2]), count(rng, 1, 3))
 
 
-def _things_on_shelves(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _things_on_shelves(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     boards = [p for p in asset.parts if p.label in (PartLabel.SHELF, PartLabel.BOTTOM_PANEL)]
     for board in boards[: count(rng, 1, 3)]:
         yield from _on(rng, board, count(rng, 1, 2))
 
 
-def _basket(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _basket(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     boards = [p for p in asset.parts if p.label in (PartLabel.SHELF, PartLabel.BOTTOM_PANEL)]
     if not boards:
         return
@@ -131,7 +131,7 @@ def _basket(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     bars = [block((x, y0, z), (x + 2 * r, y1, z + 2 * r)) for x in np.linspace(x0, x1, 8).tolist()]
     bars += [block((x0, y, z + k), (x1, y + 2 * r, z + k + 2 * r)) for y in (y0, y1) for k in (0.0, h)]
     bars += [block((x, y, z), (x + 2 * r, y + 2 * r, z + h)) for x in (x0, x1) for y in (y0, y1)]
-    yield Addition(PartLabel.MISC, "basket", merge_meshes(bars), fits=True)
+    yield LooseObject(PartLabel.MISC, "basket", merge_meshes(bars), fits=True)
 
 
 def _inside(asset: Asset) -> Box | None:
@@ -147,7 +147,7 @@ def _inside(asset: Asset) -> Box | None:
     return Box(vec3(left.high[0], low[1], low[2]), vec3(right.low[0], max(low[1], high[1]), max(low[2], high[2])))
 
 
-def _corner_plates(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _corner_plates(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     room = _inside(asset)
     if room is None:
         return
@@ -161,10 +161,10 @@ def _corner_plates(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]
         for y, back in ((y0 + 0.02, w), (y1 - 0.02, -w)):
             if not full or back > 0:
                 end = y1 - 0.02 if full else y + back
-                yield Addition(label, "corner_plate", block((x, y, z - t), (x + inward, end, z)))
+                yield LooseObject(label, "corner_plate", block((x, y, z - t), (x + inward, end, z)))
 
 
-def _nailers(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _nailers(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     backs = [p.box for p in asset.parts if p.label is PartLabel.BACK_PANEL and p.box.thin_axis == 1]
     if not backs:
         return
@@ -173,10 +173,10 @@ def _nailers(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     h, t = min(between(rng, (0.05, 0.1)), (z1 - z0) / 5), between(rng, (0.01, 0.018))
     for ratio in (1.0, 0.5, 0.0)[: count(rng, 1, 3)]:
         z = z0 + ratio * (z1 - z0 - h)
-        yield Addition(PartLabel.BAR, "nailer", block((x0, y, z), (x1, y + t, z + h)))
+        yield LooseObject(PartLabel.BAR, "nailer", block((x0, y, z), (x1, y + t, z + h)))
 
 
-def _edge_sheets(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _edge_sheets(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     """Yields the front edges of panels once more, as sheets."""
     panels = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.DIVIDER)
     label = PartLabel.BAR if chance(rng, 0.7) else PartLabel.FACE_FRAME
@@ -185,10 +185,10 @@ def _edge_sheets(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     for part in asset.parts:
         low, high = part.box.low, part.box.high
         if part.label in panels and part.box.thin_axis != 1 and part.box.size[1] > 0.15:
-            yield Addition(label, "edge", sheet_of(Box(low, vec3(high[0], low[1], high[2]))))
+            yield LooseObject(label, "edge", sheet_of(Box(low, vec3(high[0], low[1], high[2]))))
 
 
-def _pads(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _pads(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     """Yields a pad under each leg, or near the four corners, each below something that stands on the floor."""
     box, h, r = asset.box, between(rng, (0.003, 0.015)), between(rng, (0.01, 0.025))
     floor = float(box.low[2]) + 0.001
@@ -203,10 +203,10 @@ def _pads(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
     label = PartLabel.LEG if chance(rng, 0.6) else PartLabel.MISC
     for x, y in spots:
         top = vec3(float(x), float(y), float(box.low[2]))
-        yield Addition(label, "pad", turned(top - vec3(0.0, 0.0, h), top, ((0.0, r), (1.0, r)), 8))
+        yield LooseObject(label, "pad", turned(top - vec3(0.0, 0.0, h), top, ((0.0, r), (1.0, r)), 8))
 
 
-def _plates(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _plates(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     """Yields a small plate (a lock, a label holder) on the front of each door or drawer; it rides there."""
     w, h, t = between(rng, (0.008, 0.04)), between(rng, (0.008, 0.03)), between(rng, (0.001, 0.004))
     at = between(rng, (-0.3, 0.3))
@@ -223,7 +223,7 @@ def _plates(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
         x, z, y = float(box.center[0]), float(box.center[2] + at * box.size[2]), float(box.low[1])
         mesh = block((x - w / 2, y - t, z - h / 2), (x + w / 2, y, z + h / 2))
         if _is_foremost(asset.part(joint.part), x, z):
-            yield Addition(PartLabel.MISC, "plate", mesh, carried_by=joint.part)
+            yield LooseObject(PartLabel.MISC, "plate", mesh, carried_by=joint.part)
 
 
 def _is_foremost(front: Part, x: float, z: float) -> bool:
@@ -233,7 +233,7 @@ def _is_foremost(front: Part, x: float, z: float) -> bool:
     return bool(((faces.min(axis=1) <= at) & (faces.max(axis=1) >= at)).all(axis=1).any())
 
 
-def _posts(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
+def _posts(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     sides = [p.box for p in asset.parts if p.label is PartLabel.SIDE_PANEL and p.box.thin_axis == 0]
     w, label = between(rng, (0.02, 0.045)), (PartLabel.BAR, PartLabel.LEG, PartLabel.MISC)[int(rng.integers(3))]
     for side in (
@@ -242,10 +242,10 @@ def _posts(asset: Asset, rng: np.random.Generator) -> Iterator[Addition]:
         x, out = (float(side.low[0]), -w) if side.center[0] < asset.box.center[0] else (float(side.high[0]), w)
         for y, inward in ((float(side.low[1]), w), (float(side.high[1]), -w)):
             mesh = block((x, y, float(side.low[2])), (x + out, y + inward, float(side.high[2])))
-            yield Addition(label, "post", mesh)
+            yield LooseObject(label, "post", mesh)
 
 
-LOOSE_OBJECTS: Final[dict[str, Callable[[Asset, np.random.Generator], Iterator[Addition]]]] = {
+LOOSE_OBJECTS: Final[dict[str, Callable[[Asset, np.random.Generator], Iterator[LooseObject]]]] = {
     "things on top": _things_on_top,
     "things on shelves": _things_on_shelves,
     "basket": _basket,

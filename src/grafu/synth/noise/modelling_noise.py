@@ -57,7 +57,7 @@ class Joined:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Cut:
+class PartCut:
     """One part in several: by its surfaces, in planks, with a front edge strip, or a drawer's box apart."""
 
     part: str
@@ -93,7 +93,7 @@ class ModellingNoise:
     seed: int = 0
     loose_objects: tuple[str, ...] = ()
     joined: tuple[Joined, ...] = ()
-    cuts: tuple[Cut, ...] = ()
+    cuts: tuple[PartCut, ...] = ()
     faces: tuple[tuple[Faces, tuple[str, ...]], ...] = ()
     misfits: tuple[Misfit, ...] = ()
     ajar: tuple[tuple[str, float], ...] = ()
@@ -196,7 +196,7 @@ def _recut(asset: Asset, noise: ModellingNoise) -> Asset:
     return asset
 
 
-def _cut(asset: Asset, cut: Cut) -> Asset:
+def _cut(asset: Asset, cut: PartCut) -> Asset:
     match cut.kind:
         case "pieces":
             return in_pieces(asset, cut.part, cut.label)

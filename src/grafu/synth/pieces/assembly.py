@@ -33,16 +33,16 @@ class PieceMotion:
 
 @final
 @dataclass(frozen=True)
-class Piece:
+class PieceDraft:
     """A part to be: `stem` becomes its name, numbered where it repeats; `attached` move with it."""
 
     label: PartLabel
     stem: str
     surfaces: tuple[Surface, ...]
     motion: PieceMotion | None = None
-    attached: tuple["Piece", ...] = ()  # attached parts carry no attached part of their own
+    attached: tuple["PieceDraft", ...] = ()  # attached parts carry no attached part of their own
 
-    def transformed(self, T: Mat4) -> "Piece":
+    def transformed(self, T: Mat4) -> "PieceDraft":
         """Returns the piece, its motion and its attached parts mapped by a rigid T."""
         return replace(
             self,
@@ -52,7 +52,7 @@ class Piece:
         )
 
 
-def assemble(name: str, pieces: Sequence[Piece]) -> Asset:
+def assemble(name: str, pieces: Sequence[PieceDraft]) -> Asset:
     """Returns the asset of all pieces, centred in x and y and standing on z = 0, with its true joints."""
     entries = list(_with_carriers(pieces))
     ids = _numbered([piece.stem for piece, _ in entries])
@@ -68,7 +68,7 @@ def assemble(name: str, pieces: Sequence[Piece]) -> Asset:
     return replace(centred(Asset(name, "", "made", parts, joints=joints)), frame=IDENTITY_FRAME)
 
 
-def _with_carriers(pieces: Sequence[Piece]) -> Iterator[tuple[Piece, int | None]]:
+def _with_carriers(pieces: Sequence[PieceDraft]) -> Iterator[tuple[PieceDraft, int | None]]:
     position = 0
     for piece in pieces:
         yield piece, None
@@ -92,14 +92,14 @@ Span = tuple[Corner, Corner]
 LEAST = 1e-6  # metres below which a board is a sheet without thickness
 
 
-def plank(label: PartLabel, stem: str, material: Material, *spans: Span) -> Piece:
+def plank(label: PartLabel, stem: str, material: Material, *spans: Span) -> PieceDraft:
     """Returns a piece of one or more boards, each between two corners; one without thickness is a sheet."""
-    return Piece(label, stem, tuple(surface_of(straight(low, high), material) for low, high in spans))
+    return PieceDraft(label, stem, tuple(surface_of(straight(low, high), material) for low, high in spans))
 
 
-def solid(label: PartLabel, stem: str, material: Material, meshes: Sequence[TriangleMesh]) -> Piece:
+def solid(label: PartLabel, stem: str, material: Material, meshes: Sequence[TriangleMesh]) -> PieceDraft:
     """Returns a piece of several solids in one material."""
-    return Piece(label, stem, tuple(surface_of(mesh, material) for mesh in meshes))
+    return PieceDraft(label, stem, tuple(surface_of(mesh, material) for mesh in meshes))
 
 
 def straight(low: Corner, high: Corner) -> TriangleMesh:

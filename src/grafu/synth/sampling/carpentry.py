@@ -12,10 +12,10 @@ from typing import Literal, final
 
 import numpy as np
 
-from grafu.synth.fronts.layout import Bay, Blank, Door, Drawer, Layout, Pair, Rect, Row, Side, Stack, Tilt
+from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack, Tilt
 from grafu.synth.sampling.chance import between, chance, pick
 from grafu.synth.sampling.fittings import fit_bay, fit_blank, fit_door, fit_drawer, fit_pair, fit_tilt
-from grafu.synth.sampling.style import Style
+from grafu.synth.sampling.style import MakerStyle
 
 Habit = Literal["outer", "left", "right"]
 
@@ -32,7 +32,7 @@ NEAR = 0.02  # metres: openings whose sides agree to this stand above each other
 
 @final
 @dataclass(frozen=True, slots=True)
-class Place:
+class CellPlace:
     """Where a cell stands: whether nothing is left (or right) of it in the whole piece, and its row's habit."""
 
     first: bool = True
@@ -42,7 +42,7 @@ class Place:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Site:
+class PieceSite:
     """What surrounds a piece: a wall (or tall unit) beside it, and the height of a hand in the piece's own frame.
 
     A hand is 1.05 m above the floor: above a base unit's doors, below a wall unit's.
@@ -52,18 +52,18 @@ class Site:
     hand: float = 1.05
 
 
-FREE = Site()
+FREE = PieceSite()
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class _Fitter:
     rng: np.random.Generator
-    style: Style
-    site: Site
+    style: MakerStyle
+    site: PieceSite
     hung: list[tuple[float, float, Side]] = field(default_factory=list)  # x0, x1 and side of the doors so far
 
-    def side(self, room: Rect, place: Place) -> Side:
+    def side(self, room: Rect, place: CellPlace) -> Side:
         """Returns the side of a single door, and remembers it for those above."""
         below = next((s for x0, x1, s in self.hung if abs(x0 - room.x0) + abs(x1 - room.x1) < NEAR), None)
         if below is not None and chance(self.rng, LIKE_BELOW):
@@ -72,7 +72,7 @@ class _Fitter:
         self.hung.append((room.x0, room.x1, side))
         return side
 
-    def _free_side(self, place: Place) -> Side:
+    def _free_side(self, place: CellPlace) -> Side:
         if self.site.wall is not None and chance(self.rng, WALL_SIDE):
             return self.site.wall
         if place.habit != "outer":
@@ -82,7 +82,7 @@ class _Fitter:
         return "left" if chance(self.rng, 0.5) else "right"
 
 
-def fitted(rng: np.random.Generator, layout: Layout, room: Rect, style: Style, site: Site = FREE) -> Layout:
+def fitted(rng: np.random.Generator, layout: Layout, room: Rect, style: MakerStyle, site: PieceSite = FREE) -> Layout:
     """Returns the layout of bare fronts, that divides this room, with every front decided.
 
     Doors with a level hinge (flaps) keep it; leaves and shelf counts that are not the default ones are kept too.
@@ -90,7 +90,7 @@ def fitted(rng: np.random.Generator, layout: Layout, room: Rect, style: Style, s
     Raises:
         ValueError: if some front is left no room.
     """
-    return _fit(_Fitter(rng, style, site), layout, room, Place())
+    return _fit(_Fitter(rng, style, site), layout, room, CellPlace())
 
 
 def needed_gap(layout: Layout, room: Rect, front: float) -> float:
@@ -108,32 +108,32 @@ def needed_gap(layout: Layout, room: Rect, front: float) -> float:
 
 
 def _leaves(layout: Layout, room: Rect) -> Iterator[tuple[Layout, Rect]]:
-    if not isinstance(layout, Row | Stack):
+    if not isinstance(layout, CellRow | Stack):
         yield layout, room
         return
     for cell, part in _divided(layout, room):
         yield from _leaves(cell, part)
 
 
-def _divided(layout: Row | Stack, room: Rect) -> Iterator[tuple[Layout, Rect]]:
+def _divided(layout: CellRow | Stack, room: Rect) -> Iterator[tuple[Layout, Rect]]:
     """Yields the cells and, to within the panels between them, their rooms."""
     ratios = layout.weights or (1.0,) * len(layout.cells)
     whole, start = sum(ratios), 0.0
     for cell, ratio in zip(layout.cells, ratios, strict=True):
         low, high = start / whole, (start + ratio) / whole
-        if isinstance(layout, Row):
+        if isinstance(layout, CellRow):
             yield cell, replace(room, x0=room.x0 + low * room.width, x1=room.x0 + high * room.width)
         else:
             yield cell, replace(room, z0=room.z0 + low * room.height, z1=room.z0 + high * room.height)
         start += ratio
 
 
-def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: Place) -> Layout:
+def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: CellPlace) -> Layout:
     rng, style, site = fitter.rng, fitter.style, fitter.site
-    if not isinstance(layout, Bay) and min(room.width, room.height) < SMALLEST:
+    if not isinstance(layout, OpenCell) and min(room.width, room.height) < SMALLEST:
         raise ValueError(f"the layout leaves a front no room: got {room.width:.3f} x {room.height:.3f} m")
     match layout:
-        case Row():
+        case CellRow():
             return _fit_row(fitter, layout, room, place)
         case Stack():
             cells = tuple(_fit(fitter, cell, part, place) for cell, part in _divided(layout, room))
@@ -146,7 +146,7 @@ def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: Place) -> Layout:
             return door if clear else replace(door, opening=min(door.opening, SQUARE))
         case Pair():
             pair = _fit_pair(fitter, layout, room)
-            if isinstance(pair, Row) or (place.first and place.last):
+            if isinstance(pair, CellRow) or (place.first and place.last):
                 return pair
             return replace(pair, opening=min(pair.opening, SQUARE))
         case Drawer():
@@ -155,11 +155,11 @@ def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: Place) -> Layout:
             return fit_tilt(layout, style)
         case Blank():
             return fit_blank(layout, room, style)
-        case Bay():
+        case OpenCell():
             return fit_bay(rng, layout, room, style)
 
 
-def _fit_row(fitter: _Fitter, row: Row, room: Rect, place: Place) -> Row:
+def _fit_row(fitter: _Fitter, row: CellRow, room: Rect, place: CellPlace) -> CellRow:
     last = len(row.cells) - 1
     habit = pick(fitter.rng, ROW_HABITS) if place.habit == "outer" else place.habit
     inner: Habit = "left" if chance(fitter.rng, 0.5) else "right"  # the side of doors between others
@@ -167,11 +167,11 @@ def _fit_row(fitter: _Fitter, row: Row, room: Rect, place: Place) -> Row:
     for k, (cell, part) in enumerate(_divided(row, room)):
         first_here, last_here = place.first and k == 0, place.last and k == last
         own = habit if first_here or last_here or habit != "outer" else inner
-        cells.append(_fit(fitter, cell, part, Place(first_here, last_here, own)))
+        cells.append(_fit(fitter, cell, part, CellPlace(first_here, last_here, own)))
     return replace(row, cells=tuple(cells))
 
 
-def _fit_pair(fitter: _Fitter, pair: Pair, room: Rect) -> Pair | Row:
+def _fit_pair(fitter: _Fitter, pair: Pair, room: Rect) -> Pair | CellRow:
     rng, style = fitter.rng, fitter.style
     if pair.behind is None and chance(rng, SAME_SIDE_PAIR):
         side: Side = "left" if chance(rng, 0.5) else "right"
@@ -179,7 +179,7 @@ def _fit_pair(fitter: _Fitter, pair: Pair, room: Rect) -> Pair | Row:
             fit_door(rng, Door(side, pair.leaf, shelves=pair.shelves), side, part, style, fitter.site.hand)
             for part in _halves(room)
         )
-        return Row(halves, between="panel")
+        return CellRow(halves, between="panel")
     return fit_pair(rng, pair, room, style, fitter.site.hand)
 
 

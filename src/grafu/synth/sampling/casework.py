@@ -28,7 +28,7 @@ from grafu.synth.case.construction import (
 )
 from grafu.synth.case.legs import Leg, LegShape
 from grafu.synth.sampling.chance import Span, between, chance, count, only, pick
-from grafu.synth.sampling.style import BOARDED, Style
+from grafu.synth.sampling.style import BOARDED, MakerStyle
 
 # How backs are modelled: nearly all are full sheets; the half and split ones are cheap furniture's.
 BACKS: Mapping[BackKind, float] = {"full": 0.74, "split": 0.21, "half": 0.02, "none": 0.03}
@@ -88,7 +88,9 @@ ANY = Build()
 WALL_HUNG = Build(bases=("none",), tops=("between",))
 
 
-def draw_case(rng: np.random.Generator, style: Style, size: tuple[float, float, float], build: Build = ANY) -> Case:
+def draw_case(
+    rng: np.random.Generator, style: MakerStyle, size: tuple[float, float, float], build: Build = ANY
+) -> Case:
     """Returns a case of the given outer size (width, depth, height) in this style; a bare one without ornament.
 
     Raises:
@@ -118,7 +120,9 @@ def draw_case(rng: np.random.Generator, style: Style, size: tuple[float, float, 
     )
 
 
-def draw_base(rng: np.random.Generator, style: Style, size: tuple[float, float, float], build: Build = ANY) -> Base:
+def draw_base(
+    rng: np.random.Generator, style: MakerStyle, size: tuple[float, float, float], build: Build = ANY
+) -> Base:
     """Returns what a case of this size stands on."""
     width, depth, height = size
     kind = pick(rng, only(style.rules.base, build.bases))
@@ -146,13 +150,13 @@ def draw_base(rng: np.random.Generator, style: Style, size: tuple[float, float, 
     )
 
 
-def draw_leg(rng: np.random.Generator, style: Style, side: float) -> Leg:
+def draw_leg(rng: np.random.Generator, style: MakerStyle, side: float) -> Leg:
     """Returns a leg of the style's tradition for furniture whose smaller side is `side` metres."""
     thick = min(between(rng, (0.025, 0.065)), side / 7)
     return Leg(pick(rng, style.rules.leg), thick, between(rng, (0.4, 0.8)), between(rng, (0.05, 0.18)))
 
 
-def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
+def _top(rng: np.random.Generator, style: MakerStyle, build: Build) -> Top:
     kind = pick(rng, only(style.rules.top, build.tops))
     rail = between(rng, RAIL_HEIGHTS) if not style.bare and chance(rng, RAIL) else 0.0
     if kind != "over":
@@ -171,7 +175,7 @@ def _top(rng: np.random.Generator, style: Style, build: Build) -> Top:
     )
 
 
-def _back(rng: np.random.Generator, style: Style, build: Build, width: float) -> Back:
+def _back(rng: np.random.Generator, style: MakerStyle, build: Build, width: float) -> Back:
     if style.bare:
         return Back("none" if chance(rng, BARE_BACKLESS) else "full", style.back, planted=chance(rng, 0.3))
     kind: BackKind = "none" if build.open_back and chance(rng, 0.5) else pick(rng, BACKS)
@@ -182,7 +186,7 @@ def _back(rng: np.random.Generator, style: Style, build: Build, width: float) ->
     return Back(kind, style.back, rails=rails or (2 if kind == "none" else 0), planted=chance(rng, 0.3))
 
 
-def _care(style: Style) -> float:
+def _care(style: MakerStyle) -> float:
     """Returns how much likelier than on average the maker adds strips and nailers."""
     return THOROUGH if style.setback <= TOUCH else LOOSE
 
@@ -193,7 +197,7 @@ def _bottom(rng: np.random.Generator, base: Base) -> Bottom:
     return Bottom(kind, overhang=overhang)
 
 
-def _strips(rng: np.random.Generator, style: Style, build: Build, base: Base) -> FaceFrame | None:
+def _strips(rng: np.random.Generator, style: MakerStyle, build: Build, base: Base) -> FaceFrame | None:
     """Returns edge strips on the panels of a frameless case, as some kitchen models have them; mostly none."""
     if not build.framed or base.kind == "posts" or style.mount == "inset":
         return None
@@ -202,13 +206,13 @@ def _strips(rng: np.random.Generator, style: Style, build: Build, base: Base) ->
     return FaceFrame(style.panel, "strips", 0.001 if chance(rng, 0.5) else 0.0)
 
 
-def _sides(rng: np.random.Generator, style: Style, table: Mapping[SideKind, float], plain: bool) -> Sides:
+def _sides(rng: np.random.Generator, style: MakerStyle, table: Mapping[SideKind, float], plain: bool) -> Sides:
     kind = "panel" if plain else pick(rng, table)
     if kind != "panel" or style.frame or style.mount == "inset" or not chance(rng, BEYOND):
         return Sides(kind)
     return Sides(kind, beyond=style.front + style.seat + pick(rng, {0.0: 0.5, 0.005: 0.25, 0.015: 0.25}))
 
 
-def _frame(rng: np.random.Generator, style: Style) -> FaceFrame:
+def _frame(rng: np.random.Generator, style: MakerStyle) -> FaceFrame:
     rail = style.frame * between(rng, (0.8, 1.5)) if chance(rng, 0.3) else 0.0
     return FaceFrame(style.frame, pick(rng, FRAMES), 0.018 if style.panel < 0.012 else 0.0, rail, chance(rng, 0.05))

@@ -9,9 +9,9 @@ from dataclasses import replace
 import numpy as np
 
 from grafu.synth.fronts.hold import Grip, HandleStyle, Hold, Inside
-from grafu.synth.fronts.layout import CURVED, Bay, Blank, Door, Drawer, LeafStyle, Pair, Rect, Side, Tilt
+from grafu.synth.fronts.layout import CURVED, Blank, Door, Drawer, LeafStyle, OpenCell, Pair, Rect, Side, Tilt
 from grafu.synth.sampling.chance import between, chance, pick
-from grafu.synth.sampling.style import Style
+from grafu.synth.sampling.style import MakerStyle
 
 # Single doors on a piece whose pairs carry handles in the middle of an edge, with theirs at the free edge all the same:
 # in the middle it has half the leverage. Real pairs have it there (6 of 20 doors), real single doors not (0 of 5).
@@ -39,7 +39,7 @@ INSIDES = {
 FLUSH_BAYS = 0.6  # open shelves mostly end with the case's front
 
 
-def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style: Style, hand: float) -> Door:
+def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style: MakerStyle, hand: float) -> Door:
     """Returns the door hung on this side, with its leaf, handle, grip and shelves."""
     flap = side in ("top", "bottom")
     leaf = _leaf(rng, door.leaf, style.leaf, room, flap)
@@ -61,7 +61,7 @@ def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style
     )
 
 
-def fit_pair(rng: np.random.Generator, pair: Pair, room: Rect, style: Style, hand: float) -> Pair:
+def fit_pair(rng: np.random.Generator, pair: Pair, room: Rect, style: MakerStyle, hand: float) -> Pair:
     """Returns the pair with leaves, handles, grips, muntin and shelves."""
     half = replace(room, x1=room.center[0])
     leaf = _leaf(rng, pair.leaf, style.leaf, half, False)
@@ -80,7 +80,7 @@ def fit_pair(rng: np.random.Generator, pair: Pair, room: Rect, style: Style, han
     )
 
 
-def fit_drawer(rng: np.random.Generator, drawer: Drawer, room: Rect, style: Style) -> Drawer:
+def fit_drawer(rng: np.random.Generator, drawer: Drawer, room: Rect, style: MakerStyle) -> Drawer:
     """Returns the drawer with its box, leaf, handle and grip."""
     leaf = _leaf(rng, drawer.leaf, style.drawer_leaf, room, True)
     if style.drawer_leaf == "bowed" and drawer.leaf == "slab" and room.height > SMALL_FRONT:
@@ -100,7 +100,7 @@ def fit_drawer(rng: np.random.Generator, drawer: Drawer, room: Rect, style: Styl
     )
 
 
-def fit_tilt(tilt: Tilt, style: Style) -> Tilt:
+def fit_tilt(tilt: Tilt, style: MakerStyle) -> Tilt:
     """Returns the tilting front with its leaf and handle."""
     leaf = style.leaf if style.leaf in ("slab", "chamfered", "shaker", "louvred", "planks") else "slab"
     grip = style.grip if leaf == "slab" else "none"
@@ -109,14 +109,14 @@ def fit_tilt(tilt: Tilt, style: Style) -> Tilt:
     return replace(tilt, leaf=leaf, handle=handle, grip=grip, hold=_plain_hold(short, handle))
 
 
-def fit_blank(blank: Blank, room: Rect, style: Style) -> Blank:
+def fit_blank(blank: Blank, room: Rect, style: MakerStyle) -> Blank:
     """Returns the still board: a false drawer front looks like the drawers, fillers and panels stay plain."""
     if blank.name != "false_front":
         return blank
     return replace(blank, leaf="slab" if room.height < SMALL_FRONT else style.drawer_leaf)
 
 
-def fit_bay(rng: np.random.Generator, bay: Bay, room: Rect, style: Style) -> Bay:
+def fit_bay(rng: np.random.Generator, bay: OpenCell, room: Rect, style: MakerStyle) -> OpenCell:
     """Returns the open bay with its shelves."""
     inside = replace(bay.inside, setback=0.0 if chance(rng, FLUSH_BAYS) else style.setback, band=style.banded)
     return replace(bay, shelves=_shelves(rng, bay.shelves, room, False, style), inside=inside)
@@ -139,7 +139,7 @@ def _handle(asked: HandleStyle, usual: HandleStyle, grip: Grip) -> HandleStyle:
     return "none" if grip != "none" else usual
 
 
-def _door_hold(rng: np.random.Generator, style: Style, handle: HandleStyle, room: Rect, hand: float) -> Hold:
+def _door_hold(rng: np.random.Generator, style: MakerStyle, handle: HandleStyle, room: Rect, hand: float) -> Hold:
     """Returns how a side-hung door is held."""
     plain = _plain_hold(style, handle)
     if chance(rng, HINGE_EDGE):
@@ -156,14 +156,14 @@ def _door_hold(rng: np.random.Generator, style: Style, handle: HandleStyle, room
     return replace(plain, place="free edge", along=float(np.clip(reach, 0.14, 0.86)))
 
 
-def _drawer_hold(style: Style, handle: HandleStyle, room: Rect) -> Hold:
+def _drawer_hold(style: MakerStyle, handle: HandleStyle, room: Rect) -> Hold:
     high = style.drawer_high and room.height > 0.12
     two = room.width > 0.65 and not style.full and (style.length is None or style.length < 0.15)
     hold = replace(_plain_hold(style, handle), count=2 if two and style.inset > 0.035 else 1)
     return replace(hold, place="top edge") if high else hold
 
 
-def _plain_hold(style: Style, handle: HandleStyle) -> Hold:
+def _plain_hold(style: MakerStyle, handle: HandleStyle) -> Hold:
     """Returns how large a handle of this kind is on the piece, at its usual place; a small knob protrudes less."""
     family = handle.partition("-")[0]
     if family == "knob":
@@ -173,7 +173,7 @@ def _plain_hold(style: Style, handle: HandleStyle) -> Hold:
     return Hold(length=length, ratio=ratio, inset=style.inset, protrusion=style.protrusion if bar else None)
 
 
-def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, style: Style) -> int:
+def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, style: MakerStyle) -> int:
     """Returns the shelves of an opening, by its height; none where something stands behind the door."""
     least = min(0.3, 2 * style.pitch)
     empty = 0.0 if style.banded else BARE_INSIDE if style.bare else NO_SHELVES
@@ -183,7 +183,7 @@ def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, sty
     return max(1 if room.height > 0.3 else 0, min(usual, MOST_SHELVES))
 
 
-def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle, style: Style) -> Inside:
+def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle, style: MakerStyle) -> Inside:
     plain = Inside(setback=style.setback, band=style.banded)
     asked = replace(asked, setback=plain.setback, band=plain.band)
     if asked != plain or style.bare:

@@ -108,7 +108,7 @@ PLAIN_ON_DRAWERS: frozenset[LeafStyle] = frozenset(
 
 @final
 @dataclass(frozen=True, slots=True)
-class Style:
+class MakerStyle:
     """The choices of one maker for one piece, metres and radians.
 
     `lap` is the most that overlay fronts cover of a panel, `reveal` what they leave of the case's outer edges (None:
@@ -162,7 +162,7 @@ class Style:
         return TRADITIONS[self.tradition]
 
 
-def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, float]) -> Style:
+def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, float]) -> MakerStyle:
     """Returns a style of one of these traditions, drawn by their weights."""
     name = pick(rng, traditions)
     rules = TRADITIONS[name]
@@ -175,7 +175,7 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
     banded = mount == "overlay" and not (frame or bare) and chance(rng, BANDED.get(name, 0.0))
     tight = banded or chance(rng, TIGHT)
     full = chance(rng, 0.6 if handle == "bar-profile" else LONG_RATIO)
-    return Style(
+    return MakerStyle(
         tradition=name,
         panel=panel,
         front=min(pick(rng, rules.front), LIGHT_FRONT) if panel < LIGHT else pick(rng, rules.front),
@@ -217,12 +217,12 @@ def draw_style(rng: np.random.Generator, traditions: Mapping[TraditionName, floa
     )
 
 
-def pushed(rng: np.random.Generator, style: Style, ratio: float = PUSHED) -> Style:
+def pushed(rng: np.random.Generator, style: MakerStyle, ratio: float = PUSHED) -> MakerStyle:
     """Returns the style, in this fraction of draws with fronts that are pushed open or drawn by their edge."""
     return replace(style, handle="none", drawer_handle="none") if chance(rng, ratio) else style
 
 
-def chunky(rng: np.random.Generator, style: Style, ratio: float) -> Style:
+def chunky(rng: np.random.Generator, style: MakerStyle, ratio: float) -> MakerStyle:
     """Returns the style, in this fraction of draws with boards that are thick for a small piece."""
     return replace(style, panel=max(style.panel, between(rng, THICK_BOARDS))) if chance(rng, ratio) else style
 

@@ -15,7 +15,7 @@ from grafu.synth.case.legs import Leg
 from grafu.synth.fronts.front import front_pieces
 from grafu.synth.fronts.layout import Cell, Drawer, Edge, Edges, Layout, Rect, Stack, divide
 from grafu.synth.fronts.setting import Mount, Setting
-from grafu.synth.pieces.assembly import Piece, assemble, plank, solid
+from grafu.synth.pieces.assembly import PieceDraft, assemble, plank, solid
 from grafu.synth.pieces.finish import PLAIN, Finish
 from grafu.synth.tables.table_parts import on_top, table_leg, table_top
 from grafu.vocabulary import PartLabel
@@ -100,13 +100,13 @@ def make_desk(spec: Desk) -> Asset:
     return assemble(spec.name, pieces)
 
 
-def _tops(spec: Desk) -> Iterator[Piece]:
+def _tops(spec: Desk) -> Iterator[PieceDraft]:
     x, y = spec.width / 2, spec.depth / 2
     box = Box(vec3(-x, -y, spec.under), vec3(x, y, spec.height))
     yield table_top("straight", box, spec.edge, False, spec.finish)
 
 
-def _support(layout: Layout | None, side: float, spec: Desk) -> Iterator[Piece]:
+def _support(layout: Layout | None, side: float, spec: Desk) -> Iterator[PieceDraft]:
     if layout is not None:
         yield from _pedestal(layout, side, spec)
     elif spec.legs is not None:
@@ -122,7 +122,7 @@ def _support(layout: Layout | None, side: float, spec: Desk) -> Iterator[Piece]:
         yield plank(PartLabel.SIDE_PANEL, "side_panel", spec.finish.case, span)
 
 
-def _pedestal(layout: Layout, side: float, spec: Desk) -> Iterator[Piece]:
+def _pedestal(layout: Layout, side: float, spec: Desk) -> Iterator[PieceDraft]:
     high, deep = spec.under - spec.lift, spec.depth - 2 * SETBACK
     case = Case(spec.pedestal_width, high, deep, panel=spec.panel, base=spec.base)
     cabinet = Cabinet(case=case, layout=layout, mount=spec.mount, front=spec.front, gap=spec.gap, finish=spec.finish)
@@ -136,7 +136,7 @@ def _pedestal(layout: Layout, side: float, spec: Desk) -> Iterator[Piece]:
         yield plank(PartLabel.MISC, "tabletop_connector", spec.finish.case, span)
 
 
-def _between(spec: Desk) -> Iterator[Piece]:
+def _between(spec: Desk) -> Iterator[PieceDraft]:
     """Yields what fills the knee room: the modesty panel and the fronts below the top."""
     x0, x1 = spec.knee_room
     y, wood = spec.depth / 2 - SETBACK, spec.finish.case
@@ -156,7 +156,7 @@ def _between(spec: Desk) -> Iterator[Piece]:
         yield plank(PartLabel.MISC, "tabletop_connector", wood, ((r.x0, -y, r.z0), (r.x1, back, r.z1)))
 
 
-def _wing(spec: Desk) -> Iterator[Piece]:
+def _wing(spec: Desk) -> Iterator[PieceDraft]:
     """Yields a return that runs on towards the front at the end without a pedestal, on a panel at its own end."""
     if not spec.wing:
         return

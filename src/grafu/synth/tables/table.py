@@ -14,15 +14,15 @@ from grafu.synth.case.bases import stretcher_pieces, waist
 from grafu.synth.case.construction import Stretcher, TopEdge
 from grafu.synth.case.legs import Leg, LegShape, lean
 from grafu.synth.fronts.front import front_pieces
-from grafu.synth.fronts.layout import Cell, Drawer, Edge, Edges, Layout, Rect, Row, divide
+from grafu.synth.fronts.layout import Cell, CellRow, Drawer, Edge, Edges, Layout, Rect, divide
 from grafu.synth.fronts.setting import Setting
-from grafu.synth.pieces.assembly import Piece, Span, assemble, both_sides, plank, solid
+from grafu.synth.pieces.assembly import PieceDraft, Span, assemble, both_sides, plank, solid
 from grafu.synth.pieces.finish import PLAIN, Finish
 from grafu.synth.pieces.shapes import arched_rail
 from grafu.synth.tables.table_parts import WITHIN_ROUND, Outline, mirror_pieces, on_top, table_legs, table_top
 from grafu.vocabulary import PartLabel
 
-TWO_DRAWERS = Row((Drawer(), Drawer()), between="nothing")
+TWO_DRAWERS = CellRow((Drawer(), Drawer()), between="nothing")
 SPINE = 0.03  # metres: the thickness of the board that runs lengthwise (26608: 41 mm)
 MOULDING = 0.015  # metres that a moulding around a top juts out
 APRON = 0.02  # metres: the thickness of aprons
@@ -31,7 +31,7 @@ APRON_SETBACK = 0.01  # metres that aprons stand back behind the legs' outer fac
 
 @final
 @dataclass(frozen=True, slots=True)
-class Table:
+class DrawerTable:
     """A table with hanging drawers, metres: nothing but its legs and aprons stands beside them.
 
     `apron` is the height of the drawers' zone below the top; `slide_gap` what a drawer box keeps from the legs' inner
@@ -83,7 +83,7 @@ class Table:
         x, y = self.half
         if min(x, y) <= self.leg or self.under - self.apron - self.arch <= 0 or 3 * self.rails >= self.apron:
             size = f"{self.width} x {self.depth} x {self.height} m with legs of {self.leg} m"
-            raise ValueError(f"`Table` needs room between its legs and rails, and below its drawers: got {size}")
+            raise ValueError(f"`DrawerTable` needs room between its legs and rails, and below its drawers: got {size}")
 
     @property
     def half(self) -> tuple[float, float]:
@@ -97,7 +97,7 @@ class Table:
         return self.height - self.top
 
 
-def make_table(spec: Table) -> Asset:
+def make_table(spec: DrawerTable) -> Asset:
     """Returns the table with its true joints.
 
     Raises:
@@ -106,14 +106,14 @@ def make_table(spec: Table) -> Asset:
     return assemble(spec.name, [*_frame(spec), *_below(spec), *_above(spec), *_all_fronts(spec)])
 
 
-def _all_fronts(spec: Table) -> Iterator[Piece]:
+def _all_fronts(spec: DrawerTable) -> Iterator[PieceDraft]:
     for angle in (0.0, pi) if spec.two_sided else (0.0,):
         turn = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), angle))
         for piece in _fronts(spec):
             yield piece.transformed(turn) if angle else piece
 
 
-def _fronts(spec: Table) -> Iterator[Piece]:
+def _fronts(spec: DrawerTable) -> Iterator[PieceDraft]:
     (x, y), z, low = spec.half, spec.under, spec.under - spec.apron
     x -= spec.leg
     back = -SPINE / 2 if spec.spine else -0.005 if spec.two_sided else y - spec.leg
@@ -137,7 +137,7 @@ def _fronts(spec: Table) -> Iterator[Piece]:
         yield plank(PartLabel.BAR, "apron_rail", spec.finish.case, span)
 
 
-def _frame(spec: Table) -> Iterator[Piece]:
+def _frame(spec: DrawerTable) -> Iterator[PieceDraft]:
     (x, y), z, leg, wood = spec.half, spec.under, spec.leg, spec.finish.case
     box = Box(vec3(-spec.width / 2, -spec.depth / 2, z), vec3(spec.width / 2, spec.depth / 2, spec.height))
     yield table_top(spec.outline, box, spec.edge, spec.glass, spec.finish)
@@ -164,7 +164,7 @@ def _frame(spec: Table) -> Iterator[Piece]:
         yield from _guides(spec, out - APRON)
 
 
-def _guides(spec: Table, out: float) -> Iterator[Piece]:
+def _guides(spec: DrawerTable, out: float) -> Iterator[PieceDraft]:
     """Yields bars above and below along the drawers' outer sides, between them and the side aprons."""
     (x, y), z, b = spec.half, spec.under, 0.3 * spec.apron
     inner = x - spec.leg - 0.8 * spec.slide_gap
@@ -176,7 +176,7 @@ def _guides(spec: Table, out: float) -> Iterator[Piece]:
             yield plank(PartLabel.BAR, "drawer_guide", spec.finish.case, at)
 
 
-def _moulding(spec: Table, top: Box) -> Piece:
+def _moulding(spec: DrawerTable, top: Box) -> PieceDraft:
     """Returns four boards around a straight top: as one part, above the drawers' path."""
     (x0, y0, _), (x1, y1, high) = top.low.tolist(), top.high.tolist()
     low, t = max(high - spec.moulding, spec.under - spec.rails), MOULDING
@@ -189,11 +189,11 @@ def _moulding(spec: Table, top: Box) -> Piece:
     return plank(PartLabel.BAR, "moulding", spec.finish.case, *spans)
 
 
-def _stretcher_at(spec: Table) -> float:
+def _stretcher_at(spec: DrawerTable) -> float:
     return max(spec.stretcher_at * (spec.under - spec.apron), min(0.03, 0.7 * spec.leg))
 
 
-def _below(spec: Table) -> Iterator[Piece]:
+def _below(spec: DrawerTable) -> Iterator[PieceDraft]:
     """Yields the stretchers and the arched rail."""
     (x, y), leg = spec.half, spec.leg
     bar = min(0.03, 0.7 * leg)
@@ -207,7 +207,7 @@ def _below(spec: Table) -> Iterator[Piece]:
         yield solid(PartLabel.BAR, "apron", spec.finish.case, [arched_rail(box, 0.7 * spec.arch)])
 
 
-def _above(spec: Table) -> Iterator[Piece]:
+def _above(spec: DrawerTable) -> Iterator[PieceDraft]:
     if spec.hutch is not None:
         yield from on_top(spec.hutch, spec.depth, spec.height)
     if spec.mirror:

@@ -14,7 +14,7 @@ from grafu.synth.case.bases import CORNERS, METAL
 from grafu.synth.case.construction import Top, TopEdge
 from grafu.synth.case.legs import Leg, leg_meshes
 from grafu.synth.case.tops import top_meshes
-from grafu.synth.pieces.assembly import Piece, plank, solid
+from grafu.synth.pieces.assembly import PieceDraft, plank, solid
 from grafu.synth.pieces.finish import Finish
 from grafu.synth.pieces.shapes import board, prism
 from grafu.vocabulary import PartLabel
@@ -23,7 +23,7 @@ Outline = Literal["straight", "round"]
 WITHIN_ROUND = 0.66  # a rectangle of this fraction of a round top's sides lies within it (0.66^2 * 2 < 1)
 
 
-def table_top(outline: Outline, box: Box, edge: TopEdge, glass: bool, finish: Finish) -> Piece:
+def table_top(outline: Outline, box: Box, edge: TopEdge, glass: bool, finish: Finish) -> PieceDraft:
     """Returns a top that fills the box: straight with edges of any kind, or round (oval where the box is longer)."""
     material = finish.glass if glass else finish.case
     if outline == "round":
@@ -36,7 +36,7 @@ def table_top(outline: Outline, box: Box, edge: TopEdge, glass: bool, finish: Fi
     return solid(PartLabel.TOP_PANEL, "table_top", material, meshes)
 
 
-def table_legs(leg: Leg, feet: tuple[float, float], high: float, apron: float, finish: Finish) -> Iterator[Piece]:
+def table_legs(leg: Leg, feet: tuple[float, float], high: float, apron: float, finish: Finish) -> Iterator[PieceDraft]:
     """Yields four legs up to `high`, their middles at (+-x, +-y); shaped ones are square blocks beside the apron."""
     material = finish.metal if leg.shape in METAL else finish.case
     for sx, sy in CORNERS:
@@ -54,14 +54,14 @@ def table_leg(
     return [*leg_meshes(leg, at, outward, low), block]
 
 
-def on_top(cabinet: Cabinet, depth: float, height: float) -> list[Piece]:
+def on_top(cabinet: Cabinet, depth: float, height: float) -> list[PieceDraft]:
     """Returns a hutch that stands on a top of this depth and height, at its back edge."""
     back = cabinet.case.depth / 2 + (cabinet.case.back.thickness if cabinet.case.back.planted else 0.0)
     lift = translation(vec3(0.0, depth / 2 - back, height))
     return [piece.transformed(lift) for piece in cabinet_pieces(cabinet)]
 
 
-def mirror_pieces(width: float, height: float, depth: float, base: float, finish: Finish) -> Iterator[Piece]:
+def mirror_pieces(width: float, height: float, depth: float, base: float, finish: Finish) -> Iterator[PieceDraft]:
     """Yields a framed mirror that stands on a top of this depth at the height `base`, at its back edge."""
     x, y, w = width / 2, depth / 2 - 0.03, min(0.04, width / 8)
     z0, z1 = base, base + height
