@@ -3,7 +3,8 @@
 jaxtyping's import hook writes `@jaxtyping.jaxtyped(typechecker=...)` above each of them. Its decorator binds arguments
 by `inspect` at every call and has them checked twice. Here the type checker wraps the function itself, and only a
 signature that names axes more than once gets a context of its own, where one name is one size. Whether an array fits
-a hint without names is asked once for all arrays of its shape and kind of number. What is refused is the same.
+a hint without names is asked once for all arrays of its shape and kind of number. What is refused is the same. What is
+called thousands of times is checked in its first calls and then now and then.
 """
 
 import inspect
@@ -12,6 +13,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import is_dataclass
 from functools import cache, partial, wraps
+from itertools import count
 from typing import Any, get_args, get_type_hints
 
 import jaxtyping
@@ -22,6 +24,7 @@ typed = beartype(conf=BeartypeConf(violation_type=jaxtyping.TypeCheckError))
 usual = jaxtyping.jaxtyped
 _own_names = usual("context")
 _OWN = "_names_its_own_axes"
+FIRST, EVERY = 1000, 31
 _Hint = type(jaxtyping.AbstractArray)
 fits_as_usual = _Hint.__instancecheck__
 _answers: dict[tuple[Any, ...], bool] = {}
@@ -67,7 +70,21 @@ def _checked_function(function: Callable[..., Any], typechecker: Callable[[Any],
     function.__annotations__ = hints = _without_lone_names(resolved, function)
     inner = typechecker(function)
     function.__annotations__ = stated
-    return _in_own_names(inner) if any(map(_names_axes, hints.values())) else inner
+    return _sampled(function, _in_own_names(inner) if any(map(_names_axes, hints.values())) else inner)
+
+
+def _sampled(function: Callable[..., Any], always: Callable[..., Any]) -> Callable[..., Any]:
+    """Returns a function of which the first `FIRST` calls of a process are checked, then one of `EVERY`."""
+    calls = count()
+
+    @wraps(function)
+    def sampled(*args: Any, **kwargs: Any) -> Any:
+        __tracebackhide__ = True
+        call = next(calls)
+        return (function if call >= FIRST and call % EVERY else always)(*args, **kwargs)
+
+    setattr(sampled, _OWN, True)
+    return sampled
 
 
 def _resolved(hint: Any, names: dict[str, Any]) -> Any:

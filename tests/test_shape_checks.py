@@ -1,5 +1,6 @@
 """The checks of shapes that all tests run under refuse what jaxtyping's own decorator refuses, and nothing else."""
 
+import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 from inspect import signature
@@ -10,10 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from jaxtyping import Float, Int, TypeCheckError
 
+import shape_checks
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import transform_points
-from shape_checks import checked, fits, fits_as_usual, typed, usual
+from shape_checks import EVERY, FIRST, checked, fits, fits_as_usual, typed, usual
 
 Numbers = Float[np.ndarray, " n"]
 
@@ -121,7 +123,8 @@ def test_several_arrays_have_one_size_where_one_hint_names_it() -> None:
 
 
 @pytest.mark.parametrize("wrong", [np.zeros(2), np.zeros((3, 1)), np.zeros(3, dtype=np.int64), [0.0, 0.0, 0.0]])
-def test_the_package_is_checked(wrong: object) -> None:
+def test_the_package_is_checked(wrong: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shape_checks, "FIRST", sys.maxsize)
     right = np.array([0.0, 0.0, 1.0])
     with pytest.raises(TypeCheckError):
         Axis(wrong, right)
@@ -129,3 +132,13 @@ def test_the_package_is_checked(wrong: object) -> None:
         Axis(right, right).closest_point(wrong)
     with pytest.raises(TypeCheckError):
         transform_points(np.eye(4), wrong)
+
+
+def test_what_is_called_often_is_checked_first_and_then_now_and_then() -> None:
+    def whole(value: int) -> int:
+        return value
+
+    function = checked(whole, typechecker=typed)
+    refusals = [refused(function, [0.5]) for _ in range(FIRST + 3 * EVERY)]
+    assert refusals[:FIRST] == [True] * FIRST
+    assert refusals[FIRST:].count(True) == 3
