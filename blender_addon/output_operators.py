@@ -12,7 +12,6 @@ from .run_operators import Applies, active_run
 from .state import report_of, session_of, settings_of, shown_slot, slots_in
 
 BLEND = "blend"
-USUAL = {"glb", "urdf", BLEND}
 _items: list = []
 
 
@@ -24,6 +23,12 @@ def format_items(_, __):
         formats = enumerate(FORMATS.values())
         _items.extend((one.name, one.title, one.about, "NONE", 1 << number) for number, one in formats)
     return _items
+
+
+def _default_formats():
+    from grafu.export.formats import DEFAULT_FORMATS
+
+    return {*DEFAULT_FORMATS, BLEND}
 
 
 class GRAFU_OT_finalize(Applies, bpy.types.Operator):
@@ -54,7 +59,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
 
     def invoke(self, context, event):
         """Opens the file dialog for the folder."""
-        self.formats = self.formats or USUAL
+        self.formats = self.formats or _default_formats()
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -85,7 +90,7 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
         from grafu.export.output_names import name_of_model
 
         sources, folder = objects.sources_of(session), self._run.folder
-        self._formats = set(self.formats) or USUAL
+        self._formats = set(self.formats) or _default_formats()
         if session.fixed:
             raise work.Failed(session.fixed)
         written = folder / f"{bpy.path.clean_name(self.name) or 'model'}.glb"

@@ -295,7 +295,7 @@ TURNS = {"as they are": AS_IT_IS, "180": yaw(2), "90": yaw(1), "Y up": Y_UP, "Y 
 @pytest.mark.parametrize("turn", TURNS)
 @pytest.mark.parametrize("listed", [True, False])
 def test_meshes_in_another_frame_are_turned_into_the_graphs(release, furfun, specimens, turn, listed):
-    """OBJ files of a release may lie Y up or be yawed (official.md 1); `parts.json` may name them."""
+    """OBJ files of a release may lie Y up or be yawed; `parts.json` may name them."""
     ref = find_models(furfun)[0]
     folder = release / "part_geometries" / ref.id
     names = {}

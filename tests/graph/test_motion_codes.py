@@ -1,4 +1,4 @@
-"""Motion codes: every border and sign, round trips, the opening side, mirror rules (official.md 3)."""
+"""Motion codes: every border and sign, round trips, the opening side, mirror rules."""
 
 import numpy as np
 import pytest

@@ -7,7 +7,7 @@ import pytest
 from grafu.network.config import EDGE_COUNT, LABEL_COUNT, PAPER, GraFuConfig
 from grafu.network.grafu import GraFu
 
-AUTHORS_PARAMETERS = 9_224_401  # official.md 5: with 17 categories
+AUTHORS_PARAMETERS = 9_224_401  # of the authors' network, with 17 categories
 
 
 def parameters(config: GraFuConfig) -> int:

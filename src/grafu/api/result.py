@@ -15,7 +15,7 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
 from grafu.errors import ExportError, OptionError
 from grafu.export.files import write_files
-from grafu.export.formats import exporter_for
+from grafu.export.formats import DEFAULT_FORMATS, exporter_for
 from grafu.export.output_names import why_not_apart
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.motion_choice import TURNING_SIDES
@@ -108,7 +108,7 @@ class Result:
     def save(
         self,
         folder: str | PathLike[str],
-        formats: str | Iterable[str] = ("glb", "urdf"),
+        formats: str | Iterable[str] = DEFAULT_FORMATS,
         *,
         page: bool = True,
         overwrite: bool = False,

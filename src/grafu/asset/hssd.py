@@ -98,7 +98,7 @@ def read_hssd(path: Path, options: LoadOptions, files: ModelFiles | None = None)
 def _named_still(part: Part, annotation: HssdAnnotation) -> Part:
     """Returns the part as `misc` where the annotators' word is none of ours (`base`): it is no door or drawer.
 
-    The authors do the same with names outside their vocabulary (official.md 2.1); what has no word stays unknown.
+    The authors do the same with names outside their vocabulary; what has no word stays unknown.
     """
     named = {_link(p.pid) for p in annotation.parts if p.word} | {REST}
     if part.label is not PartLabel.UNKNOWN or part.source.link not in named:

@@ -13,7 +13,7 @@ from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.part_options import add_addition_options, motion_choice, part_move, with_moves
 from grafu.cli.verb import complain
 from grafu.errors import AssetError, OptionError
-from grafu.export.formats import known_formats
+from grafu.export.formats import DEFAULT_FORMATS, known_formats
 
 if TYPE_CHECKING:
     from grafu.cli.job import Failed, Job, JobOptions, JobResult
@@ -64,9 +64,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument(
         "--formats",
-        default="glb,urdf",
+        default=",".join(DEFAULT_FORMATS),
         metavar="LIST",
-        help=f"what to write, separated by commas: {known_formats()} (default: glb,urdf)",
+        help=f"what to write, separated by commas: {known_formats()} (default: {",".join(DEFAULT_FORMATS)})",
     )
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")

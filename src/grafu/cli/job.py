@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, TypeVar, final
 from grafu.cli.limit_options import too_large
 from grafu.cli.verb import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
+from grafu.export.formats import DEFAULT_FORMATS
 from grafu.export.output_names import output_name, same_place, why_not_apart, with_ending
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import ProcessLimits
@@ -48,7 +49,7 @@ class JobOptions:
     out: Path
     settings: "Settings" = field(default_factory=_default_settings)
     prediction: SourceOption | None = None
-    formats: tuple[str, ...] = ("glb", "urdf")
+    formats: tuple[str, ...] = DEFAULT_FORMATS
     templates: Path | None = None
     page: bool = True
     overwrite: bool = False

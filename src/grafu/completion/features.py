@@ -29,7 +29,7 @@ class Scores(ArrayValue):
 
     Boxes stand in the normalised frame of the features. A pair (i, j) asks about i as the child (the door, drawer or
     handle) and j as what carries it. `parent_abstain` and `hinge_abstain` speak for no slot at all. Codes are those of
-    `grafu.graph.arrays` and, for motions, the authors' (official.md 3).
+    `grafu.graph.arrays` and, for motions, the authors'.
     """
 
     exists: Float32[np.ndarray, " s"]

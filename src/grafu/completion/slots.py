@@ -59,7 +59,7 @@ def new_parts(view: GraphView, held: frozenset[str]) -> tuple[NewPart, ...]:
 
 
 def with_parts(graph: FunctionalGraph, parts: tuple[NewPart, ...]) -> FunctionalGraph:
-    """Returns the graph with new parts, in contact with what their boxes touch (official.md 2.2)."""
+    """Returns the graph with new parts, in contact with what their boxes touch."""
     nodes = (*graph.nodes, *(part.node for part in parts))
     larger = FunctionalGraph(graph.model_id, nodes, graph.edges)
     margin = ParsingConfig().box_tolerance * float(graph.box.size.max())

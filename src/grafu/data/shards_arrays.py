@@ -91,7 +91,7 @@ class ModelArrays:
 
     `labels` are codes (`grafu.graph.arrays`), `given_labels` too, or `ABSENT`. `boxes` hold low and high corner,
     metres. A row of `edges` (the truth's) and `given_edges` is: place of the first node (the parent), of the second
-    (the child), code of the kind, motion: 2 * border + sign of a hinge, signed axis of a rail, else 0 (official.md 3).
+    (the child), code of the kind, motion: 2 * border + sign of a hinge, signed axis of a rail, else 0.
     `points` are coded as in `shards_points`, `counts` of them for each node.
     """
 

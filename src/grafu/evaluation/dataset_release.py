@@ -1,4 +1,4 @@
-"""Models of the authors' releases as assets: the parts' meshes, and joints from the functional graph (official.md 2).
+"""Models of the authors' releases as assets: the parts' meshes, and joints from the functional graph.
 
 `furfun` states a functional graph for each model; `pnm_clean` and `hssd_test` hold inputs alone, without a truth. What
 has points and no meshes cannot be swung. It measures nothing.
@@ -33,7 +33,7 @@ from grafu.graph.motion import hinge_to_axis, rail_to_axis
 from grafu.vocabulary import PartLabel
 
 CONVENTION = Convention("the release (Z up)", up="+Z", front="-Y", usual_up="+Z")
-DOOR_RANGE = pi / 2  # radians; a graph states no ranges: the authors' records say so for every hinge (official.md 7)
+DOOR_RANGE = pi / 2  # radians; a graph states no ranges: the authors' records say so for every hinge
 DRAWER_RANGE = 0.75  # of a drawer's box along its slide
 _FITS = 0.02  # of the object's diagonal: a mesh whose box is farther than this from its graph's is of another frame
 _ASSUMED = "its graph states no ranges: doors are taken to open by 90 degrees, drawers by three quarters of their depth"
@@ -142,7 +142,7 @@ def _surfaces(file: Path, files: ModelFiles) -> tuple[Surface, ...]:
 def _frame_of(meshes: dict[str, tuple[Surface, ...]], graph: FunctionalGraph) -> tuple[Mat4, list[str]]:
     """Returns the quarter turns that lay the meshes into the boxes of the graph, and what is to be said of that.
 
-    Point and PLY files are in the graph's frame; OBJ files may lie Y up, or turned by 180 degrees (official.md 1).
+    Point and PLY files are in the graph's frame; OBJ files may lie Y up, or turned by 180 degrees.
     """
     corners = {k: _around(surfaces).corners() for k, surfaces in meshes.items()}
     boxes = {k: graph.node(k).box for k in meshes}

@@ -105,6 +105,8 @@ _ALL = (
     ),
 )
 FORMATS = MappingProxyType({one.name: one for one in _ALL})
+DEFAULT_FORMATS = ("glb", "urdf")
+"""What is written where nobody names formats."""
 
 
 def known_formats() -> str:

@@ -1,7 +1,7 @@
 """An articulated object as Particulate's evaluation writes a prediction: `eval/pred.npz` and `eval/pred.obj`.
 
 The mesh stays as it is given, all links' faces in a row; the motions are in the normalised frame that `--up_dir`
-makes of it (peers.md 1). Looks, names and what must open first it cannot say.
+makes of it. Looks, names and what must open first it cannot say.
 """
 
 import io

@@ -1,7 +1,7 @@
 """An articulated object as SINGAPO and CAGE write one: `object.json` with the tree of parts, and their meshes.
 
 Y up, front +Z, centred, half the diagonal 1. Joints have their direction made positive along its largest component, as
-the authors' loader makes it, so that a range may run from 0 to below 0 (peers.md 2). Looks it does not say.
+the authors' loader makes it, so that a range may run from 0 to below 0. Looks it does not say.
 """
 
 import json

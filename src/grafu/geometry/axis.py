@@ -51,7 +51,7 @@ class Axis(ArrayValue):
     def transformed(self, T: Mat4, rotational: bool = True) -> "Axis":
         """Returns this axis mapped by T.
 
-        A rotation axis is a pseudovector: a mirror image also reverses its sense (official.md 3.6). With
+        A rotation axis is a pseudovector: a mirror image also reverses its sense. With
         `rotational=False` the direction is an ordinary displacement.
         """
         direction = transform_direction(T, self.direction)

@@ -88,7 +88,7 @@ class Box(ArrayValue):
         return Box.from_center(self.center, half)
 
     def axis_gaps(self, other: "Box") -> Vec3:
-        """Returns the gap along each axis; negative where the two overlap (official.md 2.2)."""
+        """Returns the gap along each axis; negative where the two overlap."""
         return np.maximum(self.low - other.high, other.low - self.high)
 
     def gap(self, other: "Box") -> float:
@@ -116,7 +116,7 @@ class Box(ArrayValue):
         return np.all((points >= self.low) & (points <= self.high), axis=1)
 
     def face_center(self, code: int) -> Vec3:
-        """Returns the centre of a face; codes 0..5 are -X, +X, -Y, +Y, -Z, +Z (official.md 3.1)."""
+        """Returns the centre of a face; codes 0..5 are -X, +X, -Y, +Y, -Z, +Z."""
         center = self.center.copy()
         center[code // 2] = self.high[code // 2] if code % 2 else self.low[code // 2]
         return center

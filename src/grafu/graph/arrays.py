@@ -1,6 +1,6 @@
 """A functional graph as arrays of codes and boxes, and the codes.
 
-The codes of edges are the authors' (official.md 4), those of labels the order of `PartLabel`. All edges of a moving
+The codes of edges are the authors', those of labels the order of `PartLabel`. All edges of a moving
 part state one motion, so that a motion is a property of the part here.
 """
 

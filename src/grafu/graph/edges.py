@@ -4,7 +4,7 @@ Four are the paper's; the network and the authors' files know no others. `Slide`
 completed by what the input or the user states, and in graphs as built. So does a joint that follows another
 (`coupling`), and one whose parent is a moving part itself.
 
-Codes are the authors' (official.md 3): `HingeBorder` names a border of the door's own box, `AxisSign` the sense of the
+Codes are the authors': `HingeBorder` names a border of the door's own box, `AxisSign` the sense of the
 rotation axis along it (1 is positive), `SignedAxis` one of -X, +X, -Y, +Y, -Z, +Z. `grafu.graph.motion` turns them into
 lines in space and back.
 """
@@ -52,7 +52,7 @@ class Attached:
 @final
 @dataclass(frozen=True, slots=True)
 class Hinge:
-    """The door `child` turns on the support or moving part `parent`, about a border of its own box (official.md 3.2).
+    """The door `child` turns on the support or moving part `parent`, about a border of its own box.
 
     The leader of a `coupling` is a part, and both values count from closed.
 

@@ -94,7 +94,7 @@ def scaled(graph: FunctionalGraph, factor: float) -> FunctionalGraph:
 def mirrored(graph: FunctionalGraph, across: int) -> FunctionalGraph:
     """Returns the mirror image across the plane through the origin square to axis 0 (X) or 1 (Y).
 
-    Motion codes follow: faces and slides like displacements, rotation axes like pseudovectors (official.md 3.6).
+    Motion codes follow: faces and slides like displacements, rotation axes like pseudovectors.
 
     Raises:
         ValueError: if `across` is not 0 or 1 (gravity is not mirrored).

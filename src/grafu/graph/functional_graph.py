@@ -59,7 +59,7 @@ class FunctionalGraph:
 
     Raises:
         GraphError: if ids repeat or are empty, an edge dangles, joins a part to itself or doubles another, an edge
-            breaks the type system (official.md 6, rule 8), a handle has two parents, two edges of one moving part state
+            breaks the type system, a handle has two parents, two edges of one moving part state
             different motions, moving parts carry one another in a circle, or one follows what is no other part.
     """
 

@@ -1,4 +1,4 @@
-"""The only bridge between motion codes and lines in space, both ways (official.md 3).
+"""The only bridge between motion codes and lines in space, both ways.
 
 A face code, like a signed axis, is 2 * axis + (1 for the positive side). A hinge border counts within the door's own
 plane: the thin axis of its box is left out, and of the two others, in ascending order, the border's slot (border // 2)
@@ -92,7 +92,7 @@ def hinge_to_axis(box: Box, border: HingeBorder, sign: AxisSign, depth: PinDepth
     """Returns the pin of a door: right-hand rule, positive angles open.
 
     The point is the middle of the border. Across the thin axis it lies on the side that the door opens to, where a pin
-    is freest; `official` is the authors' choice, always the negative side (official.md 3.3).
+    is freest; `official` is the authors' choice, always the negative side.
     """
     thin = box.thin_axis
     point = box.face_center(border_to_face(thin, border))
@@ -128,7 +128,7 @@ def axis_to_rail(axis: Axis) -> SignedAxis:
 
 
 def mirror_face(code: SignedAxis, across: int) -> SignedAxis:
-    """Returns a face or translation code in the mirror image across an axis (official.md 3.6)."""
+    """Returns a face or translation code in the mirror image across an axis."""
     return opposite(code) if code // 2 == across else code
 
 
@@ -138,7 +138,7 @@ def mirror_rotation(code: SignedAxis, across: int) -> SignedAxis:
 
 
 def mirror_hinge(thin: int, border: HingeBorder, sign: AxisSign, across: int) -> tuple[HingeBorder, AxisSign]:
-    """Returns border and sign in the mirror image across an axis (official.md 3.6)."""
+    """Returns border and sign in the mirror image across an axis."""
     face = mirror_face(border_to_face(thin, border), across)
     rotation = mirror_rotation(border_to_signed_axis(thin, border, sign), across)
     return face_to_border(thin, face), cast(AxisSign, rotation % 2)

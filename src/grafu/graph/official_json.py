@@ -1,4 +1,4 @@
-"""The authors' graph files: input and functional graphs both ways, predicted graphs in (official.md 2.1, 2.5, 2.6).
+"""The authors' graph files: input and functional graphs both ways, predicted graphs in.
 
 Numbers keep the unit of the file. What our graph cannot hold is left out and named in the notes: a motion that is not
 labelled leaves a contact, a second edge between two parts gives way.
@@ -49,7 +49,7 @@ def input_to_official(graph: FunctionalGraph) -> dict[str, Any]:
 def functional_to_official(graph: FunctionalGraph, older_labels: bool = False) -> dict[str, Any]:
     """Returns the authors' functional graph: motion keys on edges, `handle_border` on doors that have a handle.
 
-    With `older_labels` the edges also carry the keys of the second label version (official.md 2.5).
+    With `older_labels` the edges also carry the keys of the second label version.
     """
     nodes = _nodes_to_official(graph)
     for edge in graph.attachments:
@@ -74,7 +74,7 @@ def graph_from_official(data: Json) -> OfficialReading:
 
 
 def prediction_from_official(data: Json, given: FunctionalGraph) -> GraphCompletion:
-    """Returns the authors' prediction for the input graph `given` (official.md 2.6).
+    """Returns the authors' prediction for the input graph `given`.
 
     Slot k below the number of input nodes is the k-th of them: it keeps its id, box and points and takes the predicted
     label. The others are new nodes. Doors and drawers that the prediction leaves still are refused.

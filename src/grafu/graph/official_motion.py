@@ -1,6 +1,6 @@
 """The authors' words for parts and motions: `material` and motion keys, and our labels and codes, both ways.
 
-See official.md 2.1, 2.5, 3 and 4. It reads no files.
+The codes are those of the releases' JSON files. It reads no files.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""The authors' predicted graphs as foreign motions: slots are parts, hinge and rail edges joints (official.md 2.6).
+"""The authors' predicted graphs as foreign motions: slots are parts, hinge and rail edges joints.
 
 Boxes are regressed, so a motion stays the code that was predicted, to be decoded on the true box. Where the graph that
 was predicted from lies beside the file, its boxes are taken. It matches nothing with an asset.

@@ -1,6 +1,6 @@
 """Asset to contact-only functional graph: which parts touch. It guesses no motion and changes no label.
 
-The paper asks only whether two boxes come within 0.005 of a unit cube (official.md 2.2); L-shaped and round parts then
+The paper asks only whether two boxes come within 0.005 of a unit cube; L-shaped and round parts then
 touch things that they only surround. Here the boxes choose the pairs and the distance of the meshes decides
 (`grafu.geometry.touching`).
 """

@@ -1,6 +1,6 @@
 """Our own graph JSON, `grafu.graph/1`, in and out; a round trip is exact.
 
-The form is a superset of the authors' (official.md 2), so that their tools read it too:
+The form is a superset of the authors', so that their tools read it too:
 
     schema    "grafu.graph/1"
     model_id  the model's name

@@ -158,11 +158,11 @@ class RealizationConfig(ShortRepr):
     short: float = 0.01
     """How far short of a collision a limit stays (fraction of the opening that was asked for)."""
     restricted: float = 0.7
-    """An opening below this fraction of the reference is reported as restricted (design, section 5)."""
+    """An opening below this fraction of the reference is reported as restricted."""
     trim: bool = True
     """Whether material may be taken away to give clearance."""
     max_trim: float = 0.02
-    """Largest fraction of a side by which a moving part is made smaller (design, section 5)."""
+    """Largest fraction of a side by which a moving part is made smaller."""
     max_hidden_trim: float = 0.013
     """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres): its
     sides are not seen, and runners take as much."""
@@ -173,7 +173,7 @@ class RealizationConfig(ShortRepr):
     thinnest_front: float = 0.003
     """What ends so far behind a drawer's front is hidden by it (metres)."""
     max_carve: float = 0.05
-    """Largest fraction of a static part's volume or surface that is carved (design, section 5)."""
+    """Largest fraction of a static part's volume or surface that is carved."""
     max_carve_hidden: float = 0.6
     """The same of a part of which at most `max_carve_seen` of its surface goes that is seen from outside, while all is
     closed; and of a drawn rail, bearing or hinge, told by its name."""
@@ -186,7 +186,7 @@ class RealizationConfig(ShortRepr):
     rail_ratio: float = 0.9
     """Length of a rail over the drawer's body (supplement: 1 - beta, beta = 0.1)."""
     body_tolerance: float = 0.01
-    """Tolerance of the drawer's body region around the median width (official 7.4: 10 mm), a fraction of the width."""
+    """Tolerance of the drawer's body region around the median width (the authors: 10 mm), a fraction of the width."""
     least_opening: float = 0.3
     """An opening below this fraction of the wanted one is no motion."""
     carved_faces: int = 400_000

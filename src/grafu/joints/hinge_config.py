@@ -249,7 +249,7 @@ class HingeConfig(ShortRepr):
     one_more_per: float = 0.6
     """Length beyond that for each further hinge (metres)."""
     length_ratio: float = 0.12
-    """Longest hinge, a fraction of its door's length along the axis (official 7.3)."""
+    """Longest hinge, a fraction of its door's length along the axis."""
     radius_ratio: float = 0.22
     """Largest barrel radius, a fraction of the door's thickness."""
     radius: float = 0.0036

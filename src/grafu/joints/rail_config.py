@@ -124,7 +124,7 @@ class DrawerConfig:
     slat: float = 0.1
     """Depth of such a board, at most this fraction of its longer side: low fronts are thick for their height."""
     shortest: float = 0.3
-    """A body shorter than this fraction of the drawer's depth is no container (official 7.4)."""
+    """A body shorter than this fraction of the drawer's depth is no container."""
     flat: float = 0.2
     """A sliding door is thinner than this fraction of its smaller side, and slides nearly along its plane."""
     stands_out: float = 1e-3

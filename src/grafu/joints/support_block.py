@@ -30,7 +30,7 @@ from grafu.vocabulary import PartLabel
 WOOD = Material("support block", base_color=(0.42, 0.31, 0.2, 1.0), roughness=0.85)
 METAL = Material("support plate", base_color=(0.55, 0.56, 0.58, 1.0), metallic=1.0, roughness=0.35)
 
-_GRID = 5  # rays per side of the rectangle (official 7.4 casts 5 x 5)
+_GRID = 5  # rays per side of the rectangle (the authors cast 5 x 5)
 _ON_LEAF = 10  # rays per side of a leaf
 
 

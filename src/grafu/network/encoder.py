@@ -41,7 +41,7 @@ def pair_term_count(features: PairFeatures) -> int:
 
 
 def pair_terms(boxes: Float[Tensor, "b s 6"], features: PairFeatures) -> Float[Tensor, "b s s t"]:
-    """Returns [|rx|, |ry|, |rz|, |r|, (r,) g] of all pairs, as the authors' pair heads have them (official.md 5).
+    """Returns [|rx|, |ry|, |rz|, |r|, (r,) g] of all pairs, as the authors' pair heads have them.
 
     With "faces", the face terms follow.
     """
@@ -88,7 +88,7 @@ def _length(vectors: Float[Tensor, "*p 3"]) -> Float[Tensor, "*p 1"]:
     return vectors.square().sum(dim=-1, keepdim=True).sqrt()
 
 
-PART = 64  # width of the kind and of the geometric terms before they are joined (official.md 5)
+PART = 64  # width of the kind and of the geometric terms before they are joined
 
 
 @final
@@ -109,7 +109,7 @@ class EdgeEncoder(nn.Module):
         return self.joined(torch.cat([self.kind(batch.edges).to(terms.dtype), terms], dim=-1))
 
 
-FIRST_STAGE = (3, 32, 64)  # widths of the stages and of the head (official.md 5)
+FIRST_STAGE = (3, 32, 64)  # widths of the stages and of the head
 SECOND_STAGE = (67, 64, 128)
 POINT_HEAD = 128
 
@@ -147,7 +147,7 @@ def _stage(*widths: int) -> nn.Sequential:
 
 BOX_NUMBERS = 9  # centroid and two corners
 MARGIN_NUMBERS = 9
-BOX_HIDDEN = 64  # official.md 5
+BOX_HIDDEN = 64  # as in the authors' code
 
 
 @final
@@ -199,7 +199,7 @@ def margins(boxes: Float[Tensor, "b n 6"], mask: Bool[Tensor, "b n"]) -> Float[T
     return found.masked_fill(absent, 0.0)
 
 
-WIDENING = 4  # of the feed-forward block (official.md 5)
+WIDENING = 4  # of the feed-forward block
 EDGE_HIDDEN = 256
 
 

@@ -46,7 +46,7 @@ class Pointing(nn.Module):
         return torch.einsum("bkn,bknc->bkc", weights, centre), torch.einsum("bkn,bknc->bkc", weights, half)
 
 
-HEAD = 128  # official.md 5
+HEAD = 128  # as in the authors' code
 
 
 class SlotAnswers(NamedTuple):

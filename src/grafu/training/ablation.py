@@ -105,7 +105,7 @@ CHOICES: Mapping[str, tuple[str, Mapping[str, object]]] = MappingProxyType(
         "light_motions": ("motions weigh .3 (authors' code)", {"border": 0.3, "sign": 0.3, "slide": 0.3}),
     }
 )
-"""What the paper, the authors' code and `base` do differently (official.md 5 and 8): in words, and as `LossConfig`."""
+"""What the paper, the authors' code and `base` do differently: in words, and as `LossConfig`."""
 
 
 def experiments(kind: AblationKind, config: TrainingConfig) -> tuple[Experiment, ...]:

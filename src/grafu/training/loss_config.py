@@ -86,7 +86,7 @@ class LossConfig(ShortRepr):
 PAPER = LossConfig(pinned=False)
 OFFICIAL = replace(
     LossConfig(), match_cost="probability", exists_balanced=True, border=0.3, sign=0.3, slide=0.3
-)  # as in the authors' code (official.md 5)
+)  # as in the authors' code
 
 HOLD_OUTS = {
     "hinge_target": ("hinge_target",),

@@ -35,7 +35,7 @@ def padded(arrays: Sequence[np.ndarray], shape: tuple[int, ...], fill: float | i
     return torch.from_numpy(stacked)
 
 
-_PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin axis, ascending (official.md 3.2)
+_PLANE_AXES = np.array([[1, 2], [0, 2], [0, 1]])  # of a door's box, by its thin axis, ascending
 
 
 @final
@@ -109,7 +109,7 @@ def graph_targets(
 
 
 def mirrored_targets(targets: GraphTargets, across: int) -> GraphTargets:
-    """Returns the answers for the mirror image across axis 0 (X) or 1 (Y) (official.md 3.6).
+    """Returns the answers for the mirror image across axis 0 (X) or 1 (Y).
 
     Raises:
         ValueError: if `across` is not 0 or 1.

@@ -103,7 +103,7 @@ def find_views(closed: ClosedScene, config: CarcassConfig) -> tuple[FrontsView, 
             groups.append((outward, [moving]))
         else:
             group[1].append(moving)
-    still = merge_meshes([_coarse(p.mesh, scene.extent, config) for p in scene.static_parts])
+    still = merge_meshes([_coarse(p.mesh, config) for p in scene.static_parts])
     if not groups or not len(still.faces):
         return ()
     rays = RayCaster(still)
@@ -112,9 +112,9 @@ def find_views(closed: ClosedScene, config: CarcassConfig) -> tuple[FrontsView, 
     )
 
 
-def _coarse(mesh: TriangleMesh, extent: float, config: CarcassConfig) -> TriangleMesh:
+def _coarse(mesh: TriangleMesh, config: CarcassConfig) -> TriangleMesh:
     """Returns a mesh of many faces with fewer: things on shelves and carvings cost more rays than they are worth."""
-    return clustered(mesh, config.coarse * extent) if len(mesh.faces) > config.many_faces else mesh
+    return clustered(mesh, config.coarse) if len(mesh.faces) > config.many_faces else mesh
 
 
 def _outward(closed: ClosedScene, request: JointRequest, config: CarcassConfig) -> Vec3 | None:
@@ -152,7 +152,7 @@ def _view(
     y = -outward
     rotation = np.column_stack([np.cross(y, vec3(0.0, 0.0, 1.0)), y, vec3(0.0, 0.0, 1.0)])
     own = {member for moving in moving_bodies for member in scene.moving_bodies[moving].members}
-    others = merge_meshes([_coarse(scene.parts[i].mesh, scene.extent, config) for i in sorted(scene.moving_ids - own)])
+    others = merge_meshes([_coarse(scene.parts[i].mesh, config) for i in sorted(scene.moving_ids - own)])
     return FrontsView(rotation, moving_bodies, Box.around(still.vertices @ rotation), rays, RayCaster(others))
 
 
@@ -167,17 +167,17 @@ def find_bays(view: FrontsView, closed: ClosedScene, config: CarcassConfig) -> t
     while merged:
         merged = False
         for i, one in enumerate(bays):
-            k = next((k for k in range(i + 1, len(bays)) if _one_space(one, bays[k], scene.extent, config)), None)
+            k = next((k for k in range(i + 1, len(bays)) if _one_space(one, bays[k], config)), None)
             if k is not None:
                 bays[i], merged = one.joined(bays.pop(k)), True
                 break
     return tuple(bays)
 
 
-def _one_space(a: Bay, b: Bay, extent: float, config: CarcassConfig) -> bool:
+def _one_space(a: Bay, b: Bay, config: CarcassConfig) -> bool:
     """Whether two bays have the same walls and lie above, below or within one another."""
-    alike = max(abs(a.low[0] - b.low[0]), abs(a.high[0] - b.high[0])) < config.alike * extent
-    return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < config.apart * extent)
+    alike = max(abs(a.low[0] - b.low[0]), abs(a.high[0] - b.high[0])) < config.alike
+    return bool(alike and max(a.low[2], b.low[2]) - min(a.high[2], b.high[2]) < config.apart)
 
 
 def _bay(view: FrontsView, scene: Scene, moving: str, is_door: bool, config: CarcassConfig) -> Bay | None:
@@ -185,7 +185,7 @@ def _bay(view: FrontsView, scene: Scene, moving: str, is_door: bool, config: Car
     front = view.local(scene.parts[moving].mesh.vertices)
     low, high = front.min(axis=0), front.max(axis=0)
     depth = float(view.body.high[1] - low[1])
-    if depth < config.least_depth * scene.extent:
+    if depth < config.least_depth:
         return None
     x, z = float(low[0] + high[0]) / 2, low[2] + FRONT_HEIGHTS * (high[2] - low[2])
     depths = float(low[1]) + np.linspace(0.0, 1.0, DEPTHS) * depth
@@ -195,7 +195,7 @@ def _bay(view: FrontsView, scene: Scene, moving: str, is_door: bool, config: Car
     first, last = int(np.argmax(both)), DEPTHS - 1 - int(np.argmax(both[::-1]))
     start = _refined(view, x, z, (float(depths[max(first - 1, 0)]), float(depths[first])))
     end = _refined(view, x, z, (float(depths[min(last + 1, DEPTHS - 1)]), float(depths[last])))
-    if end - start < config.least_depth * scene.extent:
+    if end - start < config.least_depth:
         return None
     places = (1, depths[both]), (2, z)
     sides = [wall_distances(view.cast, vec3(x, 0.0, 0.0), *places, sign) for sign in (-1.0, 1.0)]

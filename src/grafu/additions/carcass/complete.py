@@ -178,7 +178,7 @@ def complete_carcass(
     additions, refused = list[Addition](), list[Refusal]()
     taken = set(scene.parts)
     rooms = {id(panel.view): _room(panel.view, closed, config) for panel in {id(k.view): k for k in missing}.values()}
-    for group in _groups(missing, closed.scene.extent, config):
+    for group in _groups(missing, config):
         room = rooms[id(group[0].view)]
         whole = _whole(group)
         together = _board(whole, room, config) is not None
@@ -200,11 +200,11 @@ def _addition(panel: MissingPanel, board: Box, closed: ClosedScene, taken: Colle
     return Addition(added_part(part_id, panel.what, (surface_like(mesh, closed.body),)), panel.why, "carcass board")
 
 
-def _groups(missing: Iterable[MissingPanel], extent: float, config: CarcassConfig) -> list[list[MissingPanel]]:
+def _groups(missing: Iterable[MissingPanel], config: CarcassConfig) -> list[list[MissingPanel]]:
     """Returns the lacks of bays that adjoin one another together: they may share one board."""
     groups: list[list[MissingPanel]] = []
     for panel in missing:
-        group = next((g for g in groups if _adjoins(panel, _whole(g), extent, config)), None)
+        group = next((g for g in groups if _adjoins(panel, _whole(g), config)), None)
         if group is None:
             groups.append([panel])
         else:
@@ -220,14 +220,14 @@ def _whole(group: Sequence[MissingPanel]) -> MissingPanel:
     return replace(group[0], bay=bay, moving_bodies=bay.moving_bodies, why="; ".join(panel.why for panel in group))
 
 
-def _adjoins(a: MissingPanel, b: MissingPanel, extent: float, config: CarcassConfig) -> bool:
+def _adjoins(a: MissingPanel, b: MissingPanel, config: CarcassConfig) -> bool:
     if a.view is not b.view or a.what is not b.what:
         return False
     low, high = np.minimum(a.bay.low, b.bay.low), np.maximum(a.bay.high, b.bay.high)
     gaps = np.maximum(a.bay.low - b.bay.high, b.bay.low - a.bay.high)[[0, 2]]
     areas = [float((s.high - s.low)[0] * (s.high - s.low)[2]) for s in (a.bay, b.bay)]
     whole = float((high - low)[0] * (high - low)[2])
-    return bool(gaps.max() < config.side_by_side * extent and whole - sum(areas) < config.wasted * whole)
+    return bool(gaps.max() < config.side_by_side and whole - sum(areas) < config.wasted * whole)
 
 
 def _board(panel: MissingPanel, room: BoardRoom, config: CarcassConfig) -> Box | None:

@@ -17,19 +17,22 @@ class CarcassConfig(ShortRepr):
         ValueError: if a length or a fraction is not above 0.
     """
 
-    LENGTHS = ("back", "bottom", "gap", "on_edge", "front_thickness", "inset", "held", "touch")
+    LENGTHS = (
+        *("back", "bottom", "gap", "on_edge", "front_thickness", "inset", "held", "touch", "least_height", "least_depth"),
+        *("alike", "apart", "side_by_side", "coarse", "bottom_above_most"),
+    )
     covered: float = 0.5
     """Fraction of a back or bottom that must be there for it to count as there."""
     walled: float = 0.6
     """Fraction of the depth at which walls must stand on both sides: else it is a table, a rack, or a front alone."""
     filled: float = 0.35
     """Fraction of the height under them that drawers must fill where there is no door: fewer hang in a table ..."""
-    least_height: float = 0.1
-    """... which counts as this fraction of the object's largest side at least."""
+    least_height: float = 0.12
+    """... which counts as this high at least."""
     behind_frame: float = 0.3
     """Fraction of a bay's depth behind which its back is looked for: past whatever frames the opening."""
-    least_depth: float = 0.08
-    """Fraction of the object's largest side below which a body is too shallow to be one."""
+    least_depth: float = 0.1
+    """Depth below which a body is too shallow to be one."""
     back: float = 0.006
     """Thickness of a back: the common 6 mm board."""
     bottom: float = 0.016
@@ -52,18 +55,18 @@ class CarcassConfig(ShortRepr):
     """Cosine between the directions of two fronts from which on they are seen from one side."""
     front_thickness: float = 0.02
     """Thickness of fronts, where a drawer is drawn with its box (metres)."""
-    alike: float = 0.04
-    """Fraction of the object's largest side by which the walls of one space may differ."""
-    apart: float = 0.08
-    """Fraction of the object's largest side that parts drawers above each other at most: a rail between them."""
+    alike: float = 0.05
+    """How far apart the same walls of two bays of one space may lie."""
+    apart: float = 0.1
+    """Largest gap between drawers above each other: a rail between them."""
     wall_reach: float = 0.1
     """Fraction of a bay's side before its end from which a wall is looked for, and beyond it."""
     inset: float = 2e-4
     """How deep a board is inset into the walls that hold it (metres)."""
     held: float = 2e-3
     """Distance within which a board is held (metres)."""
-    side_by_side: float = 0.06
-    """Fraction of the object's largest side: bays nearer than this get one common back."""
+    side_by_side: float = 0.08
+    """Bays nearer than this get one common back."""
     wasted: float = 0.15
     """Fraction of a common back that may cover what lacks none."""
     closed_ratio: float = 0.7
@@ -78,12 +81,12 @@ class CarcassConfig(ShortRepr):
     """Cosine between a front's direction and an axis of the object from which on the front looks along the axis."""
     many_faces: int = 4000
     """Faces from which on a part is coarsened ..."""
-    coarse: float = 0.008
-    """... to cells of this fraction of the object's largest side."""
+    coarse: float = 0.01
+    """... to cells of this side."""
     bottom_above: float = 0.2
     """A bottom is looked for from this fraction of the lowest front's height on ..."""
-    bottom_above_most: float = 0.15
-    """... and from at most this fraction of the object's largest side."""
+    bottom_above_most: float = 0.2
+    """... and from at most this height."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)

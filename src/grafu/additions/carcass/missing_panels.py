@@ -70,7 +70,7 @@ def panels_missing(closed: ClosedScene, config: CarcassConfig) -> tuple[MissingP
             if covered < config.covered:
                 found.append(_missing_panel(PartLabel.BACK_PANEL, bay, covered, view))
             if not any(_under(other, bay) for other in bays):
-                covered = _bottom_covered(view, bay, closed.scene.extent, config)
+                covered = _bottom_covered(view, bay, config)
                 if covered < config.covered:
                     found.append(_missing_panel(PartLabel.BOTTOM_PANEL, bay, covered, view))
     return tuple(found)
@@ -89,7 +89,7 @@ def _is_carcass(bay: Bay, scene: Scene, config: CarcassConfig) -> bool:
     if bay.has_door:
         return True
     filled = float(bay.outline[3] - bay.outline[2])
-    return filled >= config.filled * max(float(bay.outline[3]) - scene.floor, config.least_height * scene.extent)
+    return filled >= config.filled * max(float(bay.outline[3]) - scene.floor, config.least_height)
 
 
 def _back_covered(view: FrontsView, bay: Bay, behind: float) -> float:
@@ -104,11 +104,11 @@ def _back_covered(view: FrontsView, bay: Bay, behind: float) -> float:
     return float(np.isfinite(hits).mean())
 
 
-def _bottom_covered(view: FrontsView, bay: Bay, extent: float, config: CarcassConfig) -> float:
+def _bottom_covered(view: FrontsView, bay: Bay, config: CarcassConfig) -> float:
     """Returns the fraction of a bay's bottom at which something stands below it."""
     (x0, y0, z0), (x1, y1, _) = bay.low.tolist(), bay.high.tolist()
     x, y = (a.ravel() for a in np.meshgrid(x0 + RAY_GRID * (x1 - x0), y0 + RAY_GRID * (y1 - y0), indexing="ij"))
-    start = z0 + min(config.bottom_above * bay.lowest, config.bottom_above_most * extent)
+    start = z0 + min(config.bottom_above * bay.lowest, config.bottom_above_most)
     hits = view.cast(np.column_stack([x, y, np.full(x.size, start)]), vec3(0.0, 0.0, -1.0))
     return float(np.isfinite(hits).mean())
 

@@ -109,7 +109,7 @@ class HandleConfig(ShortRepr):
     foot_depth: float = 0.0006
     """Distance from the foot plane within which vertices belong to a foot, metres."""
     touch: float = 0.0002
-    """How deep a handle may touch something, as a fraction of the object's largest side."""
+    """How deep a handle may touch something, metres."""
     both: float = 0.65
     """Fraction of a drawer's width that two handles take at most."""
     inset_ratio: float = 0.2

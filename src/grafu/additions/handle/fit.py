@@ -52,7 +52,7 @@ class HandleObstacles:
         At rest it is clear of everything; along its path, what opens before it (a door before a drawer) stands wide
         open.
         """
-        body, poses = SweptBody(handle, config.touch * self.scene.extent), config.poses
+        body, poses = SweptBody(handle, config.touch * self.scene.metre), config.poses
         others = [other for other in self.moving if other != moving_id]
         at_rest = [
             *self.still,

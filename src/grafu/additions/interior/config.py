@@ -65,7 +65,7 @@ class InteriorConfig(ShortRepr):
     """
 
     thickness: float = 0.018
-    """Of shelves and dividers; the commonest board, and the authors' (official.md 7.7)."""
+    """Of shelves and dividers; the commonest board, and the authors'."""
     inset: float = 0.02
     """From the front of the compartment (the inner face of its doors): room for what doors carry inside."""
     deepest_inset: float = 0.4

@@ -189,11 +189,10 @@ def _slab(
     rim = rim_of(_without(basins, roles), views, coverage, own, metre)
     if rim is None:
         return None
-    extent = float(views.grid.cell) * max(views.grid.shape)
     thickness = min(config.thickness * metre, config.thickness_ratio * (rim.seat - views.floor))
     if thickness <= 0:
         return None
-    seat, clean = config.seat * extent, config.overrun * metre
+    seat, clean = config.seat * metre, config.overrun * metre
     thickness = thick_enough(roles.moving, rim.outline, rim.seat, thickness, config, metre)
     thickness = under_what_stands(roles, rim, thickness, config, metre)
     plan = with_fronts(rim, roles.moving, own, metre)

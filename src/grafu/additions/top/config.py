@@ -233,7 +233,7 @@ class TopConfig(ShortRepr):
     """
 
     coverage: float = 0.6
-    """Fraction of what stands at the rim that must be covered for a top to count as there (official 7.6)."""
+    """Fraction of what stands at the rim that must be covered for a top to count as there."""
     doubt: float = 0.2
     """Distance of the covered fraction from `coverage` within which labels, bars and predictions are asked too."""
     recess: float = 0.05
@@ -262,8 +262,8 @@ class TopConfig(ShortRepr):
     """How far the corners of a rounded or chamfered top are broken, seen from above, metres."""
     gap: float = 0.001
     """Air between an added top and what moves below or before it."""
-    seat: float = 0.0003
-    """How deep a top may reach into what carries it or stands in it, as a fraction of the largest side."""
+    seat: float = 0.0004
+    """How deep a top may reach into what carries it or stands in it, metres."""
     overrun: float = 0.001
     """Length by which grooves run out of a slab's edges, metres."""
     most_tops: int = 3

@@ -36,7 +36,7 @@ UP_ROTATIONS: Final[Mapping[str, Mat3]] = MappingProxyType(
         "-X": np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]),
     }
 )
-"""For each `--up_dir` the rotation from the mesh's coordinates to the normalised frame (peers.md 1)."""
+"""For each `--up_dir` the rotation from the mesh's coordinates to the normalised frame."""
 
 _SHAPES: Final[Mapping[str, tuple[int | None, ...]]] = MappingProxyType(
     {

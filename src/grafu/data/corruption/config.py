@@ -91,4 +91,4 @@ OFFICIAL = CorruptionConfig(
     mirror_axes=(0,),
     keep_functional_edges=False,
 )
-"""As in the authors' code (official.md 5), which departs from the paper in all of these."""
+"""As in the authors' code, which departs from the paper in all of these."""

@@ -1,7 +1,7 @@
 """What is taken away: a table of strategies with family and weight (supplement, table Sampling weights).
 
 A new strategy is a new row. Strategies that take nodes away forget what the edges did: all that remain are contacts.
-Where a graph has none of a category, 30 to 50 % of its still parts go instead, as in the authors' code (official.md 5).
+Where a graph has none of a category, 30 to 50 % of its still parts go instead, as in the authors' code.
 One node always stays, so that no input is empty. Others keep the kinds and motions of all edges that remain, or hide
 labels alone: the parts, their boxes and their points stay.
 """
@@ -96,7 +96,7 @@ def dropped_edges(target: FunctionalGraph, rng: np.random.Generator) -> Function
     """Returns the graph with all its nodes and without 25 to 50 % of its edges.
 
     An edge goes in both directions at once. The authors' code stores each edge twice and draws the two on their own, so
-    that most of what it removes survives one way (official.md 5); that is not copied.
+    that most of what it removes survives one way; that is not copied.
     """
     count = ratio_of(len(target.edges), 0.25, 0.5, rng)
     picked = rng.choice(len(target.edges), count, replace=False) if count else ()

@@ -21,7 +21,7 @@ from grafu.errors import AssetError, GraphError
 from grafu.graph.edges import Contact, Edge, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 
-SAME_PLACE = 0.05  # the authors' (official.md 2.4): centres of one part in both graphs are nearer, in the file's unit
+SAME_PLACE = 0.05  # the authors': centres of one part in both graphs are nearer, in the file's unit
 _NOTED = 1e-3  # boxes that differ by more are worth a word; a millimetre where the unit is a metre
 
 EdgeKinds = Mapping[frozenset[str], str]

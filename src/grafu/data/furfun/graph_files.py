@@ -22,7 +22,7 @@ _LIMITS = Limits()
 @final
 @dataclass(frozen=True)
 class GraphFile:
-    """A graph as it was read. `geometry_id` is the id in its JSON, under which its points lie (official.md 2.3).
+    """A graph as it was read. `geometry_id` is the id in its JSON, under which its points lie.
 
     `kinds` are the words for the edges in the file, the functional one where an edge is stated twice.
     """

@@ -1,4 +1,4 @@
-"""Where a release keeps what, told from the folder alone (official.md 2.1, 2.3, 2.4). It opens no file.
+"""Where a release keeps what, told from the folder alone. It opens no file.
 
     furfun      graphs_functional/<mid>/<mid>.json, graphs_unfunctional/<mid>/<mid>.json,
                 part_geometries/<mid>/<node>.npy, splits/<split>.json

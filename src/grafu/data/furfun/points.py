@@ -1,4 +1,4 @@
-"""The points on each part of a release: from .npy, else .ply, else from the part's box (official.md 2.3).
+"""The points on each part of a release: from .npy, else .ply, else from the part's box.
 
 PLY files hold points or a mesh, text or binary; a binary mesh is written, too.
 """

@@ -1,6 +1,6 @@
 """Which models are learned from, chosen by and judged on: always by model, never by pair.
 
-And the split files of a release, in and out (official.md 2.4).
+And the split files of a release, in and out.
 """
 
 from collections.abc import Iterable
@@ -18,7 +18,7 @@ from grafu.graph.json_values import Json, read_list
 from grafu.graph.serialize import dump_json
 
 SplitName = Literal["train", "val", "test"]
-SEED = 42  # the authors' (official.md 2.4)
+SEED = 42  # the authors'
 _TRAIN, _VAL = 0.8, 0.1  # the authors'; the rest is for the test
 
 

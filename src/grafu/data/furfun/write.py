@@ -1,4 +1,4 @@
-"""Synthetic furniture written like the authors' release: graphs, points, meshes, splits (official.md 2).
+"""Synthetic furniture written like the authors' release: graphs, points, meshes, splits.
 
 Models are written one after the other and never held together; the folder appears whole or not at all.
 """

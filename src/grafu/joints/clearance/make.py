@@ -1,4 +1,4 @@
-"""Makes a path free, step by step, only as far as needed (design, section 5).
+"""Makes a path free, step by step, only as far as needed.
 
 What lies enclosed in the moving part moves with it; the moving part is trimmed; a static part that fits without
 clearance is shrunk; a static part that intrudes into the path is carved. A step stays only if it helps.

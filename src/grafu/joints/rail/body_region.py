@@ -19,7 +19,7 @@ from grafu.geometry.transform import from_rotation, transform_points
 from grafu.joints.rail_config import BodyConfig, DrawerConfig
 from grafu.scene.border import SNAP, part_axes
 
-_SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height (official 7.4: 25 x 11; trays need finer rows)
+_SLIDE, _HEIGHT = 41, 25  # rays along the slide and over the height; the authors cast 25 x 11, trays need finer rows
 _FINER = 24  # rows between two of those, where a body begins and ends: to a thousandth of the depth
 
 
