@@ -66,7 +66,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--formats",
         default=",".join(DEFAULT_FORMATS),
         metavar="LIST",
-        help=f"what to write, separated by commas: {known_formats()} (default: {",".join(DEFAULT_FORMATS)})",
+        help=f"what to write, separated by commas: {known_formats()} (default: {','.join(DEFAULT_FORMATS)})",
     )
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")

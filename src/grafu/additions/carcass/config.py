@@ -18,7 +18,18 @@ class CarcassConfig(ShortRepr):
     """
 
     LENGTHS = (
-        *("back", "bottom", "gap", "on_edge", "front_thickness", "inset", "held", "touch", "least_height", "least_depth"),
+        *(
+            "back",
+            "bottom",
+            "gap",
+            "on_edge",
+            "front_thickness",
+            "inset",
+            "held",
+            "touch",
+            "least_height",
+            "least_depth",
+        ),
         *("alike", "apart", "side_by_side", "coarse", "bottom_above_most"),
     )
     covered: float = 0.5
