@@ -156,14 +156,14 @@ def test_a_drawer_in_a_door_swings_with_it(drawer, tmp_path):
 
 def test_a_joint_that_cannot_be_built_leaves_its_part_on_the_link_that_carries_it(tmp_path):
     path = drawer_in_door(tmp_path)
-    path.write_text(path.read_text().replace('<axis xyz="0 -1 0"/>', '<axis xyz="0 0 1"/>'))
+    path.write_text(path.read_text().replace('<axis xyz="0 -1 0"/>', '<axis xyz="0 -1 1"/>'))
     result = grafu.functionalize(path, motion="annotation")
     assert [joint.part for joint in result.joints] == ["door"]
     assert "drawer" in {visual.name for visual in result.object.link("door").visuals}
     (skipped,) = result.skipped
     assert (skipped.request, skipped.detail) == (
         "drawer",
-        "it slides up or down; rails carry level drawers; it moves with door",
+        "it slides askew, neither level nor upright; it moves with door",
     )
 
 

@@ -163,7 +163,6 @@ def test_choices_for_the_joint_hold_on_a_stated_motion(asset):
     [
         ("no_one", FIXED, {}, "has no no_one"),
         (PartLabel.DOOR, MotionChoice(Moves.TURNS, Side.FRONT), {}, "front is a broad face"),
-        (PartLabel.DRAWER, MotionChoice(Moves.SLIDES, Side.TOP), {}, "must slide level"),
         (PartLabel.DOOR, MotionChoice(Moves.TURNS, Side.LEFT), PartLabel.MISC, "must not be misc"),
     ],
 )

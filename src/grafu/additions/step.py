@@ -19,7 +19,7 @@ from grafu.scene.scene import Scene
 from grafu.templates.template import HandleTemplate
 from grafu.vocabulary import PartLabel
 
-GraspKind = Literal["handle", "recess", "edge", "none"]
+GraspKind = Literal["handle", "recess", "edge", "driven", "none"]
 
 
 @final

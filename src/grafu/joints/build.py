@@ -16,7 +16,13 @@ from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.place import place_hinges
 from grafu.joints.hinge.search import DoorSearch, door_search
-from grafu.joints.no_hardware import door_on_drawn_hinges, door_without_hardware, drawer_without_hardware, drawn_pin
+from grafu.joints.no_hardware import (
+    door_on_drawn_hinges,
+    door_without_hardware,
+    drawer_without_hardware,
+    drawn_pin,
+    lift_without_hardware,
+)
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.place import place_rails
 from grafu.joints.rail.search import DrawerSearch, drawer_search
@@ -115,7 +121,7 @@ def _despite_doors(search: DoorSearch, gallery: Gallery) -> Placement | None:
 def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
     search = drawer_search(request, scene, config)
     if search is None:
-        return Refusal(request.moving, Reason.UNSUPPORTED, "it slides up or down; rails carry level drawers")
+        return Refusal(request.moving, Reason.UNSUPPORTED, "it slides askew, neither level nor upright")
     clearances: tuple[Clearance, ...] = ()
     ratio = search.free_ratio()
     if ratio < 1.0:
@@ -123,13 +129,18 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
         again = drawer_search(request, cleared.scene, config)
         if again is not None and again.free_ratio() > ratio:
             search, scene, clearances = again, cleared.scene, cleared.clearances
-    placement = place_rails(search, gallery)
+    placement = _guided(search, gallery)
     found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
     free = None if found else drawer_without_hardware(search)
     found = (free, scene, clearances) if free else found
     if found is None:
         return _skipped(request, search.free_ratio(), scene, config)
     return _built(request, found, request.reference or search.wanted)
+
+
+def _guided(search: DrawerSearch, gallery: Gallery) -> Placement | None:
+    """Returns the rails, or a column's way in its sleeve, which needs none."""
+    return lift_without_hardware(search) if search.is_column else place_rails(search, gallery)
 
 
 def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearance, ...]) -> _Found | None:
@@ -142,12 +153,12 @@ def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearan
         path = _path(request, scene, search.axis, search.reach)
         cleared, trimmed = trim(scene, path, walls, config, touching=True)
         again = drawer_search(request, cleared, config) if trimmed else None
-        placement = place_rails(again, gallery) if again else None
+        placement = _guided(again, gallery) if again else None
         if placement is not None:
             return placement, cleared, (*clearances, *trimmed)
     met = search.met_at_rest()
     despite = drawer_search(request, scene, config, met) if met else None
-    placement = place_rails(despite, gallery) if despite else None
+    placement = _guided(despite, gallery) if despite else None
     return (placement, scene, clearances) if placement else None
 
 

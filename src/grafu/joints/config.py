@@ -43,6 +43,40 @@ class PlanConfig:
 
 @final
 @dataclass(frozen=True)
+class LiftConfig:
+    """What counts as a lifting column in its sleeve; lengths are metres on furniture of usual size.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    LENGTHS = ("off_floor", "gap", "tube")
+    slim: float = 0.4
+    """Largest level side of a column (fraction of its height)."""
+    off_floor: float = 0.02
+    """How high above the floor a column ends at least (metres): its sleeve stands on the floor."""
+    engaged: float = 0.4
+    """Fraction of a column's height along which its sleeve's walls stand at least."""
+    out: float = 0.05
+    """Fraction of its height by which a column stands out of its sleeve at least."""
+    faces: float = 0.5
+    """Fraction of a column's side before which a wall of its sleeve stands at least."""
+    gap: float = 0.012
+    """How far a wall of the sleeve stands off the column, or reaches into it, at most (metres)."""
+    tube: float = 0.025
+    """How far a tube reaches beyond the column in it at most, gap and wall together (metres)."""
+    travel: float = 0.85
+    """How far a column comes out (fraction of what of it stands in its sleeve)."""
+    covers: float = 0.4
+    """Fraction of the plan that a part on lifting columns covers at least: a desk's top."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "off_floor", "gap", "tube")
+        require_ratios(self, "slim", "engaged", "out", "faces", "travel", "covers")
+
+
+@final
+@dataclass(frozen=True)
 class TimeConfig:
     """Which fraction of the time that is left each step of realization may take.
 
@@ -203,6 +237,8 @@ class RealizationConfig(ShortRepr):
     """Of what counts as a drawer."""
     plan: PlanConfig = PlanConfig()
     """Of requests."""
+    lift: LiftConfig = LiftConfig()
+    """Of lifting columns."""
     block: BlockConfig = BlockConfig()
     """Of support blocks."""
     clearance: ClearanceConfig = ClearanceConfig()

@@ -126,14 +126,12 @@ def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:
     It follows the part's own sides where the part stands turned about Z.
 
     Raises:
-        OptionError: if a part is to turn about what is no border of it, or to slide up or down.
+        OptionError: if a part is to turn about what is no border of it.
     """
     axes = part_axes(part.mesh)
     local = Box.around(part.mesh.vertices @ axes)
     side = _own_side(axes, _direction(choice))
     if choice.moves is Moves.SLIDES:
-        if abs(float(side[2])) > 0.5:
-            raise OptionError(f"`{part.id}` must slide level: got {choice.side}")
         return Axis(axes @ local.center, side)
     thin = axes[:, local.thin_axis]
     if abs(float(side @ thin)) > 0.5:

@@ -23,7 +23,7 @@ NO_HARDWARE = "none"
 """`Placement.template` of a joint without hardware."""
 _NOTE = "no hinge or rail finds room: it moves without hardware"
 DRAWN = "drawn"
-"""`Placement.template` of a door on the hinges that the input has."""
+"""`Placement.template` of a door on the hinges, or a column in the sleeve, that the input has."""
 _DEPTHS = (0.0, 0.25, 0.5, 0.75, 1.0)  # of a door's thickness, from its front, at which an axis runs along its border
 _POSES = 5  # from closed to open in which it must be near what stands around it
 
@@ -147,6 +147,19 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     if upper < config.restricted * wanted:
         return None
     return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+
+
+def lift_without_hardware(search: DrawerSearch) -> Placement | None:
+    """Returns the joint of a column that slides up or down in what guides it.
+
+    It is None where hardware was chosen, where the column is not free, and where it would leave its guide.
+    """
+    wanted = min(search.request.reference or search.wanted, search.reach)
+    upper = search.travel(wanted)
+    if upper < search.config.restricted * wanted:
+        return None
+    joint = _joint(search, search.axis, search.motion, upper, ())
+    return None if joint is None else replace(joint, template=DRAWN, notes=())
 
 
 def _joint(

@@ -16,12 +16,14 @@ from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
 from grafu.geometry.budget import UNLIMITED, Budget
+from grafu.geometry.config_checks import at_scale
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import PlanConfig, RealizationConfig
 from grafu.joints.joint_choice import with_choices
+from grafu.joints.lifts import with_lifts
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
 from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import JointChoice, RealizationPlan
@@ -41,7 +43,7 @@ from grafu.pipeline.stages import (
     without_network,
 )
 from grafu.processes.cache import NO_CACHE, Cache
-from grafu.scene.scene import Scene
+from grafu.scene.scene import Scene, metre_on
 from grafu.templates.template import Gallery, HandleTemplate
 from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
@@ -199,6 +201,9 @@ def functionalize(
     requested = config.realization.plan
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, requested)  # initial axes
     plan = stages.timed("plan", first)
+    if not motion.reads_annotation:
+        lifting = at_scale(config.realization.lift, metre_on(asset.extent))
+        plan = with_lifts(plan, completion.completed, lifting)
     plan = with_choices(
         plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery, requested
     )

@@ -19,7 +19,7 @@ Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
 Row = tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat]
 Ratio = Annotated[float, Field(ge=0, le=1)]
 NOT_ADDED: Final = "not added"
-Grasp = Literal["handle", "recess", "edge", "none"]
+Grasp = Literal["handle", "recess", "edge", "driven", "none"]
 
 
 class ReportRecord(BaseModel):

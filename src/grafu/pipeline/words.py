@@ -59,7 +59,7 @@ def percent(ratio: float) -> str:
 def hardware_in_words(count: int, template: str, mechanism: MechanismClass) -> str:
     """Returns what a joint runs on, such as `2 × butt (contact)`."""
     if template == "drawn":
-        return "the hinges of the input"
+        return "the hardware of the input"
     return "no hardware" if mechanism is MechanismClass.NONE else f"{count} × {template} ({mechanism.in_words})"
 
 

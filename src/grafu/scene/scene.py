@@ -19,11 +19,28 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, mesh_near
-from grafu.scene.scale import floor_under, metre_on
 from grafu.vocabulary import JointType
 
 P = ParamSpec("P")
 T = TypeVar("T")
+_COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
+
+
+def metre_on(extent: float) -> float:
+    """Returns how long one metre of real furniture is on an object whose largest side is `extent` metres.
+
+    It is 1 for furniture between half a metre and four metres; what is smaller or larger was modelled in another scale,
+    and all that is added to it is smaller or larger, too. It is 1 for an object without extent.
+    """
+    low, high = _COMMON
+    if extent <= 0:
+        return 1.0
+    return min(extent / low, 1.0) if extent < high else extent / high
+
+
+def floor_under(meshes: Iterable[TriangleMesh]) -> float:
+    """Returns the height of the floor, metres: z = 0 in the object frame, or less where a mesh reaches below that."""
+    return min([0.0, *(float(mesh.box.low[2]) for mesh in meshes if len(mesh.faces))])
 
 
 @final

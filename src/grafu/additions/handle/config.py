@@ -1,4 +1,4 @@
-"""The sizes and places of handles. Lengths are metres on furniture of a common size (`grafu.scene.scale`)."""
+"""The sizes and places of handles. Lengths are metres on furniture of a common size (`grafu.scene.scene`)."""
 
 from dataclasses import dataclass
 from typing import final
@@ -58,7 +58,7 @@ class HandleTrials(ShortRepr):
 @final
 @dataclass(frozen=True)
 class HandleConfig(ShortRepr):
-    """Which handles are added, how large, and where; see `grafu.scene.scale` for models of another scale.
+    """Which handles are added, how large, and where; see `grafu.scene.scene` for models of another scale.
 
     Raises:
         ValueError: if a length or fraction is out of its range, or there are fewer than two poses.

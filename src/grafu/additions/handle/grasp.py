@@ -5,6 +5,7 @@ from grafu.additions.handle.grips import grips_on
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.step import Grasp
 from grafu.asset.part import Part
+from grafu.joints.rail.search import is_column
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -22,6 +23,9 @@ def find_grasp(
     Raises:
         KeyError: if the scene has no such moving body, or no motion for it.
     """
+    joint_motion = scene.joint_motions[moving_id]
+    if joint_motion.kind.slides and is_column(scene.parts[moving_id].mesh, joint_motion.axis.direction):
+        return Grasp(moving_id, "driven", 1.0, "a column is lifted by its drive, or with what it carries")
     handle = held_by_label(scene, moving_id, config)
     reliefs = reliefs or Reliefs(scene, config.relief)
     return handle or _without_label(scene, moving_id, reliefs.of(moving_id), config)

@@ -108,7 +108,7 @@ class GripConfidences:
 @final
 @dataclass(frozen=True)
 class GraspConfig(ShortRepr):
-    """What counts as room for fingers; see `grafu.scene.scale` for models in another scale.
+    """What counts as room for fingers; see `grafu.scene.scene` for models in another scale.
 
     Raises:
         ValueError: if a number is not above 0, a fraction is not between 0 and 1, or a confidence is above 1.

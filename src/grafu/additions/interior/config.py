@@ -1,6 +1,6 @@
 """What an interior is made of, and how small a compartment may be.
 
-Lengths are metres on furniture of usual size; a model in another scale gets panels in its own (`grafu.scene.scale`).
+Lengths are metres on furniture of usual size; a model in another scale gets panels in its own (`grafu.scene.scene`).
 """
 
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from typing import final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.joints.config import RealizationConfig
-from grafu.scene.scale import metre_on
+from grafu.scene.scene import metre_on
 from grafu.visible import ShortRepr
 
 

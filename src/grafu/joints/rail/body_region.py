@@ -69,7 +69,24 @@ def drawer_frame(
     up = vec3(0.0, 0.0, 1.0)
     y = -slide / np.linalg.norm(slide)
     x = up if lying else np.cross(y, up)
-    x = x / np.linalg.norm(x)
+    return _framed(mesh, x / np.linalg.norm(x), y)
+
+
+def lift_frame(mesh: TriangleMesh, direction: Vec3) -> DrawerFrame | None:
+    """Returns the frame of a part that slides up or down, within 8 degrees; None where it slides another way.
+
+    X is its longer level side, Z its shorter one: of a sash or a shutter, guides run along the sides in X.
+    """
+    if abs(float(direction[2])) < SNAP * float(np.linalg.norm(direction)):
+        return None
+    y = vec3(0.0, 0.0, -float(np.sign(direction[2])))
+    axes = part_axes(mesh)
+    level = axes[:, np.argsort(np.abs(axes[2]))[:2]]
+    x = level[:, int(np.argmax(np.ptp(mesh.vertices @ level, axis=0)))] * vec3(1.0, 1.0, 0.0)
+    return _framed(mesh, x / np.linalg.norm(x), y)
+
+
+def _framed(mesh: TriangleMesh, x: Vec3, y: Vec3) -> DrawerFrame:
     rotation = np.column_stack([x, y, np.cross(x, y)])
     local = Box.around(mesh.vertices @ rotation)
     center = local.center

@@ -23,10 +23,10 @@ from grafu.joints.limits import (
     widest_free,
 )
 from grafu.joints.plan import JointRequest
-from grafu.joints.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_shallow
+from grafu.joints.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_shallow, lift_frame
 from grafu.joints.rail.spots import front_only_region
 from grafu.joints.rail_config import DrawerConfig
-from grafu.scene.border import part_axes
+from grafu.scene.border import SNAP, part_axes
 from grafu.scene.scene import Obstacle, Scene
 from grafu.vocabulary import PartLabel
 
@@ -58,6 +58,11 @@ class DrawerSearch:
     def axis(self) -> Axis:
         """The sliding axis through the drawer's middle."""
         return Axis(self.mesh.box.center, self.frame.slide)
+
+    @property
+    def is_column(self) -> bool:
+        """Whether the part is a lifting column; see `is_column`."""
+        return is_column(self.scene.parts[self.request.moving].mesh, self.frame.slide, self.config.drawer)
 
     @property
     def motion(self) -> PoseFunction:
@@ -127,6 +132,11 @@ def slides_in_its_plane(mesh: TriangleMesh, direction: Vec3, config: DrawerConfi
     return bool(is_upright and is_flat and abs(float(axes[:, thin] @ direction)) < config.flat)
 
 
+def is_column(mesh: TriangleMesh, direction: Vec3, config: DrawerConfig = DrawerConfig()) -> bool:
+    """Whether a part slides up or down in what guides it, and is no board: sashes and shutters run in tracks."""
+    return bool(abs(float(direction[2])) > SNAP) and not slides_in_its_plane(mesh, direction, config)
+
+
 def carried_mesh(request: JointRequest, scene: Scene, config: DrawerConfig = DrawerConfig()) -> TriangleMesh:
     """Returns a drawer with those attached parts that do not stand out before its front; handles never count."""
     drawer, slide = scene.parts[request.moving], np.asarray(request.axis.direction)
@@ -141,7 +151,7 @@ def carried_mesh(request: JointRequest, scene: Scene, config: DrawerConfig = Dra
 def drawer_search(
     request: JointRequest, scene: Scene, config: RealizationConfig, ignored: tuple[str, ...] = ()
 ) -> DrawerSearch | None:
-    """Returns the search for one request, None where the drawer would slide up or down; `ignored` is no obstacle.
+    """Returns the search for one request, None where the part would slide askew; `ignored` is no obstacle.
 
     The config is in the scale of the scene (`at_scale`).
     """
@@ -151,6 +161,7 @@ def drawer_search(
     frame = drawer_frame(
         mesh if lying else carried_mesh(request, scene, config.drawer), direction, lying, config.drawer
     )
+    frame = frame or lift_frame(mesh, direction)
     if frame is None:
         return None
     body = scene.swept_body(request.moving, config.depth * scene.extent, part_axes(mesh))

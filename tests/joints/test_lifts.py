@@ -1,0 +1,125 @@
+"""What slides up: desks on lifting columns, found by shape or stated, sashes and shutters in tracks."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grafu.asset.part import Asset
+from grafu.joints.motion_choice import MotionChoice, Moves, Side
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.templates.gallery import builtin_gallery
+from judging import hardware, installed, realized, swept_collisions
+from small_scenes import box, scene, sliding
+
+WALL = 0.01
+
+
+def sleeve(name, x, walls=4):
+    """The walls of a sleeve of 0.1 x 0.08 m around x, 0.5 m high, on a foot."""
+    sides = [
+        box(f"{name}_left", (x - 0.05 - WALL, -0.04, 0.04), (x - 0.05, 0.04, 0.5)),
+        box(f"{name}_right", (x + 0.05, -0.04, 0.04), (x + 0.05 + WALL, 0.04, 0.5)),
+        box(f"{name}_front", (x - 0.06, -0.04 - WALL, 0.04), (x + 0.06, -0.04, 0.5)),
+        box(f"{name}_back", (x - 0.06, 0.04, 0.04), (x + 0.06, 0.04 + WALL, 0.5)),
+    ]
+    return [box(f"{name}_foot", (x - 0.08, -0.35, 0.0), (x + 0.08, 0.35, 0.04)), *sides[:walls]]
+
+
+def desk(walls=4, low=0.12, joints=()) -> Asset:
+    """A desk of 1.4 x 0.7 m on two columns, which stand in sleeves from 0.04 to 0.5 m, with a drawer under its top."""
+    columns = [box(f"tube_{k}", (x - 0.048, -0.038, low), (x + 0.048, 0.038, 0.7)) for k, x in enumerate((-0.5, 0.5))]
+    top = [
+        box("desktop", (-0.7, -0.35, 0.7), (0.7, 0.35, 0.73)),
+        box("runner_left", (-0.3, -0.3, 0.6), (-0.28, 0.2, 0.7)),
+        box("runner_right", (0.28, -0.3, 0.6), (0.3, 0.2, 0.7)),
+    ]
+    drawer = box("drawer", (-0.265, -0.34, 0.6), (0.265, 0.15, 0.68))
+    sleeves = [*sleeve("sleeve_0", -0.5, walls), *sleeve("sleeve_1", 0.5, walls)]
+    return scene(*sleeves, *columns, *top, drawer, joints=joints)
+
+
+def by_rule(asset, **motions):
+    config = PipelineConfig(motions=motions)
+    return functionalize(asset, MotionSource.RULE, builtin_gallery(), config)
+
+
+def test_a_desk_on_lifting_columns_rises_with_all_that_it_carries():
+    made = by_rule(desk())
+    joints = made.object.joint_of
+    leader, follower, drawer = joints["tube_0"], joints["tube_1"], joints["drawer"]
+
+    assert np.allclose(leader.axis.direction, (0, 0, 1))
+    assert follower.coupling is not None
+    assert (follower.coupling.leader, follower.coupling.multiplier) == (leader.id, 1.0)
+    assert leader.limits.upper == follower.limits.upper > 0.3
+    assert drawer.parent == "tube_0"
+    carried = {visual.name for visual in made.object.link("tube_0").visuals}
+    assert {"tube_0", "desktop", "runner_left", "runner_right"} <= carried
+    assert not carried & {part.id for part in made.asset.parts if part.id.startswith("sleeve")}
+    assert swept_collisions(made.object, leader, 20) == {}
+
+
+def test_columns_need_no_handle():
+    made = by_rule(desk())
+    assert {made.fittings.grasps[name].kind for name in ("tube_0", "tube_1")} == {"driven"}
+    assert not [addition for addition in made.additions if addition.part.carried_by in ("tube_0", "tube_1")]
+
+
+@pytest.mark.parametrize("still", [desk(walls=2), desk(walls=3), desk(low=0.0)])
+def test_posts_without_a_sleeve_all_around_or_on_the_floor_stand_still(still):
+    assert set(by_rule(still).object.joint_of) <= {"drawer"}
+
+
+def test_a_post_in_a_sleeve_that_carries_no_top_stands_still():
+    lamp = scene(*sleeve("sleeve", 0.0), box("post", (-0.048, -0.038, 0.12), (0.048, 0.038, 0.7)))
+    assert not by_rule(lamp).object.joints
+
+
+def test_a_user_may_fix_what_would_lift():
+    made = by_rule(desk(), tube_0=MotionChoice(Moves.FIXED), tube_1=MotionChoice(Moves.FIXED))
+    assert {joint.child for joint in made.object.joints} == {"drawer"}
+    assert made.object.joint_of["drawer"].parent == made.object.root
+
+
+def test_the_same_desk_ten_times_as_large_lifts_too():
+    asset = desk()
+    T = np.diag([10.0, 10.0, 10.0, 1.0])
+    parts = tuple(replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) for p in asset.parts)
+    plain, large = by_rule(asset), by_rule(replace(asset, parts=parts))
+    assert large.object.joint_of.keys() == plain.object.joint_of.keys()
+
+
+def shutter(joints=()) -> Asset:
+    """A case of 0.6 x 0.4 x 1.6 m with a board of 0.7 m before its lower half."""
+    shell = [
+        box("side_left", (-0.32, -0.2, 0.0), (-0.3, 0.2, 1.6)),
+        box("side_right", (0.3, -0.2, 0.0), (0.32, 0.2, 1.6)),
+        box("back", (-0.3, 0.19, 0.0), (0.3, 0.2, 1.6)),
+    ]
+    return scene(*shell, box("door_sash", (-0.297, -0.18, 0.02), (0.297, -0.16, 0.72)), joints=joints)
+
+
+def test_a_sash_slides_up_in_tracks_on_both_sides():
+    result = realized(shutter((sliding("door_sash", (0.0, 0.0, 1.0), 0.6),)))
+    made = installed(result)["door_sash"]
+    moving, still = hardware(result, "door_sash")
+
+    assert made.opening == pytest.approx(0.525, abs=0.08)
+    assert made.count == 2
+    assert swept_collisions(result.object, result.object.joint_of["door_sash"], 40) == {}
+    assert sorted(np.sign(round(v.mesh.box.center[0], 3)) for v in still) == [-1, 1]
+    assert len(moving) == 2
+
+
+def test_a_user_may_let_a_part_slide_up():
+    made = functionalize(
+        shutter(),
+        MotionSource.RULE,
+        builtin_gallery(),
+        PipelineConfig(motions={"door_sash": MotionChoice(Moves.SLIDES, Side.TOP)}),
+    )
+    joint = made.object.joint_of["door_sash"]
+    assert np.allclose(joint.axis.direction, (0, 0, 1))
+    assert joint.limits.upper > 0.4
