@@ -94,7 +94,7 @@ OF_MODULES = {
     "scene": {
         "border.py": {"SNAP": FRAME, "_THIN_BOARD": FRAME, "_FRONT_RAYS": SAMPLES},
         "front.py": {"_TILTED": FRAME, "_SLIDES": FRAME, "_PANEL": FRAME, "_LYING": FRAME},
-        "scale.py": {"_COMMON": SHARED},
+        "scene.py": {"_COMMON": SHARED},
     },
     "segmentation": {
         "candidates.py": {"_NO_AREA": TOLERANCE},
@@ -144,7 +144,7 @@ IN_FUNCTIONS = {
     "metrics": {
         "panels.py": {0.01: TOLERANCE, 0.1: TOLERANCE, 0.99: TOLERANCE, 3: NUMBERING, 5: NUMBERING, 6: NUMBERING}
     },
-    "scene": {"border.py": {}, "front.py": {}, "scale.py": {}},
+    "scene": {"border.py": {}, "front.py": {}, "scene.py": {}},
     "segmentation": {
         "candidates.py": {},
         "division.py": {},

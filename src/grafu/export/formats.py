@@ -106,7 +106,7 @@ _ALL = (
 )
 FORMATS = MappingProxyType({one.name: one for one in _ALL})
 DEFAULT_FORMATS = ("glb", "urdf")
-"""What is written where nobody names formats."""
+"""The formats that are written by default."""
 
 
 def known_formats() -> str:

@@ -13,10 +13,10 @@ from grafu.articulation.articulated_object import Coupling
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.joints.config import LiftConfig
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.vocabulary import JointType
 
 SOURCE = "rule"
 """`JointRequest.source` of a lifting column: its shape alone tells."""
@@ -51,7 +51,7 @@ def with_lifts(plan: RealizationPlan, graph: FunctionalGraph, config: LiftConfig
 
 def _lift(node: PartNode, travel: float, attached: tuple[str, ...], coupling: Coupling | None) -> JointRequest:
     axis = Axis(node.box.center, vec3(0.0, 0.0, 1.0))
-    return JointRequest(node.id, JointType.PRISMATIC, axis, SOURCE, travel, (), attached, coupling=coupling)
+    return JointRequest(node.id, Slide.joint_type, axis, SOURCE, travel, (), attached, coupling=coupling)
 
 
 def _sleeve_top(node: PartNode, static: list[PartNode], graph: FunctionalGraph, config: LiftConfig) -> float | None:
