@@ -13,8 +13,7 @@ from grafu.cli import ablate, evaluate, functionalize, inspect, synth, templates
 from grafu.cli.input_options import join_directions
 from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb
-from grafu.processes.lifetime import keep_private
-from grafu.processes.signals import end_requests_heard
+from grafu.processes.lifetime import end_requests_heard, keep_private
 from grafu.version import __version__
 from grafu.visible import visible
 

@@ -118,7 +118,7 @@ def run_dataset(options: argparse.Namespace) -> int:
     from grafu.cli.synth_tally import SynthTally, print_tally
     from grafu.data.write import models_written
     from grafu.data.write_plan import DatasetPlan
-    from grafu.processes.signals import END_REQUESTS
+    from grafu.processes.lifetime import END_REQUESTS
 
     plan = DatasetPlan(options.seed, options.count, options.points, options.models_per_shard, options.format)
     tally, started = SynthTally(), perf_counter()

@@ -17,8 +17,12 @@ import numpy as np
 from grafu.data.pair import Record, record_of
 from grafu.data.shards import ShardReader
 from grafu.errors import UnreadableAsset
-from grafu.processes.lifetime import end_with_parent, started_by_main_thread
-from grafu.processes.signals import interrupts_later, leave_interrupts_to_parent
+from grafu.processes.lifetime import (
+    end_with_parent,
+    interrupts_later,
+    leave_interrupts_to_parent,
+    started_by_main_thread,
+)
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
 

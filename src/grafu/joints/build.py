@@ -14,13 +14,13 @@ from grafu.joints.clearance.carve import Path
 from grafu.joints.clearance.make import make_clearance
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
+from grafu.joints.drawn_hinges import drawn_pin
 from grafu.joints.hinge.place import place_hinges
 from grafu.joints.hinge.search import DoorSearch, door_search
 from grafu.joints.no_hardware import (
     door_on_drawn_hinges,
     door_without_hardware,
     drawer_without_hardware,
-    drawn_pin,
     lift_without_hardware,
 )
 from grafu.joints.plan import JointRequest

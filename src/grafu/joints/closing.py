@@ -19,7 +19,7 @@ from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.raycast import RayCaster
-from grafu.joints.closing_doors import DrawnAngle, drawn_angles
+from grafu.joints.closing_doors import drawn_angles
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box, widest_free
 from grafu.joints.nesting import bodies_of
@@ -56,10 +56,6 @@ def _openings(drawers: Mapping[str, "_Drawer"], all_drawers: Iterable["_Drawer"]
     """Returns how far those drawers stand open that do, by the id of the moving part."""
     openings = {name: _drawn_opening(drawer, all_drawers) for name, drawer in drawers.items()}
     return {name: opening for name, opening in openings.items() if opening > 0}
-
-
-def _about(request: JointRequest, drawn: DrawnAngle) -> JointRequest:
-    return _ajar(replace(request, axis=drawn.axis), drawn.angle)
 
 
 def _ajar(request: JointRequest, opening: float) -> JointRequest:

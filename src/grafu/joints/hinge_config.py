@@ -207,27 +207,28 @@ class DrawnConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("reach", "line", "thinnest", "thickest")
+    LENGTHS = ("reach", "line", "bearing", "radii")
     reach: float = 0.06
     """How far from the border a barrel lies at most (metres)."""
     line: float = 0.0015
     """Barrels nearer to one line than this turn about one pin (metres)."""
     spread: float = 0.3
     """Fraction of the border's length over which the barrels that carry a door are spread at least."""
-    thinnest: float = 0.0015
-    """Smallest radius of a barrel (metres)."""
-    thickest: float = 0.02
-    """Largest radius of a barrel (metres)."""
+    rod: float = 0.85
+    """Least length of a rod along a whole border; no rod is longer than the border over this (fraction of it)."""
+    bearing: float = 0.02
+    """How far from the end of such a rod what holds it may be (metres)."""
+    radii: tuple[float, float] = (0.0015, 0.02)
+    """Smallest and largest radius of a barrel (metres)."""
     round: float = 0.9
-    """Fraction of a barrel's vertices that lie on its rim, and of its radius at which the rim begins."""
+    """Fraction of a barrel's vertices that lie on its rim, and of its radius at which the rim begins; a cap's middle
+    lies nearer to the pin than the rest of that."""
     corners: int = 12
     """Vertices that a rim has at least."""
-    cap: float = 0.1
-    """Vertices nearer to the middle than this fraction of the radius are the middle of a cap."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "spread", "round", "cap")
+        require_ratios(self, "spread", "rod", "round")
 
 
 @final

@@ -22,6 +22,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import PlanConfig, RealizationConfig
+from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.lifts import with_lifts
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
@@ -203,7 +204,7 @@ def functionalize(
     plan = stages.timed("plan", first)
     if not motion.reads_annotation:
         lifting = at_scale(config.realization.lift, metre_on(asset.extent))
-        plan = with_lifts(plan, completion.completed, lifting)
+        plan = with_lifts(with_drawn_hinges(plan, asset, config.realization), completion.completed, lifting)
     plan = with_choices(
         plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery, requested
     )

@@ -13,9 +13,15 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, Generic, Literal, TypeVar, final
 
-from grafu.processes.lifetime import clear_scratch, end_with_parent, kill, started_by_main_thread
+from grafu.processes.lifetime import (
+    clear_scratch,
+    end_with_parent,
+    interrupts_later,
+    kill,
+    leave_interrupts_to_parent,
+    started_by_main_thread,
+)
 from grafu.processes.limits import PATIENCE, Ending, Outcome, ProcessLimits, refuse_beyond, resident_bytes
-from grafu.processes.signals import interrupts_later, leave_interrupts_to_parent
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")

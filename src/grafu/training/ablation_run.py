@@ -22,8 +22,7 @@ from typing import final
 from grafu.asset.json_files import finite, read_own_json
 from grafu.errors import AssetError, ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.whole_file import write_whole
-from grafu.processes.lifetime import end_with_parent, started_by_main_thread
-from grafu.processes.signals import interrupts_later
+from grafu.processes.lifetime import end_with_parent, interrupts_later, started_by_main_thread
 from grafu.training.ablation import Experiment
 from grafu.training.checkpoint import has_progress, load_best, read_config
 from grafu.training.config import TrainingConfig

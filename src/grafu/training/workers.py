@@ -17,7 +17,7 @@ from typing import final
 import torch
 from torch import Tensor, distributed, nn
 
-from grafu.processes.signals import END_REQUESTS
+from grafu.processes.lifetime import END_REQUESTS
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 

@@ -1,0 +1,203 @@
+"""Hinges that the model has: round barrels along a door's border, or one rod along its lower one.
+
+They carry the door, and tell which border it turns about, whatever the source of motions takes it for.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import TypeAlias, final
+
+import numpy as np
+
+from grafu.asset.part import Asset
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.components import connected_parts
+from grafu.geometry.config_checks import at_scale
+from grafu.geometry.mesh import TriangleMesh
+from grafu.graph.edges import Hinge
+from grafu.joints.config import RealizationConfig
+from grafu.joints.hinge.search import DoorSearch
+from grafu.joints.hinge_config import DrawnConfig
+from grafu.joints.nesting import bodies_of
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.scene.border import SNAP, BorderFrame, border_frame, part_axes
+from grafu.scene.scene import Scene
+
+_Shells: TypeAlias = Callable[[str], Sequence[TriangleMesh]]
+_POINT = 1e-4  # metres: half the side of the cube that stands for the end of a rod
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Barrel:
+    """The barrel of a drawn hinge, or a rod, of a part: its pin at (x, y) of a border frame, from `low` to `high`."""
+
+    part: str
+    x: float
+    y: float
+    low: float
+    high: float
+
+    @property
+    def length(self) -> float:
+        """Its length along the border, metres."""
+        return self.high - self.low
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class _Model:
+    """A scene, the config in its scale, and the shells of its parts; each part is taken apart once."""
+
+    scene: Scene
+    config: RealizationConfig
+    shells: _Shells
+
+    @property
+    def drawn(self) -> DrawnConfig:
+        return self.config.hinge.drawn
+
+
+def _model(scene: Scene, config: RealizationConfig) -> _Model:
+    return _Model(scene, config, cache(lambda part: connected_parts(scene.parts[part].mesh)))
+
+
+def drawn_pin(search: DoorSearch) -> Axis | None:
+    """Returns the common axis of round barrels along the door's border, shells of the door or of static parts.
+
+    It is None where fewer than two lie on one line, where they are not spread along the border, and where hardware was
+    chosen. One rod is enough where it carries the door; see `with_drawn_hinges`.
+    """
+    if str(search.request.choice):
+        return None
+    model = _model(search.scene, search.config)
+    line = _line(search.frame, search.request, model)
+    return search.frame.axis_at(line[0].x, line[0].y) if line else None
+
+
+def with_drawn_hinges(
+    plan: RealizationPlan, asset: Asset, config: RealizationConfig = RealizationConfig()
+) -> RealizationPlan:
+    """Returns the plan in which doors turn about the border along which the model has hinges for them.
+
+    Barrels count where they lie along one border of a door and no other. A rod along the lower border of an upright
+    leaf, which ends at static parts, makes a flap of whatever stands on it, be it planned to turn elsewhere or to
+    slide. Joints on moving parts, coupled ones, and those for which hardware was chosen stay as they are.
+    """
+    scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, bodies_of(plan.joints), asset.extent)
+    model = _model(scene, at_scale(config, scene.metre))
+    return replace(plan, joints=tuple(_on_drawn(request, model) for request in plan.joints))
+
+
+def _on_drawn(request: JointRequest, model: _Model) -> JointRequest:
+    is_settled = str(request.choice) or request.parent or request.coupling or request.drawn_at
+    if is_settled or request.moving not in model.scene.parts:
+        return request
+    leaf = model.scene.parts[request.moving].mesh
+    frames = [border_frame(leaf, axis) for axis in _border_axes(leaf)]
+    found = [(frame, line) for frame in frames if (line := _line(frame, request, model))]
+    if len(found) != 1:
+        return request
+    frame, line = found[0]
+    if request.kind.turns and _is_same_border(border_frame(leaf, request.axis), frame):
+        return request
+    outwards = request.kind.sets_off(request.axis, leaf.box.center)
+    pin, reference = frame.axis_at(line[0].x, line[0].y), request.reference if request.kind.turns else None
+    made = replace(request, type=Hinge.joint_type, axis=pin, reference=reference, mounts=())
+    opens = float(made.kind.sets_off(made.axis, leaf.box.center) @ outwards)
+    return made if opens > 0 else replace(made, axis=made.axis.reversed())
+
+
+def _border_axes(mesh: TriangleMesh) -> Iterator[Axis]:
+    """Yields a line along each of the four borders of a leaf."""
+    axes = part_axes(mesh)
+    local = Box.around(mesh.vertices @ axes)
+    for along in (k for k in range(3) if k != local.thin_axis):
+        across = 3 - along - local.thin_axis
+        for sign in (-1.0, 1.0):
+            point = np.array(local.center)
+            point[across] += sign * local.half[across]
+            yield Axis(axes @ point, axes[:, along])
+
+
+def _is_same_border(a: BorderFrame, b: BorderFrame) -> bool:
+    return bool(a.rotation[:, 0] @ b.rotation[:, 0] > SNAP)
+
+
+def _line(frame: BorderFrame, request: JointRequest, model: _Model) -> list[Barrel]:
+    """Returns the barrels, or the rod, that carry a part at a border; empty where there are none.
+
+    What slides needs more than barrels near it, which may be its neighbours'.
+    """
+    barrels = list(_barrels(frame, request.moving, model))
+    hinges = _hinge_line(frame, barrels, model.drawn) if request.kind.turns else []
+    return hinges or [barrel for barrel in barrels if _is_rod(barrel, frame, model)][:1]
+
+
+def _hinge_line(frame: BorderFrame, barrels: Sequence[Barrel], config: DrawnConfig) -> list[Barrel]:
+    """Returns the barrels on one line that are spread along a border, the most of them; empty where there are none."""
+    lines = [line for line in _lines(barrels, config.line) if len(line) > 1]
+    least = config.spread * frame.length
+    spread = [line for line in lines if max(b.high for b in line) - min(b.low for b in line) >= least]
+    return max(spread, key=len, default=[])
+
+
+def _is_rod(barrel: Barrel, frame: BorderFrame, model: _Model) -> bool:
+    """Whether a barrel runs along the whole lower border of an upright leaf, and is held by static parts at both ends.
+
+    A bar to pull it by ends before the leaf, where nothing holds it.
+    """
+    is_lower = bool(frame.rotation[2, 0] > SNAP)
+    if not is_lower or not model.drawn.rod <= barrel.length / frame.length <= 1 / model.drawn.rod:
+        return False
+    if barrel.part not in model.scene.moving_ids:
+        return True
+    ends = frame.to_object(np.array([[barrel.x, barrel.y, z] for z in (barrel.low, barrel.high)]))
+    cubes = (TriangleMesh.box_mesh(Box(end - _POINT, end + _POINT)) for end in ends)
+    return all(model.scene.is_near_static(cube, model.drawn.bearing) for cube in cubes)
+
+
+def _barrels(frame: BorderFrame, moving: str, model: _Model) -> Iterator[Barrel]:
+    """Yields the barrels near a border, shells of a moving body or of static parts."""
+    scene, reach = model.scene, model.drawn.reach
+    ids = [*scene.moving_bodies[moving].members, *(part.id for part in scene.static_parts)]
+    for part in (scene.parts[name] for name in ids):
+        box = Box.around(frame.to_border(part.box.corners()))
+        if box.low[0] > reach or box.high[0] < -reach or len(part.mesh.faces) > model.config.carved_faces:
+            continue
+        if box.low[1] > reach or box.high[1] < -frame.thickness - reach:
+            continue
+        for shell in model.shells(part.id):
+            yield from _as_barrel(shell, part.id, frame, model.drawn)
+
+
+def _as_barrel(shell: TriangleMesh, part: str, frame: BorderFrame, config: DrawnConfig) -> Iterator[Barrel]:
+    """Yields a shell as a barrel, if it is a cylinder near the border and along it, with the radius of a hinge's."""
+    local = frame.to_border(shell.vertices)
+    box = Box.around(local)
+    is_beside = box.low[0] >= -config.reach and box.high[0] <= config.reach
+    is_level = box.low[1] >= -frame.thickness - config.reach and box.high[1] <= config.reach
+    radius = float(box.size[:2].max()) / 2
+    if not (is_beside and is_level and config.radii[0] <= radius <= config.radii[1]) or box.size[2] < radius:
+        return
+    x, y = float(box.center[0]), float(box.center[1])
+    off = np.hypot(local[:, 0] - x, local[:, 1] - y)
+    is_rim = off > (1 - config.round) * radius
+    on_rim = np.abs(off[is_rim] - radius) <= (1 - config.round) * radius
+    if len(on_rim) >= config.corners and np.count_nonzero(on_rim) >= config.round * len(on_rim):
+        yield Barrel(part, x, y, float(box.low[2]), float(box.high[2]))
+
+
+def _lines(barrels: Sequence[Barrel], within: float) -> list[list[Barrel]]:
+    """Returns the barrels that have one pin line, together."""
+    lines: list[list[Barrel]] = []
+    for one in barrels:
+        same = (line for line in lines if np.hypot(one.x - line[0].x, one.y - line[0].y) <= within)
+        line = next(same, None)
+        if line is None:
+            lines.append([one])
+        else:
+            line.append(one)
+    return lines

@@ -1,0 +1,124 @@
+"""Hinges that the model has tell which border a door turns about, whatever a source of motions takes it for."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+
+from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.drawn_hinges import with_drawn_hinges
+from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.plan import AUTOMATIC, JointChoice
+from grafu.joints.realize import realize
+from grafu.vocabulary import JointType
+from judging import GALLERY, installed
+from small_scenes import box, hinged, scene, sliding
+
+# A door of 0.4 x 0.6 m before a case, y = -0.02 to 0, and the line along its left border that a source may state.
+CASE = (
+    box("side_left", (-0.02, 0.0, -0.02), (0.0, 0.4, 0.62)),
+    box("side_right", (0.4, 0.0, -0.02), (0.42, 0.4, 0.62)),
+    box("bottom", (0.0, 0.0, -0.02), (0.4, 0.4, 0.0)),
+    box("top", (0.0, 0.0, 0.6), (0.4, 0.4, 0.62)),
+)
+LEAF = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.6))
+LEFT = hinged(axis=Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0)))
+
+
+def cylinder(name, ends, radius=0.006, carried_by=None) -> Part:
+    tube = trimesh.creation.cylinder(radius=radius, segment=np.array(ends), sections=24)
+    part = box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), carried_by)
+    return replace(part, surfaces=(Surface(TriangleMesh.from_trimesh(tube)),))
+
+
+def knuckles(x, y=-0.008):
+    """Two barrels on one upright line at (x, y)."""
+    heights = ((0.08, 0.14), (0.46, 0.52))
+    return [cylinder(f"knuckle_{x}_{low}", ((x, y, low), (x, y, high))) for low, high in heights]
+
+
+def rod(name="rod", y=-0.01, ends=(0.0, 0.4), carried_by="door"):
+    return cylinder(name, ((ends[0], y, 0.006), (ends[1], y, 0.006)), carried_by=carried_by)
+
+
+def told(*parts, joint=LEFT, choice=AUTOMATIC):
+    """The request of the door before and after the drawn hinges are looked for."""
+    asset = scene(*parts, joints=(joint,))
+    plan = plan_from_annotation(asset)
+    plan = replace(plan, joints=tuple(replace(r, choice=choice, mounts=("side_left",)) for r in plan.joints))
+    return plan.joints[0], with_drawn_hinges(plan, asset).joints[0]
+
+
+def opens_towards(request, point=(0.2, -0.01, 0.3)):
+    return request.kind.sets_off(request.axis, np.array(point))
+
+
+def test_a_door_turns_about_the_border_that_has_its_hinges():
+    before, after = told(LEAF, *CASE, *knuckles(0.404))
+
+    assert np.allclose(after.axis.point[:2], (0.404, -0.008))
+    assert opens_towards(before)[1] < 0
+    assert opens_towards(after)[1] < 0
+    assert after.mounts == ()
+
+
+def test_it_is_built_there_on_the_hinges_that_are_drawn():
+    asset = scene(LEAF, *CASE, *knuckles(0.404, -0.022), joints=(LEFT,))
+    made = installed(realize(with_drawn_hinges(plan_from_annotation(asset), asset), asset, GALLERY))["door"]
+    assert np.allclose(made.axis.point[:2], (0.404, -0.022))
+    assert (made.template, made.count) == ("drawn", 0)
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [(), knuckles(-0.004), [*knuckles(-0.004), *knuckles(0.404)], knuckles(0.404)[:1], knuckles(0.6), [rod(y=-0.06)]],
+    ids=["none", "where it turns", "on both sides", "a single one", "a neighbour's", "a bar to pull it by"],
+)
+def test_a_motion_stays_where_nothing_tells_of_another(parts):
+    before, after = told(LEAF, *CASE, *parts)
+    assert after is before or after == before
+
+
+def test_hardware_that_is_chosen_stays_where_it_was_chosen():
+    before, after = told(LEAF, *CASE, *knuckles(0.404), choice=JointChoice(count=3))
+    assert after == before
+
+
+BEARINGS = (
+    box("bearing_left", (-0.02, -0.02, 0.0), (-0.001, 0.0, 0.02)),
+    box("bearing_right", (0.401, -0.02, 0.0), (0.42, 0.0, 0.02)),
+)
+
+
+@pytest.mark.parametrize("joint", [LEFT, sliding("door", (0.0, -1.0, 0.0))], ids=["a side", "a slide"])
+@pytest.mark.parametrize("own", ["door", None], ids=["of the leaf", "of the case"])
+def test_what_stands_on_a_rod_in_bearings_is_a_flap(joint, own):
+    _, after = told(LEAF, *CASE, *BEARINGS, rod(carried_by=own), joint=joint)
+
+    assert after.type is JointType.REVOLUTE
+    assert np.allclose(np.abs(after.axis.direction), (1, 0, 0))
+    assert np.allclose(after.axis.point[1:], (-0.01, 0.006))
+    assert opens_towards(after)[1] < 0
+    assert after.reference is None or joint is LEFT
+
+
+def test_hinges_of_a_neighbour_turn_no_drawer():
+    before, after = told(LEAF, *CASE, *knuckles(0.404), joint=sliding("door", (0.0, -1.0, 0.0)))
+    assert after == before
+
+
+@pytest.mark.parametrize("angle", [0.5, np.pi / 2, np.pi])
+def test_hinges_are_found_on_furniture_that_stands_turned(angle):
+    T = np.eye(4)
+    T[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    asset = scene(LEAF, *CASE, *knuckles(0.404), joints=(LEFT,))
+    parts = tuple(replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) for p in asset.parts)
+    joints = tuple(replace(j, axis=j.axis.transformed(T)) for j in asset.joints)
+    turned = replace(asset, parts=parts, joints=joints)
+    (after,) = with_drawn_hinges(plan_from_annotation(turned), turned).joints
+    assert np.allclose(after.axis.point[:2], T[:2, :2] @ (0.404, -0.008), atol=1e-6)
