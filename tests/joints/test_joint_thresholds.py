@@ -36,6 +36,8 @@ REASONS = {
     "clearance/make.py": {"_GAPS": EFFORT, "_STEPS": EFFORT},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
+    "drawn_hinges.py": {"_POINT": TOLERANCE},
+    "lifts.py": {"_LEVEL": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING},

@@ -9,7 +9,7 @@ from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.body_region import is_shallow
-from grafu.joints.rail.search import DrawerSearch
+from grafu.joints.rail.search import DrawerSearch, slides_in_its_plane
 from grafu.joints.report import Placement
 from grafu.scene.scene import Scene
 from grafu.vocabulary import MechanismClass
@@ -57,7 +57,8 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     come away from all static parts, and where only a guess states that it is a drawer: cases slide as freely.
     """
     frame, config = search.frame, search.config
-    is_board = frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
+    is_board = slides_in_its_plane(search.scene.parts[search.request.moving].mesh, frame.slide, config.drawer)
+    is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
     if is_board or not search.scene.parts[search.request.moving].label.is_movable:
         return None
     upper = search.travel(search.reach)
