@@ -27,6 +27,7 @@ def test_importing_the_package_imports_nothing_else() -> None:
 
 
 def test_the_package_lists_what_it_offers() -> None:
+    assert dir(grafu) == sorted(grafu.__all__)
     assert {"load", "functionalize", "Result", "Asset", "__version__"} <= set(dir(grafu))
     with pytest.raises(AttributeError, match="no attribute 'functionalise': it offers"):
         _ = grafu.functionalise  # type: ignore[attr-defined]
