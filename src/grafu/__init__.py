@@ -39,9 +39,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
-
-
-def __dir__() -> list[str]:
     """Returns what the package offers, for completion in a shell."""
     return sorted(__all__)
