@@ -10,9 +10,8 @@ from obj_inputs import CABINET, write_cabinet
 
 from grafu.cli.job import Failed, Job, JobOptions
 from grafu.cli.main import main
-from grafu.cli.progress import with_stages
 from grafu.cli.summary import print_place, print_results
-from grafu.cli.tables import plain_table, wide_console
+from grafu.cli.terminal import plain_table, wide_console, with_stages
 from grafu.cli.verb import internal_fault
 from grafu.visible import visible
 

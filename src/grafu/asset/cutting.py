@@ -17,8 +17,12 @@ from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.pieces import in_words, with_pieces
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
-from grafu.geometry.arrays import Indices, Mat4
-from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import Indices, Mat4, Vec3
+from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.geometry.mesh import merge_meshes
+from grafu.segmentation.config import CreaseConfig
+from grafu.segmentation.creases import back_of, drawn_fronts
 from grafu.segmentation.division import FacePiece, divided
 from grafu.segmentation.joining import joined_objects
 from grafu.vocabulary import PartLabel
@@ -38,11 +42,14 @@ class CutConfig:
 
     door_height: float = 0.5
     """Least height of an appliance's door (fraction of its width)."""
+    few: int = 3
+    """Fronts drawn on a surface are looked for where an input has no others, and so many objects at most."""
     thick: float = 0.35
     """What is thicker than this is no board (fraction of its middle side)."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
+        require_ratios(self, "door_height", "thick")
+        require_positive(self, "few")
 
 
 def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", config: CutConfig = CutConfig()) -> Reading:
@@ -60,14 +67,17 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     meshes = [part.mesh.transformed(T) for part in reading.parts]
     open_to = [_may_be_cut(part, config) and part.carried_by is None for part in reading.parts]
     whole = [part.label.is_movable for part in reading.parts]
-    cuts = divided(meshes, open_to, whole, [_materials(part) for part in reading.parts])
+    materials = [_materials(part) for part in reading.parts]
+    cuts = divided(meshes, open_to, whole, materials)
+    if not cuts and not any(whole) and len(reading.parts) <= config.few:
+        cuts = drawn_fronts(meshes, open_to, materials)
     if not cuts:
         return reading
     model = "" if any(part.label is PartLabel.DOOR for part in reading.parts) else name
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
     cut = {reading.parts[k].id for k in cuts}
     parts = tuple(
-        _freed(_named(_part(part, piece, new), piece, model, T, config), cut)
+        _freed(_named(_part(part, piece, new, T), piece, model, T, config), cut)
         for (part, piece), new in zip(pieces, _ids(pieces), strict=True)
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
@@ -146,12 +156,23 @@ def _is_handle(part: Part, piece: FacePiece | None) -> bool:
     return piece is None and part.label is PartLabel.HANDLE
 
 
-def _part(part: Part, piece: FacePiece | None, name: str) -> Part:
+def _part(part: Part, piece: FacePiece | None, name: str, T: Mat4) -> Part:
     if piece is None:
         return replace(part, id=name)
     keeps = piece.role == "body" or (part.label.is_movable == (piece.role == "front") and piece.role != "handle")
     label, by = (part.label, part.labelled_by) if keeps else (PartLabel.UNKNOWN, "none")
-    return replace(part, id=name, surfaces=faces_of_part(part, piece.faces), label=label, labelled_by=by)
+    surfaces = faces_of_part(part, piece.faces)
+    if piece.towards is not None:
+        surfaces = (*surfaces, _back(part, surfaces, piece.towards, T))
+    return replace(part, id=name, surfaces=surfaces, label=label, labelled_by=by)
+
+
+def _back(part: Part, surfaces: tuple[Surface, ...], towards: Vec3, T: Mat4) -> Surface:
+    """Returns back and rim of a front that was drawn on a part, in the material of most of it; `T` turns it upright."""
+    main = max(surfaces, key=lambda surface: surface.mesh.area)
+    front = merge_meshes([surface.mesh for surface in surfaces])
+    thickness = CreaseConfig().thick * float(part.box.size.max())
+    return Surface(back_of(front, T[:3, :3].T @ towards, thickness), main.material)
 
 
 def _named(part: Part, piece: FacePiece | None, model: str, T: Mat4, config: CutConfig) -> Part:

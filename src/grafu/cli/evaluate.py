@@ -134,7 +134,7 @@ def _words(text: str) -> tuple[str, ...]:
 def _do(tasks: "Sequence[Task]", rows: "dict[str, ResultRow]", file: Path, jobs: int, limits: "ProcessLimits") -> None:
     """Does the tasks that have no row yet, and keeps each row at once."""
     from grafu.cli.pool import run_all
-    from grafu.cli.progress import with_progress
+    from grafu.cli.terminal import with_progress
     from grafu.evaluation.perform import failed, perform
     from grafu.evaluation.records import append_rows, done
     from grafu.evaluation.tasks import key_of
@@ -166,7 +166,7 @@ def _say(tables: "Sequence[ResultTable]", results: "Results", out: Path) -> None
 
 
 def _print_motion(table: "ResultTable") -> None:
-    from grafu.cli.tables import plain_table, wide_console
+    from grafu.cli.terminal import plain_table, wide_console
     from grafu.evaluation.bootstrap import Figure
     from grafu.evaluation.table import shown
 

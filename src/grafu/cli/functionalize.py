@@ -192,7 +192,7 @@ def _require_weights(options: argparse.Namespace) -> None:
 
 def _run_alone(job: "Job") -> "JobResult":
     from grafu.cli.job import Listener, run_job
-    from grafu.cli.progress import with_stages
+    from grafu.cli.terminal import with_stages
 
     with with_stages(job.name) as on_stage:
         return run_job(job, Listener(on_stage))
@@ -217,7 +217,7 @@ def _told_apart(jobs: "list[Job]", inputs: list[Path], options: argparse.Namespa
 
 def _run_several(jobs: "list[Job]", options: argparse.Namespace) -> "list[JobResult]":
     from grafu.cli.pool import run_jobs
-    from grafu.cli.progress import with_progress
+    from grafu.cli.terminal import with_progress
     from grafu.export.whole_file import clear_remains
 
     workers = options.jobs or os.cpu_count() or 1

@@ -68,7 +68,7 @@ def print_inspection(inspection: "Inspection") -> None:
     """Prints parts, frame, joints and deficiencies on stdout."""
     from rich.markup import escape
 
-    from grafu.cli.tables import wide_console
+    from grafu.cli.terminal import wide_console
 
     console = wide_console()
     console.print(escape(_heading(inspection)), highlight=False)
@@ -94,7 +94,7 @@ def _heading(inspection: "Inspection") -> str:
 def _parts_table(inspection: "Inspection") -> "Table":
     from rich.markup import escape
 
-    from grafu.cli.tables import plain_table
+    from grafu.cli.terminal import plain_table
 
     table = plain_table("part", "category", "by", "size (cm)", "faces", "rides on")
     for part in inspection.parts:
@@ -108,7 +108,7 @@ def _joints_table(joints: "tuple[StatedJoint, ...]") -> "Table":
     from rich.markup import escape
 
     from grafu.articulation.motion_kind import motion_kind
-    from grafu.cli.tables import plain_table
+    from grafu.cli.terminal import plain_table
 
     table = plain_table("joint of", "type", "axis", "limits")
     for joint in joints:
@@ -122,7 +122,7 @@ def _joints_table(joints: "tuple[StatedJoint, ...]") -> "Table":
 def _deficiencies_table(inspection: "Inspection") -> "Table":
     from rich.markup import escape
 
-    from grafu.cli.tables import plain_table
+    from grafu.cli.terminal import plain_table
 
     table = plain_table("missing", "at", "detail")
     for missing in inspection.deficiencies:

@@ -8,7 +8,7 @@ from typing import final
 from rich.markup import escape
 from rich.table import Table
 
-from grafu.cli.tables import plain_table, wide_console
+from grafu.cli.terminal import plain_table, wide_console
 from grafu.data.write_plan import ModelSummary
 
 _NAMED_FAULTS = 10  # faulty models that are named; the rest is counted

@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 def _print_gallery(gallery: "Gallery") -> None:
     from rich.markup import escape
 
-    from grafu.cli.tables import plain_table, wide_console
+    from grafu.cli.terminal import plain_table, wide_console
 
     table = plain_table("id", "title", "class", "natural size (mm)", "range")
     models: list[HingeModel | RailModel] = [*gallery.hinges, *gallery.rails]
@@ -73,7 +73,7 @@ def _print_gallery(gallery: "Gallery") -> None:
 def _print_handles(handles: "Iterable[HandleTemplate]") -> None:
     from rich.markup import escape
 
-    from grafu.cli.tables import plain_table, wide_console
+    from grafu.cli.terminal import plain_table, wide_console
 
     table = plain_table("id", "title", "family", "natural size (mm)", "longest (mm)")
     for handle in handles:

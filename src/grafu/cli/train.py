@@ -146,7 +146,7 @@ def run_training(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the run cannot be begun or gone on with.
     """
-    from grafu.cli.progress import with_progress
+    from grafu.cli.terminal import with_progress
     from grafu.training.loop import RunOptions, train
     from grafu.training.source import source_to_train_on
     from grafu.training.workers import has_device, joined_workers, use_threads

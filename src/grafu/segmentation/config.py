@@ -6,6 +6,7 @@ line states.
 """
 
 from dataclasses import dataclass
+from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_positive
@@ -186,6 +187,30 @@ class DivisionConfig:
 
 @final
 @dataclass(frozen=True, slots=True)
+class CreaseConfig:
+    """Where a welded surface is parted so that fronts drawn on it appear.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    corner: float = radians(20.0)
+    """Least angle of an inner corner (radians)."""
+    rise: float = 0.02
+    """How far the next face rises out of the plane of a face at such a corner (of the distance of their middles)."""
+    facing: float = 0.7
+    """Cosine between a face's normal and the direction to the viewer from which on it faces the viewer."""
+    near: float = 1e-3
+    """How far the edge of a front may reach beyond its outline (of its object's largest side)."""
+    thick: float = 0.015
+    """How thick a front becomes that is drawn as a sheet (of its object's largest side)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
 class JoiningConfig:
     """Which objects without a name are one front or handle.
 
@@ -221,6 +246,8 @@ class SegmentationConfig(ShortRepr):
     """Of whole fronts."""
     division: DivisionConfig = DivisionConfig()
     """Of objects that hide fronts."""
+    creases: CreaseConfig = CreaseConfig()
+    """Of fronts drawn on a surface."""
     joining: JoiningConfig = JoiningConfig()
     """Of objects that are one front."""
 

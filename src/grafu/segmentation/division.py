@@ -10,7 +10,7 @@ from typing import Final, Literal, final
 import numpy as np
 from jaxtyping import Bool, Int
 
-from grafu.geometry.arrays import Indices, Mat3
+from grafu.geometry.arrays import Indices, Mat3, Vec3
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.candidates import Scale, candidates, framed, merged, overlaps
@@ -30,11 +30,13 @@ class FacePiece:
     """Faces of one object that become a part, and its role in that object.
 
     "front" and "handle" are new parts; "rest" is what is left of an object that hid fronts, and "body" a door or drawer
-    without the handles that were drawn in it.
+    without the handles that were drawn in it. A front that was drawn on a surface looks `towards` a unit direction;
+    None: it is a shell of its own.
     """
 
     role: Literal["front", "handle", "rest", "body"]
     faces: Indices
+    towards: Vec3 | None = None
 
 
 @final
@@ -86,7 +88,7 @@ def divided(
 
 @final
 @dataclass(frozen=True, slots=True)
-class _Found:
+class FoundFronts:
     """What one side shows, by object: fronts that objects hide, and objects that are one front with handles on it."""
 
     hidden: dict[int, tuple[FrontShells, ...]]
@@ -108,7 +110,7 @@ class _Found:
 
 def _from_the_best_side(
     shells: MeshShells, may_be_cut: MaskOfObjects, whole: Sequence[bool], config: SegmentationConfig
-) -> _Found:
+) -> FoundFronts:
     """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
 
     A side or the back is a plate that is alone and has no handle, so such a front is not clear.
@@ -116,21 +118,21 @@ def _from_the_best_side(
     several = np.bincount(shells.owner, minlength=len(whole)) > 1
     may = (several & may_be_cut)[shells.owner]
     if not may.any():
-        return _Found({}, {})
-    ahead = clear = _Found({}, {})
+        return FoundFronts({}, {})
+    ahead = clear = FoundFronts({}, {})
     handled: dict[int, FrontShells] = {}
     most = 0.0
     for turn in range(4):
         view = view_of(shells.mesh, shells.shell, shells.owner, axes_from(turn))
-        found = _by_owner(view, may, whole, config)
+        found = fronts_by_object(view, may, whole, config)
         if turn == 0 and found.clear:
             return found
-        area = sum(_outline(view, front) for fronts in found.clear.values() for front in fronts)
+        area = sum(outline(view, front) for fronts in found.clear.values() for front in fronts)
         ahead = found if turn == 0 else ahead
-        clear, most = (_Found(found.clear, found.with_handles), area) if area > most else (clear, most)
+        clear, most = (FoundFronts(found.clear, found.with_handles), area) if area > most else (clear, most)
         handled = handled or found.with_handles
     chosen = clear if clear.hidden else ahead
-    return chosen if chosen.hidden else _Found({}, handled)
+    return chosen if chosen.hidden else FoundFronts({}, handled)
 
 
 def axes_from(turn: int) -> Mat3:
@@ -139,14 +141,16 @@ def axes_from(turn: int) -> Mat3:
     return np.stack([np.cross(_Z, toward), _Z, toward])
 
 
-def _outline(view: ShellsView, front: FrontShells) -> float:
+def outline(view: ShellsView, front: FrontShells) -> float:
     """Returns the area of a front's bounding box as it is seen."""
     shells = [*front.shells]
     size = view.high[shells].max(axis=0) - view.low[shells].min(axis=0)
     return float(size[0] * size[1])
 
 
-def _by_owner(view: ShellsView, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig) -> _Found:
+def fronts_by_object(
+    view: ShellsView, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig
+) -> FoundFronts:
     """Returns the fronts of each object that hides some, and of each that is one with handles."""
     view, members = merged(view, framed(view, config.frames))
     may = may[[shells[0] for shells in members]]
@@ -157,7 +161,7 @@ def _by_owner(view: ShellsView, may: MaskOfShells, whole: Sequence[bool], config
     hidden = {o: fronts for o, fronts in flush.items() if fronts and _hides(view, o, fronts, whole[o], config)}
     others = {o: fronts for o, fronts in flush.items() if o not in hidden}
     single = {o: f[0] for o, f in others.items() if _is_one_with_handles(view, o, f, config.division)}
-    return _Found(
+    return FoundFronts(
         {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()},
         {o: front.made_of(members) for o, front in single.items()},
     )
@@ -182,7 +186,7 @@ def _is_one_with_handles(view: ShellsView, owner: int, fronts: tuple[FrontShells
         return False
     own = view.owner == owner
     size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
-    return _outline(view, fronts[0]) >= config.single * float(size[0] * size[1])
+    return outline(view, fronts[0]) >= config.single * float(size[0] * size[1])
 
 
 def _is_flush(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bool:
@@ -205,7 +209,7 @@ def _hides(
     low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
     size = high - low
     major = _major(view, fronts, config.division.alike)
-    filled = sum(_outline(view, front) for front in major) / float(size[0] * size[1])
+    filled = sum(outline(view, front) for front in major) / float(size[0] * size[1])
     if is_whole or size[2] <= config.division.plate * size[:2].min():
         several = len(major) > 1 and filled >= config.division.filled
         return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major, config.division))
@@ -216,7 +220,7 @@ def _hides(
 
 def _major(view: ShellsView, fronts: tuple[FrontShells, ...], alike: float) -> tuple[FrontShells, ...]:
     """Returns the fronts of some size, `alike` of the largest: rails and stiles are far smaller than their panel."""
-    areas = [_outline(view, front) for front in fronts]
+    areas = [outline(view, front) for front in fronts]
     return tuple(front for front, area in zip(fronts, areas, strict=True) if area >= alike * max(areas))
 
 

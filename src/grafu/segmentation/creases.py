@@ -1,0 +1,198 @@
+"""Fronts drawn on a welded surface: a groove, a step or another material parts them from their case.
+
+The foot of a groove around a door, or the corner where a raised or sunk front meets its frame, is an inner corner; the
+outer edges of a case and of a front are none. So a surface that is parted at its inner corners, and where its material
+changes, has each front as a patch, with the edges that it has.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Bool, Int
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from grafu.geometry.arrays import Faces, Indices, Vec3
+from grafu.geometry.components import welded
+from grafu.geometry.mesh import TriangleMesh
+from grafu.segmentation.candidates import within
+from grafu.segmentation.config import CreaseConfig, SegmentationConfig
+from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object, outline
+from grafu.segmentation.fronts import FrontShells
+from grafu.segmentation.view import ShellsView, view_of
+
+OfFaces = Int[np.ndarray, " faces"]
+Members = Int[np.ndarray, " members"]
+Edges = Int[np.ndarray, " edges"]
+MaskOfFaces = Bool[np.ndarray, " faces"]
+MaskOfEdges = Bool[np.ndarray, " edges"]
+
+
+def drawn_fronts(
+    meshes: Sequence[TriangleMesh],
+    open_to: Sequence[bool],
+    materials: Sequence[Indices],
+    config: SegmentationConfig = SegmentationConfig(),
+) -> dict[int, list[FacePiece]]:
+    """Returns for each mesh on which fronts are drawn what it is cut into, as it is seen from its best side.
+
+    Only clear fronts count: several of one mesh, or one with a handle. `FacePiece.towards` is where they look.
+
+    Args:
+        meshes: the objects of an input, Z up, their front most likely at -Y; any unit.
+        open_to: which of them may be cut.
+        materials: for each mesh the number of each face's material.
+        config: the thresholds.
+    """
+    if not any(len(mesh.faces) and is_open for mesh, is_open in zip(meshes, open_to, strict=True)):
+        return {}
+    most, towards = 0.0, axes_from(0)[2]
+    pieces: dict[int, list[FacePiece]] = {}
+    for axes in map(axes_from, range(4)):
+        pairs = zip(meshes, materials, strict=True)
+        patches = [front_patches(mesh, material, axes[2], config.creases) for mesh, material in pairs]
+        shells = MeshShells.of(meshes, patches)
+        view = view_of(shells.mesh, shells.shell, shells.owner, axes)
+        found = fronts_by_object(view, np.asarray(open_to)[shells.owner], [False] * len(meshes), config)
+        area = sum(outline(view, front) for fronts in found.clear.values() for front in fronts)
+        if area > most:
+            most, towards = area, axes[2]
+            pieces = FoundFronts(_trimmed(found.clear, view, config.creases), {}).pieces(shells)
+        if pieces:
+            break  # the front is most likely at -Y: other sides count only where it shows none
+    return {k: [_looking(piece, towards) for piece in found] for k, found in sorted(pieces.items())}
+
+
+def _trimmed(
+    found: Mapping[int, tuple[FrontShells, ...]], view: ShellsView, config: CreaseConfig
+) -> dict[int, tuple[FrontShells, ...]]:
+    """Returns fronts without what reaches beyond the outline of their plate: the groove around it stays in its case."""
+    near = config.near * float((view.high.max(axis=0) - view.low.min(axis=0)).max())
+    return {
+        owner: tuple(
+            replace(front, shells=tuple(s for s in front.shells if s == front.shells[0] or inner[s]))
+            for front in fronts
+            for inner in (within(view, front.shells[0], near),)
+        )
+        for owner, fronts in found.items()
+    }
+
+
+def _looking(piece: FacePiece, towards: Vec3) -> FacePiece:
+    return replace(piece, towards=towards) if piece.role == "front" else piece
+
+
+def front_patches(mesh: TriangleMesh, material: OfFaces, towards: Vec3, config: CreaseConfig) -> OfFaces:
+    """Returns for each face the number of its patch, as a viewer sees them from the unit direction `towards`.
+
+    Patches end at inner corners of the surface, and where the number of the material changes. One that shows several
+    faces to the viewer is parted between them: each takes what lies behind its own outline.
+    """
+    if not len(mesh.faces):
+        return np.zeros(0, np.int64)
+    first, second, is_corner = _edges(mesh, config)
+    is_corner |= material[first] != material[second]
+    patch = _numbers(len(mesh.faces), first, second, ~is_corner)
+    ahead = mesh.face_normals @ towards > config.facing
+    facet = _numbers(len(mesh.faces), first, second, ~is_corner & ahead[first] & ahead[second])
+    shown = np.unique(np.column_stack([patch[ahead], facet[ahead]]), axis=0)
+    counts = np.bincount(shown[:, 0], minlength=int(patch.max()) + 1)
+    number = patch.copy()
+    for one in np.flatnonzero(counts > 1).tolist():
+        _part(number, np.flatnonzero(patch == one), facet, ahead, mesh, towards, config)
+    return np.unique(number, return_inverse=True)[1].reshape(-1).astype(np.int64)
+
+
+def _part(
+    number: OfFaces,
+    members: Members,
+    facet: OfFaces,
+    ahead: MaskOfFaces,
+    mesh: TriangleMesh,
+    towards: Vec3,
+    config: CreaseConfig,
+) -> None:
+    """Gives new numbers to the faces of a patch that shows several faces; what is behind none of them keeps its own."""
+    across = mesh.triangles[members] @ np.stack([np.cross((0.0, 0.0, 1.0), towards), (0.0, 0.0, 1.0)]).T
+    low, high = across.min(axis=1), across.max(axis=1)
+    near = config.near * float(mesh.box.size.max())
+    own = facet[members]
+    for one in np.unique(own[ahead[members]]).tolist():
+        inside = own == one
+        left, right = low[inside].min(axis=0) - near, high[inside].max(axis=0) + near
+        behind = (low >= left).all(axis=1) & (high <= right).all(axis=1) & ~ahead[members]
+        number[members[inside | behind]] = len(mesh.faces) + one
+
+
+def _numbers(count: int, first: Edges, second: Edges, kept: MaskOfEdges) -> OfFaces:
+    graph = coo_matrix((np.ones(int(kept.sum()), np.int8), (first[kept], second[kept])), (count, count))
+    return connected_components(graph, directed=False)[1].astype(np.int64)
+
+
+def _edges(mesh: TriangleMesh, config: CreaseConfig) -> tuple[Edges, Edges, MaskOfEdges]:
+    """Returns the pairs of faces that share an edge which no third has, and whether an inner corner runs along it.
+
+    A surface whose normals point inwards as a whole is read inside out; two faces turned opposite ways have no corner.
+    """
+    first, second, agree = _shared_edges(welded(mesh.vertices)[mesh.faces])
+    normals, middles = mesh.face_normals, mesh.triangles.mean(axis=1)
+    outwards = 1.0 if _volume(mesh) >= 0 else -1.0
+    apart = middles[second] - middles[first]
+    rises = outwards * np.einsum("ij,ij->i", apart, normals[first]) > config.rise * np.linalg.norm(apart, axis=1)
+    turns = np.einsum("ij,ij->i", normals[first], normals[second]) < np.cos(config.corner)
+    return first, second, agree & turns & rises
+
+
+def _shared_edges(position: Faces) -> tuple[Edges, Edges, MaskOfEdges]:
+    """Returns the pairs of faces that share an edge which no third has, and whether the two are turned one way."""
+    start, end = position.ravel(), np.roll(position, -1, axis=1).ravel()
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    key = low * (int(high.max()) + 1) + high
+    order = np.argsort(key, kind="stable")
+    begin = np.flatnonzero(np.r_[True, np.diff(key[order]) != 0])
+    pairs = begin[np.diff(np.r_[begin, len(key)]) == 2]
+    one, other = order[pairs], order[pairs + 1]
+    return one // 3, other // 3, start[one] != start[other]
+
+
+def _volume(mesh: TriangleMesh) -> float:
+    a, b, c = (mesh.triangles[:, k] - mesh.box.center for k in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum())
+
+
+def back_of(mesh: TriangleMesh, towards: Vec3, thickness: float, facing: float = CreaseConfig().facing) -> TriangleMesh:
+    """Returns the back of a front that was cut out of a surface, and the rim that joins it to the front.
+
+    A front with edges of its own ends where these do; a sheet becomes a board. The faces ahead are copied onto the
+    plane of the back.
+
+    Args:
+        mesh: the front, in one piece.
+        towards: the unit direction that it looks in.
+        thickness: of a sheet, in the unit of the mesh.
+        facing: cosine between that direction and a normal from which on a face is one ahead.
+    """
+    used, faces = np.unique(welded(mesh.vertices)[mesh.faces], return_inverse=True)
+    faces = faces.reshape(-1, 3)
+    points = np.zeros((len(used), 3))
+    points[faces] = mesh.triangles
+    depth = points @ towards
+    back = min(float(depth.min()), float(depth.max()) - thickness)
+    flat = points + np.outer(back - depth, towards)
+    ahead = faces[mesh.face_normals @ towards > facing]
+    start, end = _border(faces)
+    count = len(points)
+    rim = [np.column_stack([end, start, start + count]), np.column_stack([end, start + count, end + count])]
+    whole = TriangleMesh(np.vstack([points, flat]), np.vstack([ahead[:, ::-1] + count, *rim]))
+    return whole.with_faces(np.flatnonzero(whole.face_areas > 0))
+
+
+def _border(faces: Faces) -> tuple[Edges, Edges]:
+    """Returns start and end of the edges that one face alone has, as that face runs along them."""
+    start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    key = low * (int(high.max()) + 1) + high
+    _, number, counts = np.unique(key, return_inverse=True, return_counts=True)
+    alone = counts[number.reshape(-1)] == 1
+    return start[alone], end[alone]

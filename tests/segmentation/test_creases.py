@@ -1,0 +1,147 @@
+"""Fronts that are drawn on one welded surface: grooves, raised and sunk panels, another material."""
+
+import manifold3d
+import numpy as np
+import pytest
+import trimesh
+from trimesh.visual import TextureVisuals
+from trimesh.visual.material import PBRMaterial
+
+import grafu
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.segmentation.config import CreaseConfig
+from grafu.segmentation.creases import back_of, drawn_fronts, front_patches
+
+FRONT = np.array([0.0, -1.0, 0.0])
+SIZE = (0.6, 0.4, 0.8)
+# Two drawers above each other and a door below them, each as x and z from the lower left corner.
+FRONTS = (((0.03, 0.57), (0.64, 0.77)), ((0.03, 0.57), (0.48, 0.61)), ((0.03, 0.57), (0.03, 0.45)))
+
+
+def solid(low, high):
+    cube = manifold3d.Manifold.cube([h - lo for lo, h in zip(low, high, strict=True)])
+    return cube.translate([float(v) for v in low])
+
+
+def as_mesh(body) -> TriangleMesh:
+    found = body.to_mesh()
+    return TriangleMesh(np.asarray(found.vert_properties)[:, :3].astype(float), np.asarray(found.tri_verts))
+
+
+def cabinet(drawn: str, fronts=FRONTS) -> TriangleMesh:
+    """One closed surface of a cabinet whose front, at y = 0, has fronts drawn on it."""
+    body = solid((0, 0, 0), SIZE)
+    for (left, right), (low, high) in fronts:
+        if drawn == "groove":
+            ring = solid((left - 0.004, -1, low - 0.004), (right + 0.004, 0.02, high + 0.004))
+            body -= ring - solid((left, -2, low), (right, 2, high))
+        elif drawn == "raised":
+            body += solid((left, -0.015, low), (right, 0.1, high))
+        else:
+            body -= solid((left, -1, low), (right, 0.01, high))
+    return as_mesh(body)
+
+
+def cut(*meshes, materials=None):
+    numbers = materials or [np.zeros(len(m.faces), np.int64) for m in meshes]
+    return drawn_fronts(meshes, [True] * len(meshes), numbers)
+
+
+def outlines(mesh, pieces, role="front"):
+    boxes = [mesh.with_faces(piece.faces).box for piece in pieces if piece.role == role]
+    return sorted(tuple(np.round([b.low[0], b.high[0], b.low[2], b.high[2]], 4)) for b in boxes)
+
+
+EXPECTED = sorted((*x, *z) for x, z in FRONTS)
+
+
+@pytest.mark.parametrize("drawn", ["groove", "raised", "sunk"])
+def test_fronts_drawn_on_one_surface_are_found(drawn):
+    mesh = cabinet(drawn)
+    found = cut(mesh)
+    assert outlines(mesh, found[0]) == EXPECTED
+    assert all(np.allclose(piece.towards, FRONT) for piece in found[0] if piece.role == "front")
+    assert sum(len(piece.faces) for piece in found[0]) == len(mesh.faces)
+
+
+@pytest.mark.parametrize("turn", [1, 2, 3])
+def test_they_are_found_from_whichever_side_they_look(turn):
+    T = np.linalg.matrix_power(np.array([[0.0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]), turn)
+    found = cut(cabinet("groove").transformed(T))
+    towards = [piece.towards for piece in found[0] if piece.role == "front"]
+    assert len(towards) == 3
+    assert np.allclose(towards, T[:3, :3] @ FRONT)
+
+
+def test_a_surface_that_is_inside_out_is_read_as_it_is_meant():
+    mesh = cabinet("groove")
+    turned, one = TriangleMesh(mesh.vertices, mesh.faces[:, ::-1]), np.zeros(len(mesh.faces), np.int64)
+    found = [len(np.unique(front_patches(m, one, d, CreaseConfig()))) for m, d in ((mesh, FRONT), (turned, -FRONT))]
+    assert found[0] == found[1]
+
+
+def test_another_material_draws_a_front_on_an_even_face():
+    grid = trimesh.remesh.subdivide_to_size(*_box(), max_edge=0.06)
+    mesh = TriangleMesh(*grid)
+    middles = mesh.triangles.mean(axis=1)
+    ahead = mesh.face_normals @ FRONT > 0.9
+    upper = ahead & (middles[:, 2] > 0.45) & (middles[:, 2] < 0.75) & (np.abs(middles[:, 0] - 0.3) < 0.25)
+    lower = ahead & (middles[:, 2] > 0.05) & (middles[:, 2] < 0.4) & (np.abs(middles[:, 0] - 0.3) < 0.25)
+    found = cut(mesh, materials=[np.where(upper | lower, 1, 0)])
+    assert [piece.role for piece in found[0]].count("front") == 2
+
+
+def _box():
+    body = trimesh.creation.box(SIZE)
+    body.apply_translation(np.array(SIZE) / 2)
+    return body.vertices, body.faces
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        cabinet("groove", ()),
+        cabinet("raised", FRONTS[2:]),
+        TriangleMesh.from_trimesh(trimesh.creation.icosphere(3, 0.4)),
+        TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64)),
+    ],
+    ids=["a plain box", "a single panel without a handle", "a ball", "nothing"],
+)
+def test_a_surface_without_clear_fronts_stays_whole(mesh):
+    assert cut(mesh) == {}
+
+
+def test_a_single_front_with_a_handle_is_clear():
+    handle = TriangleMesh.box_mesh(Box(np.array([0.5, -0.05, 0.2]), np.array([0.52, -0.015, 0.35])))
+    mesh = merge_meshes([cabinet("raised", FRONTS[2:]), handle])
+    assert [piece.role for piece in cut(mesh)[0]] == ["rest", "front", "handle"]
+
+
+@pytest.mark.parametrize(("drawn", "thick"), [("groove", 0.02), ("raised", 0.015), ("sunk", 0.012)])
+def test_a_front_gets_a_back_and_bounds_a_solid(drawn, thick):
+    mesh = cabinet(drawn)
+    for piece in cut(mesh)[0]:
+        if piece.role == "front":
+            front = mesh.with_faces(piece.faces)
+            whole = merge_meshes([front, back_of(front, FRONT, 0.012)])
+            assert whole.box.size[1] == pytest.approx(thick, abs=1e-6)
+            assert trimesh.Trimesh(whole.vertices, whole.faces).is_watertight
+            assert trimesh.Trimesh(whole.vertices, whole.faces).volume > 0
+
+
+def test_such_a_cabinet_works_and_the_report_says_what_was_cut(tmp_path):
+    mesh = cabinet("groove")
+    material = PBRMaterial(baseColorFactor=[180, 120, 60, 255], name="oak")
+    visual = TextureVisuals(uv=mesh.vertices[:, [0, 2]], material=material)
+    path = tmp_path / "cabinet.glb"
+    upright = trimesh.Trimesh(mesh.vertices, mesh.faces, visual=visual, process=False)
+    upright.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, (1, 0, 0)))
+    upright.export(path)
+    result = grafu.functionalize(path)
+
+    assert len(result.joints) == 3
+    assert result.report.verdict.colour != "red"
+    assert any("was cut into 3 fronts" in note for note in result.report.input.notes)
+    fronts = [part for part in result.made.asset.parts if part.id in {joint.part for joint in result.joints}]
+    assert {surface.material.name for part in fronts for surface in part.surfaces} == {"oak"}
