@@ -16,7 +16,7 @@ from .state import fill_slot, free_slot, report_of, session_of, settings_of, sho
 MOTIONS = [
     ("auto", "Automatic", "The trained network, or the rule where there are no weights"),
     ("network", "Network", "The trained network"),
-    ("rule", "Rule", "Carpenters' rules on names, boxes and handles"),
+    ("rule", "Rule", "The rule-based baseline: names, boxes and handles"),
 ]
 _TICK = 0.1  # seconds between looks at the process
 _active = None

@@ -28,6 +28,7 @@ from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.settings import Settings
 from grafu.synth.generate import make_specimen
 from grafu.synth.samples import NOISY, TIDY
 from grafu.templates.gallery import builtin_gallery
@@ -128,7 +129,7 @@ def judge(asset: Asset, source: MotionSource, kinds: Sequence[str] = KINDS) -> V
 
 
 def _run(asset: Asset, source: MotionSource, additions: AdditionConfig = DEFAULT) -> Functionalized:
-    return functionalize(asset, source, builtin_gallery(), PipelineConfig(additions=additions))
+    return functionalize(asset, source, builtin_gallery(), PipelineConfig(Settings(additions=additions)))
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.settings import Settings
 from grafu.render.camera import Camera, three_quarter_view
 from grafu.render.picture import Picture, box_of, contact_sheet, opened_values, posed_visuals, render
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -189,7 +190,7 @@ def _with_basin(asset: Asset, rim: float) -> Asset:
 
 
 def _made(asset: Asset, additions: AdditionConfig | None = None) -> Functionalized:
-    config = PipelineConfig(additions=additions or AdditionConfig())
+    config = PipelineConfig(Settings(additions=additions or AdditionConfig()))
     return functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
 
 

@@ -67,7 +67,7 @@ RETIRED |= {
     r"(?<!\.)\bshares? *=(?!half)": "ratio, fraction",
 }
 RETIRED |= {
-    r"(?i)\bcarpenter's rules?\b|carpenter_rules|_the_carpenter\b": "rule-based baseline",
+    r"(?i)\bcarpenters?'?s? rules?\b|carpenter_rules|_the_carpenter\b": "rule-based baseline",
     r"\b(?:[Mm]odels|[Ff]urniture|[Cc]opies) without end\b|\bwith its truth\b": "endless stream, with ground truth",
     r"\bmjcf_looks\b|\bclass Look\b": "material",
     r"\bLACKING\b": "missing, incomplete",

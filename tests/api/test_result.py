@@ -9,6 +9,7 @@ import grafu
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import HandleChoice
 from grafu.errors import ExportError, OptionError
+from grafu.pipeline.functionalize import PipelineConfig
 from grafu.vocabulary import MechanismClass
 
 SAMPLES = Path(__file__).parent.parent.parent / "samples"
@@ -35,7 +36,7 @@ def test_a_result_prints_in_one_short_line(chest: grafu.Result) -> None:
 
 def test_records_and_settings_print_in_a_few_lines(wardrobe: grafu.Result) -> None:
     changed = replace(AdditionConfig(), top=None, rejected=frozenset({"a"}), fronts={"door_1": HandleChoice("grip")})
-    values = (wardrobe.report, *wardrobe.joints, wardrobe.settings, changed, wardrobe.settings.pipeline())
+    values = (wardrobe.report, *wardrobe.joints, wardrobe.settings, changed, PipelineConfig(wardrobe.settings))
     assert max(len(text) for value in values for text in (repr(value), str(value))) <= 350
     assert repr(AdditionConfig()) == "AdditionConfig()"
     assert "top=None" in repr(changed)

@@ -12,7 +12,7 @@ import bpy
 
 from blender_addon import objects, state
 from grafu.asset.load import load_asset
-from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.templates.gallery import builtin_gallery
 
 FACTS = []
@@ -51,7 +51,7 @@ def expected() -> list:
         path = Path(folder) / "model.glb"
         objects.export_sources(bpy.context, objects.sources_of(session()), path)
         asset = load_asset(path, settings.reading)
-    made = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline()).object
+    made = functionalize(asset, settings.motion, builtin_gallery(), PipelineConfig(settings)).object
     things = [("link", link.id, 0.0) for link in made.links]
     things += [("joint", j.id, round(j.limits.upper, 4)) for j in made.joints]
     things += [(v.role.value, v.name, 0.0) for link in made.links for v in link.visuals]

@@ -9,6 +9,7 @@ from grafu.asset.part import Asset
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from judging import hardware, installed, realized, swept_collisions
 from small_scenes import box, scene, sliding
@@ -41,7 +42,7 @@ def desk(walls=4, low=0.12, joints=()) -> Asset:
 
 
 def by_rule(asset, **motions):
-    config = PipelineConfig(motions=motions)
+    config = PipelineConfig(Settings(motions=motions))
     return functionalize(asset, MotionSource.RULE, builtin_gallery(), config)
 
 
@@ -118,7 +119,7 @@ def test_a_user_may_let_a_part_slide_up():
         shutter(),
         MotionSource.RULE,
         builtin_gallery(),
-        PipelineConfig(motions={"door_sash": MotionChoice(Moves.SLIDES, Side.TOP)}),
+        PipelineConfig(Settings(motions={"door_sash": MotionChoice(Moves.SLIDES, Side.TOP)})),
     )
     joint = made.object.joint_of["door_sash"]
     assert np.allclose(joint.axis.direction, (0, 0, 1))

@@ -16,6 +16,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.metrics.panels import empty_rooms
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.settings import Settings
 from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery
 
@@ -31,7 +32,7 @@ def still(*visuals: Visual) -> ArticulatedObject:
 
 
 def rooms(asset: Asset, config: AdditionConfig = NO_ADDITIONS):
-    made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), PipelineConfig(additions=config))
+    made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), PipelineConfig(Settings(additions=config)))
     return empty_rooms(made.object)
 
 

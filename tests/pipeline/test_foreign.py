@@ -19,6 +19,7 @@ from grafu.pipeline.foreign import prediction_for, read_foreign
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import Settings
 from grafu.synth.truth.clashes import articulated_of
 from grafu.templates.gallery import builtin_gallery
 from predictions import cabinet, require_same_joints
@@ -30,7 +31,7 @@ FILES = {
     "singapo": export_singapo(articulated_of(CABINET)),
     "urdf": export_urdf(articulated_of(CABINET)),
 }
-PLAIN = PipelineConfig(additions=NO_ADDITIONS)
+PLAIN = PipelineConfig(Settings(additions=NO_ADDITIONS))
 
 
 @pytest.mark.parametrize("kind", FILES)

@@ -20,6 +20,7 @@ from grafu.pipeline.functionalize import MOTIONS, Functionalized, PipelineConfig
 from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
+from grafu.pipeline.settings import Settings
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
@@ -135,7 +136,9 @@ def test_the_report_names_how_each_part_is_grasped(result: Functionalized) -> No
 
 
 def test_what_may_not_be_added_is_not(asset: Asset) -> None:
-    bare = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), PipelineConfig(additions=NO_ADDITIONS))
+    bare = functionalize(
+        asset, MotionSource.ANNOTATION, builtin_gallery(), PipelineConfig(Settings(additions=NO_ADDITIONS))
+    )
     assert grasps(bare) == {PartLabel.DRAWER: "handle", PartLabel.DOOR: "none"}
     assert bare.additions == ()
     assert report_of(bare).added == ()
@@ -152,7 +155,7 @@ def test_what_was_added_is_a_part_like_any_other(result: Functionalized) -> None
 
 
 def test_a_grip_is_carved_where_it_is_asked_for(asset: Asset) -> None:
-    config = PipelineConfig(additions=replace(AdditionConfig(), handles=None))
+    config = PipelineConfig(Settings(additions=replace(AdditionConfig(), handles=None)))
     carved = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
     assert grasps(carved) == {PartLabel.DRAWER: "handle", PartLabel.DOOR: "recess"}
     (grip,) = report_of(carved).added
@@ -162,7 +165,7 @@ def test_a_grip_is_carved_where_it_is_asked_for(asset: Asset) -> None:
 
 
 def test_interiors_are_furnished_on_request(asset: Asset) -> None:
-    config = PipelineConfig(additions=replace(AdditionConfig(), interior=parse_interior("shelves=1")))
+    config = PipelineConfig(Settings(additions=replace(AdditionConfig(), interior=parse_interior("shelves=1"))))
     furnished = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
     shelves = [part for part in report_of(furnished).added if part.category is PartLabel.SHELF]
     assert [shelf.link for shelf in shelves] == [furnished.object.root]

@@ -28,7 +28,7 @@ from grafu.joints.motion_choice import (
     motion_as_choice,
 )
 from grafu.joints.plan import JointChoice
-from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_choices import REJECTED, motions_of
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
@@ -59,7 +59,7 @@ def named(asset: Asset, label: PartLabel) -> str:
 
 def run(asset: Asset, chosen: Settings) -> Functionalized:
     again = settings_from_json(json.loads(json.dumps(chosen.to_json())))
-    result = functionalize(asset, again.motion, builtin_gallery(), again.pipeline())
+    result = functionalize(asset, again.motion, builtin_gallery(), PipelineConfig(again))
     report_of(result)
     return result
 

@@ -9,7 +9,7 @@ import pytest
 from grafu.additions.top.config import TopConfig
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
-from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings, settings_from_json
@@ -29,7 +29,7 @@ def replacing(source: MotionSource, **top) -> Settings:
 
 def run(asset: Asset, chosen: Settings) -> Functionalized:
     again = settings_from_json(json.loads(json.dumps(chosen.to_json())))
-    return functionalize(asset, again.motion, builtin_gallery(), again.pipeline())
+    return functionalize(asset, again.motion, builtin_gallery(), PipelineConfig(again))
 
 
 def tops(result: Functionalized) -> dict[str, float]:

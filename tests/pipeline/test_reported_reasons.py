@@ -10,6 +10,7 @@ from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of, skipped_record
 from grafu.pipeline.report_schema import NOT_ADDED, Report, SkippedRecord
+from grafu.pipeline.settings import Settings
 from grafu.pipeline.triage import left_out
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -29,7 +30,7 @@ def report() -> Report:
         interior=parse_interior("shelves=20"),
         compartments={99: CompartmentChoice(shelves=1)},
     )
-    config = PipelineConfig(additions=additions)
+    config = PipelineConfig(Settings(additions=additions))
     return report_of(functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config))
 
 

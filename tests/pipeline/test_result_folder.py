@@ -10,7 +10,7 @@ import pytest
 from grafu.asset.load import load_asset
 from grafu.cli.main import main
 from grafu.errors import FunctionalizationError
-from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.result_folder import read_result
 from grafu.templates.gallery import builtin_gallery
@@ -38,7 +38,7 @@ def edit(path: Path, **changes) -> None:
 
 def again(read):
     asset = load_asset(read.source, read.settings.reading)
-    return functionalize(asset, read.settings.motion, builtin_gallery(), read.settings.pipeline()).object
+    return functionalize(asset, read.settings.motion, builtin_gallery(), PipelineConfig(read.settings)).object
 
 
 def shape(made):

@@ -21,7 +21,7 @@ from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
 from grafu.joints.plan import AUTOMATIC, JointChoice
-from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import SCHEMA, Settings, settings_from_json
@@ -61,7 +61,7 @@ def asset() -> Asset:
 
 def run(asset: Asset, chosen: Settings) -> Functionalized:
     again = settings_from_json(json.loads(json.dumps(chosen.to_json())))
-    result = functionalize(asset, again.motion, builtin_gallery(), again.pipeline())
+    result = functionalize(asset, again.motion, builtin_gallery(), PipelineConfig(again))
     report_of(result)  # every choice can be reported
     return result
 

@@ -6,7 +6,7 @@ import pytest
 
 from grafu.additions.config import NO_ADDITIONS
 from grafu.joints.plan import PIVOT, JointChoice
-from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
@@ -23,7 +23,7 @@ BASE = Settings(MotionSource.ANNOTATION)
 
 
 def reported(chosen: Settings) -> Report:
-    return report_of(functionalize(ASSET, chosen.motion, builtin_gallery(), chosen.pipeline()))
+    return report_of(functionalize(ASSET, chosen.motion, builtin_gallery(), PipelineConfig(chosen)))
 
 
 @pytest.fixture(scope="module")

@@ -19,6 +19,7 @@ from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import ClearanceRecord, GuessRecord, JointRecord, Report, SkippedRecord
+from grafu.pipeline.settings import Settings
 from grafu.pipeline.triage import Level, joint_states
 from grafu.pipeline.verdict import VerdictConfig, verdict_of
 from grafu.pipeline.words import Colour, FaultKind
@@ -42,8 +43,8 @@ def cabinet(layout: int) -> Asset:
 
 
 def reported(asset: Asset, source: MotionSource = MotionSource.ANNOTATION, **config) -> Report:
-    settings = PipelineConfig(additions=NO_ADDITIONS, **config)
-    return report_of(functionalize(asset, source, GALLERY, settings))
+    chosen = PipelineConfig(Settings(additions=NO_ADDITIONS, **config))
+    return report_of(functionalize(asset, source, GALLERY, chosen))
 
 
 @cache

@@ -16,7 +16,7 @@ from grafu.asset.load import load_asset
 from grafu.export.blend.process import unpacked
 from grafu.export.glb import export_glb
 from grafu.joints.plan import JointChoice
-from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.interactive import compartments_to_json, run
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
@@ -59,7 +59,7 @@ def test_a_run_that_keeps_gives_what_a_fresh_one_gives(change, cache):
     settings = CHANGES[change]
     asset = load_asset(SAMPLE)
     fresh, again = (
-        functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), cache=one)
+        functionalize(asset, settings.motion, builtin_gallery(), PipelineConfig(settings), cache=one)
         for one in (Cache(0), cache)
     )
     assert everything(again) == everything(fresh)
@@ -68,7 +68,7 @@ def test_a_run_that_keeps_gives_what_a_fresh_one_gives(change, cache):
 def test_only_what_a_change_touches_is_made_again(cache):
     def made_by(settings):
         before = dict(cache.made)
-        functionalize(load_asset(SAMPLE), settings.motion, builtin_gallery(), settings.pipeline(), cache=cache)
+        functionalize(load_asset(SAMPLE), settings.motion, builtin_gallery(), PipelineConfig(settings), cache=cache)
         return {name: count - before.get(name, 0) for name, count in cache.made.items() if count > before.get(name, 0)}
 
     made_by(BASE)

@@ -13,7 +13,7 @@ from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import MotionChoice, choice_in_words
-from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.settings import Settings
 from grafu.processes.cache import CACHED_VALUES, Cache
 from grafu.templates.gallery import open_gallery
@@ -119,7 +119,7 @@ class Request:
         """
         own = load_handles(self.templates) if self.templates else {}
         source = self.foreign or self.settings.motion
-        config = self.settings.pipeline(own)
+        config = PipelineConfig(self.settings, own)
         return functionalize(self.asset, source, open_gallery(self.templates), config, cache=self.cache)
 
 

@@ -241,9 +241,10 @@ def _motions(job: Job) -> "MotionSource | ForeignMotions":
 
 
 def _config(options: JobOptions) -> "PipelineConfig":
+    from grafu.pipeline.functionalize import PipelineConfig
     from grafu.templates.user import load_handles
 
-    return options.settings.pipeline(load_handles(options.templates) if options.templates else {})
+    return PipelineConfig(options.settings, load_handles(options.templates) if options.templates else {})
 
 
 def _require_free(job: Job) -> None:

@@ -18,6 +18,7 @@ from grafu.errors import OptionError
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption
+from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 
@@ -104,7 +105,7 @@ def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = Fa
         AssetError: if a foreign prediction is missing, damaged, or fits no part.
         WeightsError: if the network's weights are missing.
     """
-    config = PipelineConfig(additions=_JOINTS_ALONE) if joints_alone else PipelineConfig()
+    config = PipelineConfig(Settings(additions=_JOINTS_ALONE)) if joints_alone else PipelineConfig()
     if method.can_be_masked:
         return functionalize(asset.without_annotation(), MotionSource(method.name), builtin_gallery(), config)
     if method.folder is None:
@@ -122,5 +123,5 @@ def made_with_labels_hidden(method: Method, asset: Asset, ratio: float, seed: in
     """
     if not method.can_be_masked:
         raise OptionError(f"labels can be hidden from rule and network alone: got `{method.name}`")
-    config = PipelineConfig(additions=_JOINTS_ALONE)
+    config = PipelineConfig(Settings(additions=_JOINTS_ALONE))
     return functionalize(masked(asset, ratio, seed), MotionSource(method.name), builtin_gallery(), config)

@@ -6,7 +6,6 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar, final
 
-from grafu.additions.config import AdditionConfig
 from grafu.additions.step import Addition, StepResult
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.foreign.attach import attach_motions
@@ -26,8 +25,7 @@ from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.lifts import with_lifts
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
-from grafu.joints.motion_choice import MotionChoice
-from grafu.joints.plan import JointChoice, RealizationPlan
+from grafu.joints.plan import RealizationPlan
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
@@ -35,6 +33,7 @@ from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
+from grafu.pipeline.settings import Settings
 from grafu.pipeline.stages import (
     Stages,
     by_contacts,
@@ -55,21 +54,19 @@ T = TypeVar("T")
 @final
 @dataclass(frozen=True)
 class PipelineConfig(ShortRepr):
-    """The configurations of the stages."""
+    """What the user chose, and the configurations of the stages that no setting reaches."""
 
-    parsing: ParsingConfig = ParsingConfig()
-    realization: RealizationConfig = RealizationConfig()
-    additions: AdditionConfig = field(default_factory=AdditionConfig)
+    settings: Settings = Settings()
+    """The user's choices; the motion source and how the input is read are passed on their own."""
     own_handles: Mapping[str, HandleTemplate] = field(default_factory=dict)
     """The user's handle templates by id."""
-    labels: Mapping[str, PartLabel] = field(default_factory=dict)
-    """By the id of a part, its category where the user corrects the input's."""
-    motions: Mapping[str, MotionChoice] = field(default_factory=dict)
-    """By the id of a part, how it moves, or that it does not, whatever the motion source states."""
-    joints: Mapping[str, JointChoice] = field(default_factory=dict)
-    """By the id of a moving part, what is decided about its joint."""
-    weights: Path | None = None
-    """A file of trained weights (ONNX) for the network; None: those that came with the package."""
+    parsing: ParsingConfig = ParsingConfig()
+    realization: RealizationConfig = RealizationConfig()
+
+    @property
+    def joints(self) -> RealizationConfig:
+        """The configuration of joints, as far as the settings allow."""
+        return replace(self.realization, trim=self.realization.trim and self.settings.trim)
 
 
 @final
@@ -185,38 +182,38 @@ def functionalize(
         OptionError: if a foreign source is named, but no motions of its are attached to the asset.
         TooComplex: if the budget does not even hold what cannot be left out.
     """
-    stages = Stages(on_stage, budget)
-    stated, drawers = len(asset.stated_joints), config.realization.drawer
+    stages, settings, joints = Stages(on_stage, budget), config.settings, config.joints
+    stated, drawers = len(asset.stated_joints), joints.drawer
     asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
-    asset = with_moving(corrected(asset, config.labels), config.motions, config.labels, drawers)
-    asset, chosen = _with_source(asset, source, config.weights, stages)
-    motion = _motion(chosen, config.weights)
+    asset = with_moving(corrected(asset, settings.labels), settings.motions, settings.labels, drawers)
+    asset, chosen = _with_source(asset, source, settings.weights, stages)
+    motion = _motion(chosen, settings.weights)
     if not motion.reads_annotation:
         asset = asset.without_annotation()
     parse = partial(cache.value, "parse", parse_graph, asset)  # contacts only
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
-    source_name = f"complete by {chosen} of {config.weights}"
+    source_name = f"complete by {chosen} of {settings.weights}"
     complete = partial(cache.value, source_name, motion.complete, asset, graph)  # who moves, and how
     completion = stages.timed("complete", complete, partial(without_network, graph))
-    completion = with_mounts(with_motions(completion, config.motions, asset), config.joints)
-    requested = config.realization.plan
+    completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
+    requested = joints.plan
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, requested)  # initial axes
     plan = stages.timed("plan", first)
     if not motion.reads_annotation:
-        lifting = at_scale(config.realization.lift, metre_on(asset.extent))
-        plan = with_lifts(with_drawn_hinges(plan, asset, config.realization), completion.completed, lifting)
+        lifting = at_scale(joints.lift, metre_on(asset.extent))
+        plan = with_lifts(with_drawn_hinges(plan, asset, joints), completion.completed, lifting)
     plan = with_choices(
-        plan_with_motions(plan, config.motions, completion, asset), config.joints, asset, gallery, requested
+        plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, requested
     )
-    close = partial(cache.value, "close", closed_plan, plan, asset, config.realization)  # drawers drawn open
+    close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
     plan = stages.timed("close", close, lambda _: plan)
-    add = partial(cache.value, "body", add_before_joints, asset, completion, plan, config.additions.of_body, drawers)
+    add = partial(cache.value, "body", add_before_joints, asset, completion, plan, settings.additions.of_body, drawers)
     body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
     plan, grown = plan.with_attached(body.attached), replace(asset, parts=tuple(body.scene.parts.values()))
-    build = partial(realize, plan, grown, gallery, config.realization, cache)
+    build = partial(realize, plan, grown, gallery, joints, cache)
     realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
-    fit = partial(add_after_joints, realized.scene, completion, config.additions, config.own_handles)
+    fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
@@ -233,7 +230,7 @@ def functionalize(
         tuple(stages.laps),
         tuple(stages.notes),
         stated,
-        frozenset(config.motions),
+        frozenset(settings.motions),
     )
 
 

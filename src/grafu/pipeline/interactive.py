@@ -19,7 +19,7 @@ from grafu.errors import FunctionalizationError
 from grafu.export.blend.process import packed
 from grafu.geometry.transform import transform_points
 from grafu.graph.serialize import completion_to_json, dump_json
-from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import settings_from_bytes
 from grafu.processes.cache import NO_CACHE, Cache
@@ -39,7 +39,7 @@ def run(source: Path, settings_file: Path, folder: Path, cache: Cache = NO_CACHE
     _say("load")
     asset = load_asset(source, settings.reading)
     asset = cache.value("asset", _itself, asset)  # the same object: what was worked out on its meshes stays
-    result = functionalize(asset, settings.motion, builtin_gallery(), settings.pipeline(), _say, cache)
+    result = functionalize(asset, settings.motion, builtin_gallery(), PipelineConfig(settings), _say, cache)
     _say("write")
     (folder / "object.packed").write_bytes(packed(result.object))
     for name, values in (

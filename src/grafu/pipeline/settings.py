@@ -18,12 +18,9 @@ from grafu.additions.interior.request import CompartmentChoice
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
 from grafu.errors import AssetError, OptionError
-from grafu.joints.config import RealizationConfig
 from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import AUTOMATIC, JointChoice
-from grafu.pipeline.functionalize import PipelineConfig
 from grafu.pipeline.motion_source import MotionSource
-from grafu.templates.template import HandleTemplate
 from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
 
@@ -52,18 +49,6 @@ class Settings(ShortRepr):
     def __post_init__(self) -> None:
         if self.motion.is_foreign:
             raise ValueError(f"the motion source {self.motion} reads a file, which settings do not name")
-
-    def pipeline(self, own_handles: Mapping[str, HandleTemplate] | None = None) -> PipelineConfig:
-        """Returns the configuration of `functionalize` that these settings stand for."""
-        return PipelineConfig(
-            realization=RealizationConfig(trim=self.trim),
-            additions=self.additions,
-            own_handles=own_handles or {},
-            labels=self.labels,
-            motions=self.motions,
-            joints=self.joints,
-            weights=self.weights,
-        )
 
     def with_label(self, part: str, label: PartLabel) -> "Settings":
         """Returns the settings in which a part has this category."""
