@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from grafu.additions.config import NO_ADDITIONS
 from grafu.asset.part import Asset
-from grafu.joints.config import RealizationConfig
 from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
@@ -205,7 +204,7 @@ def test_a_front_that_the_source_left_fixed_is_red_and_the_option_that_moves_it_
 
 def test_a_joint_that_collides_is_red_whatever_else_is_said():
     """Doors that are sunk into the case, and nothing may be trimmed."""
-    report = reported(KINDS["doors into the case"](), realization=RealizationConfig(trim=False))
+    report = reported(KINDS["doors into the case"](), trim=False)
     bad = {joint.part for joint in report.joints if joint.collision_share > 0}
     bad |= {skip.request for skip in report.skipped}
     verdict = verdict_of(report)
