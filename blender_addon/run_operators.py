@@ -190,6 +190,9 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
     keep: BoolProperty(
         name="Keep settings", description="Keep what was chosen for the model before", options={"SKIP_SAVE"}
     )
+    small_parts: BoolProperty(
+        name="Small parts", description="Knobs, buttons, wheels and casters get joints of their own"
+    )
 
     @classmethod
     def poll(cls, context):
@@ -222,7 +225,9 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
         from grafu.pipeline.motion_source import MotionSource
         from grafu.pipeline.settings import Settings
 
-        return replace(settings if self.keep else Settings(), motion=MotionSource(self.motion))
+        base = settings if self.keep else Settings()
+        small = self.small_parts or base.small_parts
+        return replace(base, motion=MotionSource(self.motion), small_parts=small)
 
     def unfit(self, before, after):
         """Nothing: it is another model."""

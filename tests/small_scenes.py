@@ -1,6 +1,10 @@
 """Scenes of a few boxes, where what must come out can be said beforehand."""
 
+from dataclasses import replace
 from math import radians
+
+import numpy as np
+import trimesh
 
 from grafu.asset.part import AnnotatedJoint, Asset, Part, PartSource
 from grafu.geometry.appearance import Surface
@@ -18,6 +22,12 @@ def box(name: str, low: Point, high: Point, carried_by: str | None = None) -> Pa
     label = next((PartLabel(w) for w in ("door", "drawer", "handle") if name.startswith(w)), PartLabel.UNKNOWN)
     mesh = TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high)))
     return Part(name, label, (Surface(mesh),), PartSource(name), "annotation", carried_by)
+
+
+def cylinder(name, ends, radius=0.006, carried_by=None) -> Part:
+    tube = trimesh.creation.cylinder(radius=radius, segment=np.array(ends), sections=24)
+    part = box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), carried_by)
+    return replace(part, surfaces=(Surface(TriangleMesh.from_trimesh(tube)),))
 
 
 # A door of 0.4 x 0.6 m in the plane y = 0 that hangs on its left edge, and the wall that it hangs on.

@@ -12,6 +12,7 @@ class Asked(StrEnum):
     """What was asked for."""
 
     JOINT = "joint"  # that a part moves
+    SMALL_JOINT = "small joint"  # that a knob, a button or a wheel moves by itself
     TOP = "top"
     BOARD = "carcass board"  # a back or a bottom
     DRAWER_BOX = "drawer box"

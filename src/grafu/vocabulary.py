@@ -55,6 +55,7 @@ class JointType(StrEnum):
     FIXED = "fixed"
     REVOLUTE = "revolute"
     PRISMATIC = "prismatic"
+    CONTINUOUS = "continuous"  # revolute without limits: a knob, a wheel
 
 
 class MechanismClass(StrEnum):

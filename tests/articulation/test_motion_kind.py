@@ -20,7 +20,9 @@ POINTS = np.array([[0.0, 0.0, 0.0], [1.0, -0.5, 0.3]])
 
 def test_every_joint_type_has_one_kind():
     assert set(MOTION_KINDS) == set(JointType)
-    assert [kind.type for kind in moving_kinds()] == [JointType.REVOLUTE, JointType.PRISMATIC]
+    moving = [JointType.REVOLUTE, JointType.PRISMATIC, JointType.CONTINUOUS]
+    assert [kind.type for kind in moving_kinds()] == moving
+    assert [kind.type for kind in moving_kinds() if not kind.limited] == [JointType.CONTINUOUS]
 
 
 @given(st.floats(-4, 4))

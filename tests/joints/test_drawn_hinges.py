@@ -4,20 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import trimesh
 
-from grafu.asset.part import Part
-from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.plan import AUTOMATIC, JointChoice
 from grafu.joints.realize import realize
 from grafu.vocabulary import JointType
 from judging import GALLERY, installed
-from small_scenes import box, hinged, scene, sliding
+from small_scenes import box, cylinder, hinged, scene, sliding
 
 # A door of 0.4 x 0.6 m before a case, y = -0.02 to 0, and the line along its left border that a source may state.
 CASE = (
@@ -28,12 +24,6 @@ CASE = (
 )
 LEAF = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.6))
 LEFT = hinged(axis=Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0)))
-
-
-def cylinder(name, ends, radius=0.006, carried_by=None) -> Part:
-    tube = trimesh.creation.cylinder(radius=radius, segment=np.array(ends), sections=24)
-    part = box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), carried_by)
-    return replace(part, surfaces=(Surface(TriangleMesh.from_trimesh(tube)),))
 
 
 def knuckles(x, y=-0.008):

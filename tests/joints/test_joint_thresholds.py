@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from grafu.joints.config import BlockConfig, ClearanceConfig, PlanConfig, RealizationConfig, TimeConfig
+from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
@@ -55,6 +56,7 @@ REASONS = {
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
+    "small_parts.py": {"_UP": NUMBERING},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (

@@ -7,23 +7,27 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
 from grafu.additions.top.config import TopConfig
 from grafu.asset.load import load_asset
+from grafu.errors import FunctionalizationError
 from grafu.export.blend.process import unpacked
 from grafu.export.glb import export_glb
 from grafu.joints.plan import JointChoice
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
-from grafu.pipeline.interactive import compartments_to_json, run
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
+from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
+from grafu.pipeline.worker import compartments_to_json, run
 from grafu.processes.cache import Cache
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
+from spoiled_files import DAMAGED, SPOILS
 
 SAMPLE = Path(__file__).parents[2] / "samples" / "sideboard.glb"
 BASE = Settings(motion=MotionSource.RULE)
@@ -106,10 +110,12 @@ def test_one_process_answers_again_and_again_and_ends_with_its_input(tmp_path):
     folder.mkdir()
     with working(folder) as process:
         said = asked(process, folder, BASE)
-        assert said[-1] == "done"
-        assert said[:2] == ["stage load", "stage parse"]
+        stages = ["load", "parse", "complete", "plan", "close", "body", "realize", "fittings", "write"]
+        assert said == [*(f"stage {name}" for name in stages), "done"]
         (first,) = [j for j in unpacked((folder / "object.packed").read_bytes()).joints if j.child == "drawer_1"]
         assert asked(process, folder, {"schema": "none"})[-1].startswith("error settings must be")
+        unknown = BASE.with_joint("door_1", JointChoice(template="spring"))
+        assert asked(process, folder, unknown)[-1].startswith("error ")
         assert asked(process, folder, BASE, tmp_path / "none.glb")[-1].startswith("error ")
         assert asked(process, folder, CHANGES["opening and grip"])[-1] == "done"
         (second,) = [j for j in unpacked((folder / "object.packed").read_bytes()).joints if j.child == "drawer_1"]
@@ -144,6 +150,26 @@ def test_a_fault_of_ours_is_one_line_and_the_end(tmp_path):
         assert process.wait(10) == 1
 
 
-def test_a_run_of_its_own_keeps_nothing(tmp_path):
-    (tmp_path / "settings.json").write_text(json.dumps(BASE.to_json()))
-    assert run(SAMPLE, tmp_path / "settings.json", tmp_path).object.moving_joints
+def test_a_run_of_its_own_writes_all_that_was_asked_for(tmp_path):
+    settings = BASE.with_joint("door_1", JointChoice(count=3))
+    (tmp_path / "settings.json").write_text(json.dumps(settings.to_json()))
+    run(SAMPLE, tmp_path / "settings.json", tmp_path)
+    made = unpacked((tmp_path / "object.packed").read_bytes())
+    report = Report.model_validate_json((tmp_path / "report.json").read_text())
+    assert {j.child for j in made.moving_joints} == {j.part for j in report.joints}
+    assert {j.part: j.count for j in report.joints}["door_1"] == 3
+    assert "nodes" in (tmp_path / "graph.json").read_text()
+    boxes = json.loads((tmp_path / "interior.json").read_text())["compartments"]
+    assert boxes
+    assert all(np.shape(box["corners"]) == (8, 3) for box in boxes)
+
+
+@pytest.mark.parametrize("what", [*SPOILS, *DAMAGED])
+def test_settings_that_cannot_be_read_are_one_line(tmp_path, what):
+    path = tmp_path / "settings.json"
+    path.write_text("{}")
+    SPOILS[what](path) if what in SPOILS else path.write_bytes(DAMAGED[what])
+    with pytest.raises(FunctionalizationError, match=what if what in SPOILS else "settings") as error:
+        run(SAMPLE, path, tmp_path)
+    assert "\n" not in str(error.value)
+    assert not (tmp_path / "object.packed").exists()

@@ -50,6 +50,7 @@ class MotionKind:
         hardware: what such a joint runs on, for people.
         label: what a part that moves so is, where nothing else states it.
         words: what formats call it; the first word is written, all are read.
+        limited: whether its joints have limits. The range of one without them is a full turn, for animations.
     """
 
     type: JointType
@@ -61,6 +62,7 @@ class MotionKind:
     hardware: str
     label: PartLabel
     words: Mapping[MotionFormat, tuple[str, ...]] = field(default_factory=dict)
+    limited: bool = True
 
     @property
     def turns(self) -> bool:
@@ -201,6 +203,28 @@ _ROWS = (
             }
         ),
     ),
+    MotionKind(
+        JointType.CONTINUOUS,
+        turn=1.0,
+        shift=0.0,
+        unit="rad",
+        shown=_DEGREES,
+        verb="turns",
+        hardware="pin",
+        label=PartLabel.MISC,
+        words=MappingProxyType(
+            {
+                "urdf": ("continuous",),
+                "mjcf": ("hinge",),
+                "usd": ("RevoluteJoint",),
+                "usd drive": ("angular",),
+                "blender": ("ANGLE",),
+                "particulate": ("revolute",),
+                "singapo": ("continuous",),
+            }
+        ),
+        limited=False,
+    ),
 )
 MOTION_KINDS: Mapping[JointType, MotionKind] = MappingProxyType({row.type: row for row in _ROWS})
 """All kinds of motion by their type."""
@@ -217,5 +241,5 @@ def moving_kinds() -> tuple[MotionKind, ...]:
 
 
 def kind_named(format_name: MotionFormat, word: str) -> MotionKind | None:
-    """Returns the kind that moves and that a format calls by this word; None: it is none of them."""
+    """Returns the kind that moves and that a format calls by this word, the first of several; None: there is none."""
     return next((row for row in moving_kinds() if word in row.words.get(format_name, ())), None)

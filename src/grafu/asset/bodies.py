@@ -2,11 +2,11 @@
 
 It reads no files and moves nothing. In an annotation, the handle visuals of a moving body become `handle` parts that
 ride on it, and the rest is one door or drawer. Wheels, casters, knobs and buttons that the input lets turn are `misc`
-and stay where they are.
+and stay where they are; their joints are kept apart as the annotation's small joints.
 """
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -142,7 +142,35 @@ def annotation_of_bodies(bodies: list[Body], up: int) -> Annotation | None:
     moved = {i: d.motion for d, i in zip(drafts, ids, strict=True) if d.motion}
     moving = {link: i for link, i in by_body.items() if i in moved}
     joints = tuple(_joint(motion, i, moving) for i, motion in moved.items())
-    return Annotation(parts, joints, tuple(notes))
+    of_body: dict[str, list[str]] = {}
+    for draft, part_id in zip(drafts, ids, strict=True):
+        of_body.setdefault(body_of[draft.visuals[0].link], []).append(part_id)
+    small = tuple(_small_joints(bodies, moving_bodies, of_body))
+    return Annotation(parts, joints, tuple(notes), small)
+
+
+def _small_joints(
+    bodies: list[Body], moving_bodies: set[str], of_body: dict[str, list[str]]
+) -> Iterator[AnnotatedJoint]:
+    """Yields the joints of the bodies that are annotated to move, but are no door or drawer, with all their parts."""
+    parent_of = {body.link: body.parent for body in bodies}
+    for body in bodies:
+        if body.motion is None or body.link in moving_bodies or not of_body.get(body.link):
+            continue
+        part, *own = of_body[body.link]
+        above = (other for other in bodies if body.link in _links_above(other, parent_of))
+        members = (*own, *(part for other in above for part in of_body.get(other.link, ())))
+        yield replace(_joint(replace(body.motion, coupling=None), part, {}), members=members)
+
+
+def _links_above(body: Body, parent_of: Mapping[str, str | None]) -> set[str]:
+    """Returns the links of the bodies that carry a body."""
+    found: set[str] = set()
+    parent = body.parent
+    while parent is not None and parent not in found:
+        found.add(parent)
+        parent = parent_of.get(parent)
+    return found
 
 
 def _is_moving(body: Body, notes: list[str]) -> bool:
@@ -152,7 +180,8 @@ def _is_moving(body: Body, notes: list[str]) -> bool:
     if body.motion is None and _spoken_label(body, body.visuals) is PartLabel.UNKNOWN:
         return False
     if all(is_control(n) or label_of(n) is PartLabel.HANDLE for n in names) or is_control(body.name):
-        notes.append(f"{body.name} ({body.link}) is annotated to move, but is no door or drawer: kept in place")
+        stays = "kept in place" if body.motion is None else "it has a joint with --small-parts only"
+        notes.append(f"{body.name} ({body.link}) is annotated to move, but is no door or drawer: {stays}")
         return False
     return any(label_of(v.name) is not PartLabel.HANDLE for v in body.visuals) or body.parent is None
 

@@ -30,6 +30,7 @@ def moved(asset: Asset, T: Mat4) -> Asset:
         asset,
         parts=tuple(_moved_part(part, T) for part in asset.parts),
         joints=moved_joints(asset.joints, T, scale),
+        small_joints=moved_joints(asset.small_joints, T, scale),
         annotation=asset.annotation and _moved_annotation(asset.annotation, T, scale),
         frame=Frame(T @ frame.input_to_output, frame.up, frame.front, frame.scale * scale, frame.assumed),
     )
@@ -70,7 +71,8 @@ def as_static_object(asset: Asset) -> ArticulatedObject:
 
 def _moved_annotation(annotation: Annotation, T: Mat4, scale: float) -> Annotation:
     parts = tuple(_moved_part(part, T) for part in annotation.parts)
-    return replace(annotation, parts=parts, joints=moved_joints(annotation.joints, T, scale))
+    joints, small = (moved_joints(given, T, scale) for given in (annotation.joints, annotation.small_joints))
+    return replace(annotation, parts=parts, joints=joints, small_joints=small)
 
 
 def _moved_part(part: Part, T: Mat4) -> Part:

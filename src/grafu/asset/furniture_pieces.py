@@ -112,17 +112,8 @@ def _distance(point: np.ndarray, box: Box) -> float:
 
 
 def _annotation_of(annotation: Annotation, chosen: Sequence[bool]) -> Annotation | None:
-    parts = [part for part, is_own in zip(annotation.parts, chosen, strict=True) if is_own]
-    known = {part.id for part in parts}
-    joints = tuple(
-        replace(joint, coupling=joint.coupling if joint.coupling and joint.coupling.leader in known else None)
-        for joint in annotation.joints
-        if joint.part in known
-    )
-    if not joints:
-        return None
-    freed = tuple(replace(p, carried_by=None) if p.carried_by not in known else p for p in parts)
-    return replace(annotation, parts=freed, joints=joints)
+    own = annotation.of_parts(tuple(part for part, is_own in zip(annotation.parts, chosen, strict=True) if is_own))
+    return own if own.joints else None
 
 
 def chosen_piece(pieces: Sequence[FurniturePiece], number: int | None, where: object) -> tuple[str, Reading]:

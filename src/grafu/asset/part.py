@@ -81,7 +81,8 @@ class AnnotatedJoint:
 
     Limits are radians or metres along `axis`; unlike a `Joint`'s they may be negative, reversed or not start at 0,
     and `limited=False` states that the input states none. `stated_by` names who predicted it, where the input did not
-    state it. With a `coupling` the input states that it follows the joint of another part, which it names.
+    state it. With a `coupling` the input states that it follows the joint of another part, which it names. `members`
+    are other parts of the same rigid body, and what that carries, where they do not ride on the part (`carried_by`).
     """
 
     part: str
@@ -92,6 +93,7 @@ class AnnotatedJoint:
     limited: bool = True
     stated_by: str = "annotation"
     coupling: Coupling | None = None
+    members: tuple[str, ...] = ()
 
 
 @final
@@ -100,6 +102,7 @@ class Annotation:
     """What an input states about its motions: its parts as its moving bodies group, label and carry them; their joints.
 
     The pieces of a body that moves are one part here, whatever they are called. `notes` states what was decided.
+    `small_joints` are those of knobs, buttons and wheels: parts of what carries them unless small parts are asked for.
 
     Raises:
         AssetError: if part ids repeat, or `carried_by` or a joint names a part that is not there.
@@ -108,9 +111,26 @@ class Annotation:
     parts: tuple[Part, ...]
     joints: tuple[AnnotatedJoint, ...] = ()
     notes: tuple[str, ...] = ()
+    small_joints: tuple[AnnotatedJoint, ...] = ()
 
     def __post_init__(self) -> None:
-        _check_names(self.parts, self.joints, "an annotation")
+        _check_names(self.parts, (*self.joints, *self.small_joints), "an annotation")
+
+    def of_parts(self, parts: tuple[Part, ...]) -> "Annotation":
+        """Returns the annotation of these parts alone: joints of others, and followers of such, are left out."""
+        known = {part.id for part in parts}
+        freed = tuple(replace(p, carried_by=None) if p.carried_by not in known else p for p in parts)
+        joints = tuple(
+            replace(joint, coupling=joint.coupling if joint.coupling and joint.coupling.leader in known else None)
+            for joint in self.joints
+            if joint.part in known
+        )
+        small = tuple(
+            replace(joint, members=tuple(member for member in joint.members if member in known))
+            for joint in self.small_joints
+            if joint.part in known
+        )
+        return replace(self, parts=freed, joints=joints, small_joints=small)
 
 
 @final
@@ -143,7 +163,7 @@ class Asset:
 
     Of a file, `parts` are read without its joints: the same with them and without. What it states about its motions is
     the `annotation`, in the same frame, and `as_annotated` is how that sees it. `joints` are those of an asset that was
-    read so, that was made with joints, or that another system's were attached to.
+    read so, that was made with joints, or that another system's were attached to; `small_joints` as in an `Annotation`.
 
     Name, path and notes are kept as UTF-8 can hold them (`writable`).
 
@@ -159,6 +179,7 @@ class Asset:
     joints: tuple[AnnotatedJoint, ...] = ()
     notes: tuple[str, ...] = ()  # what the reader left out or mended, in words
     annotation: Annotation | None = None
+    small_joints: tuple[AnnotatedJoint, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Asset {self.name}: {self.kind}, {len(self.parts)} parts>"
@@ -167,7 +188,7 @@ class Asset:
         object.__setattr__(self, "name", writable(self.name))
         object.__setattr__(self, "path", writable(self.path))
         object.__setattr__(self, "notes", tuple(map(writable, self.notes)))
-        _check_names(self.parts, self.joints, self.path or self.name)
+        _check_names(self.parts, (*self.joints, *self.small_joints), self.path or self.name)
 
     @cached_property
     def _by_id(self) -> dict[str, Part]:
@@ -199,7 +220,8 @@ class Asset:
         if found is None:
             return self
         notes = tuple(dict.fromkeys((*self.notes, *found.notes)))
-        return replace(self, parts=found.parts, joints=found.joints, notes=notes, annotation=None)
+        seen = replace(self, parts=found.parts, joints=found.joints, small_joints=found.small_joints)
+        return replace(seen, notes=notes, annotation=None)
 
     def without_annotation(self) -> "Asset":
         """Returns the same parts without the joints and attachments of the input, and without labels from joints alone.
@@ -208,7 +230,7 @@ class Asset:
         some pieces are one part is kept: a method that is given them knows what belongs together, not how it moves.
         """
         bare = tuple(_without_annotation(part) for part in self.parts)
-        return replace(self, parts=bare, joints=(), annotation=None)
+        return replace(self, parts=bare, joints=(), small_joints=(), annotation=None)
 
     def with_labels(self, labels: dict[str, PartLabel]) -> "Asset":
         """Returns the same asset with some parts relabelled by the user or a prediction."""
@@ -238,6 +260,7 @@ def _check_names(parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...], wh
         raise AssetError(f"part ids must be unique: {whose} repeats one")
     named = {joint.part for joint in joints} | {p.carried_by for p in parts if p.carried_by}
     named |= {joint.coupling.leader for joint in joints if joint.coupling}
+    named |= {member for joint in joints for member in joint.members}
     if not named <= known:
         raise AssetError(f"joints and attached parts must name parts: {whose} lacks {sorted(named - known)}")
 

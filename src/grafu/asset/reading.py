@@ -54,8 +54,9 @@ class Placing:
 
     def annotation(self, annotation: Annotation) -> Annotation:
         """Returns an annotation in the object frame, slides in metres."""
-        joints = moved_joints(annotation.joints, self._T, self._frame.scale)
-        return replace(annotation, parts=self.parts(annotation.parts), joints=joints)
+        T, scale = self._T, self._frame.scale
+        joints, small = (moved_joints(given, T, scale) for given in (annotation.joints, annotation.small_joints))
+        return replace(annotation, parts=self.parts(annotation.parts), joints=joints, small_joints=small)
 
     def _surface(self, surface: Surface) -> Surface:
         key = id(surface.mesh), id(surface.material)
@@ -116,9 +117,7 @@ def cleaned(reading: Reading) -> Reading:
 
 def _cleaned_annotation(annotation: Annotation) -> Annotation:
     parts, _ = _cleaned(annotation.parts)
-    known = {part.id for part in parts}
-    joints = tuple(joint for joint in annotation.joints if joint.part in known)
-    return replace(annotation, parts=parts, joints=joints)
+    return annotation.of_parts(parts)
 
 
 def _cleaned(given: tuple[Part, ...]) -> tuple[tuple[Part, ...], list[str]]:

@@ -87,6 +87,7 @@ def _taken_apart(reading: Reading, path: Path, options: LoadOptions) -> Reading:
     annotation = reading.annotation
     if annotation is not None:
         held = {joint.part for joint in annotation.joints}
+        held |= {part for joint in annotation.small_joints for part in (joint.part, *joint.members)}
         held |= {part for p in annotation.parts if p.carried_by for part in (p.id, p.carried_by)}
         annotation = replace(annotation, parts=loose_parts(annotation.parts, held, allow))
     return replace(reading, parts=parts, annotation=annotation, notes=(*reading.notes, note))

@@ -66,7 +66,7 @@ GRIPS = ("grip", "groove", "edge", "hole")  # `grip`: whichever of the others fi
 
 
 def add_addition_options(parser: argparse.ArgumentParser) -> None:
-    """Adds --only, --no-top, --no-handles, --no-drawer-boxes, --top, --handle, --interior and --complete."""
+    """Adds --only, --no-top, --no-handles, --no-drawer-boxes, --top, --handle, --interior, --small-parts, --complete."""
     group = parser.add_argument_group("what is added (by default: tops, handles, drawer boxes, predicted shelves)")
     group.add_argument("--only", choices=("dynamic",), help="dynamic: joints and their hardware, nothing else is added")
     group.add_argument("--no-top", action="store_true", help="add no top, also where there is none")
@@ -86,6 +86,9 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
         metavar="WHAT",
         help="shelves and dividers: none, predicted, auto, or numbers per compartment like shelves=2,dividers=1 "
         "(default: predicted)",
+    )
+    group.add_argument(
+        "--small-parts", action="store_true", help="knobs, buttons, wheels and casters get joints of their own"
     )
     group.add_argument("--complete", choices=("carcass",), help="carcass: add backs and bottoms that are missing")
 

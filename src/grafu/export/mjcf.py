@@ -141,13 +141,13 @@ class _MjcfWriter:
             "name": self._joints[joint.id],
             "type": joint.kind.word("mjcf"),
             "axis": numbers(joint.axis.direction),
-            "range": numbers([joint.limits.lower, joint.limits.upper]),
             "damping": number(dynamics.damping),
             "frictionloss": number(dynamics.friction),
             "armature": number(self._config.armature * inertia),
             "actuatorfrcrange": numbers([-dynamics.effort, dynamics.effort]),
         }
-        ET.SubElement(body, "joint", attributes)
+        limits = {"range": numbers([joint.limits.lower, joint.limits.upper])} if joint.kind.limited else {}
+        ET.SubElement(body, "joint", attributes | limits)
 
     def _add_visual(self, body: ET.Element, visual: Visual, file: str, origin: Vec3) -> None:
         for drawn in drawn_meshes(visual, file, origin, self._objs.folder):

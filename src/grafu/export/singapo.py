@@ -99,7 +99,7 @@ def _word(body: Iterable[Visual], joint: Joint | None) -> str:
     spoken = [_WORDS[v.label] for v in body if v.label in _WORDS]
     if spoken or not joint.kind.moves:
         return spoken[0] if spoken else "base"
-    return _WORDS[joint.kind.label]
+    return _WORDS.get(joint.kind.label, "knob")
 
 
 def _node(

@@ -10,35 +10,9 @@ from typing import final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.joints.hinge_config import HingeConfig
+from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import ClosingConfig, DrawerConfig, RailConfig
 from grafu.visible import ShortRepr
-
-
-@final
-@dataclass(frozen=True)
-class PlanConfig:
-    """How stated and predicted motions become requests.
-
-    Raises:
-        ValueError: if a fraction is not between 0 and 1.
-    """
-
-    play: float = 0.25
-    """A limit on the other side of the drawn pose below this fraction of the wider one is play, not motion."""
-    beyond: float = 0.05
-    """How far what a moving part carries may stand out of its outline (fraction of the moving part's side)."""
-    carried_area: float = 0.5
-    """Largest outline of what a moving part carries, over its own (fraction of the area)."""
-    nearer_border: float = 0.2
-    """A chosen mount this much nearer to a door's other border carries it there (fraction of the door's width)."""
-    short_turn: float = radians(1.0)
-    """A note states that a door opens by more than this less than was chosen (radians) ..."""
-    short_slide: float = 0.002
-    """... or a drawer, in metres as they are chosen."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, "short_turn", "short_slide")
-        require_ratios(self, "play", "beyond", "carried_area", "nearer_border")
 
 
 @final
@@ -73,6 +47,48 @@ class LiftConfig:
     def __post_init__(self) -> None:
         require_positive(self, "off_floor", "gap", "tube")
         require_ratios(self, "slim", "engaged", "out", "faces", "travel", "covers")
+
+
+@final
+@dataclass(frozen=True)
+class SmallPartConfig:
+    """What counts as a knob, a button, a wheel or a caster; lengths are metres on furniture of usual size.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    LENGTHS = ("knob", "wheel", "touching", "room", "press", "off_floor")
+    knob: tuple[float, float] = (0.01, 0.09)
+    """Smallest and largest side of a knob or a button (metres)."""
+    wheel: tuple[float, float] = (0.02, 0.25)
+    """Smallest and largest diameter of a wheel (metres)."""
+    round: float = 0.88
+    """Least area of a circular outline (fraction of the circle around it): a ten-cornered one has 0.94."""
+    stout: float = 0.25
+    """Least ratio of a knob's length and diameter, either way round: a flat disc and a rod are no knobs."""
+    middle: float = 0.5
+    """Fraction of a knob's width within which it must be held at one end, and nothing may be before the other."""
+    parallel: float = 0.999
+    """Least cosine of the angle between the axes of two pieces of one knob."""
+    touching: float = 0.002
+    """Pieces nearer than this touch; what a knob stands on is so near to its end, or passes through it (metres)."""
+    room: float = 0.05
+    """Before a knob nothing stands as near as this (metres): fingers must get there."""
+    press: float = 0.003
+    """How far a button is pressed (metres)."""
+    off_floor: float = 0.01
+    """How high above the lowest point a wheel may end (metres)."""
+    fork: float = 2.5
+    """Largest side of what holds a wheel, and how far it may lie from it (in diameters of the wheel)."""
+    beside: float = 0.15
+    """How far beside a wheel the cheeks of its fork stand at most (in diameters of the wheel)."""
+    stem: float = 0.1
+    """The axis of a caster goes through the middle of the upper end of its fork (fraction of its height)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+        require_ratios(self, "round", "stout", "middle", "parallel", "stem")
 
 
 @final
@@ -239,6 +255,8 @@ class RealizationConfig(ShortRepr):
     """Of requests."""
     lift: LiftConfig = LiftConfig()
     """Of lifting columns."""
+    small: SmallPartConfig = SmallPartConfig()
+    """Of knobs, buttons, wheels and casters."""
     block: BlockConfig = BlockConfig()
     """Of support blocks."""
     clearance: ClearanceConfig = ClearanceConfig()

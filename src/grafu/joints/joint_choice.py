@@ -12,8 +12,7 @@ from grafu.errors import OptionError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.joints.config import PlanConfig
-from grafu.joints.plan import AUTOMATIC, PIVOT, JointChoice, JointRequest, RealizationPlan, Supports
+from grafu.joints.plan import AUTOMATIC, PIVOT, JointChoice, JointRequest, PlanConfig, RealizationPlan, Supports
 from grafu.scene.border import BorderFrame, border_frame
 from grafu.templates.template import Gallery
 from grafu.vocabulary import RAIL_CLASSES, MechanismClass

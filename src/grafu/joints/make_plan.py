@@ -25,8 +25,7 @@ from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Hinge, MotionEdge, Rail, SignedAxis, Slide, Turn
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import code_to_direction, hinge_to_axis, opening_face, rail_to_axis
-from grafu.joints.config import PlanConfig
-from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
@@ -43,7 +42,7 @@ def plan_from_annotation(asset: Asset, config: PlanConfig = PlanConfig()) -> Rea
     others = {joint.stated_by for joint in asset.joints} - {"annotation"}
     who = " and ".join(sorted(others)) or "the input"
     joints = {joint.part: joint for joint in reversed(asset.joints)}  # a part's first joint counts
-    made = {part: _from_joint(_in_step(joint, joints), asset, config) for part, joint in joints.items()}
+    made = {part: request_of_joint(_in_step(joint, joints), asset, config) for part, joint in joints.items()}
     requests = tuple(_linked(made[part], joints, made, asset) for part in dict.fromkeys(j.part for j in asset.joints))
     stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.carried_by}
     refused = tuple(
@@ -109,7 +108,7 @@ def _descendants(parent: str, below: dict[str, list[str]]) -> list[str]:
     return found
 
 
-def _from_joint(joint: AnnotatedJoint, asset: Asset, config: PlanConfig) -> JointRequest:
+def request_of_joint(joint: AnnotatedJoint, asset: Asset, config: PlanConfig) -> JointRequest:
     """Returns the request of one annotated joint: signed so that positive opens, drawn ajar if its range shows it."""
     lower, upper = (joint.lower, joint.upper) if joint.limited else (0.0, pi / 2)
     lower, upper = min(lower, upper), max(lower, upper)

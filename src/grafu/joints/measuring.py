@@ -110,10 +110,10 @@ def _measure(
     ratio = sweep(body, motion, upper, near, _MEASURED_POSES).ratio
     ends = [MeshCollider(v.mesh) for v in scene.hardware_of(moving)] or [MeshCollider(scene.moving_mesh(moving))]
     held = [MeshCollider(v.mesh) for v in placement.static] or [obstacle.collider for obstacle in near]
-    return ratio, max(_gap(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
+    return ratio, max(gap_between(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
 
 
-def _gap(ends: list[MeshCollider], held: list[MeshCollider], T: Mat4) -> float:
+def gap_between(ends: list[MeshCollider], held: list[MeshCollider], T: Mat4) -> float:
     """Returns the distance in metres of the nearest two pieces, the moving ones posed at T."""
     for end in ends:
         end.place(T)

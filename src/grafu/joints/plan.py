@@ -3,12 +3,13 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from math import isfinite
+from math import isfinite, radians
 from typing import final
 
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.geometry.axis import Axis
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.refusal import Refusal
 from grafu.vocabulary import JointType, MechanismClass
 
@@ -27,6 +28,33 @@ class Supports(StrEnum):
     NONE = "none"  # nothing: rails stand only where they touch both sides
     SLAB = "slab"  # a slab as large as the rail, out to the wall beside it
     DIVIDER = "divider"  # an upright board along the rail, from what stands below to what stands above
+
+
+@final
+@dataclass(frozen=True)
+class PlanConfig:
+    """How stated and predicted motions become requests.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    play: float = 0.25
+    """A limit on the other side of the drawn pose below this fraction of the wider one is play, not motion."""
+    beyond: float = 0.05
+    """How far what a moving part carries may stand out of its outline (fraction of the moving part's side)."""
+    carried_area: float = 0.5
+    """Largest outline of what a moving part carries, over its own (fraction of the area)."""
+    nearer_border: float = 0.2
+    """A chosen mount this much nearer to a door's other border carries it there (fraction of the door's width)."""
+    short_turn: float = radians(1.0)
+    """A note states that a door opens by more than this less than was chosen (radians) ..."""
+    short_slide: float = 0.002
+    """... or a drawer, in metres as they are chosen."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "short_turn", "short_slide")
+        require_ratios(self, "play", "beyond", "carried_area", "nearer_border")
 
 
 @final

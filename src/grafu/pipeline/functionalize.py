@@ -20,14 +20,16 @@ from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.closing import closed_plan
-from grafu.joints.config import PlanConfig, RealizationConfig
+from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.lifts import with_lifts
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
-from grafu.joints.plan import RealizationPlan
+from grafu.joints.plan import PlanConfig, RealizationPlan
+from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
+from grafu.joints.small_joints import with_small_parts
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_weights
@@ -184,12 +186,8 @@ def functionalize(
     """
     stages, settings, joints = Stages(on_stage, budget), config.settings, config.joints
     stated, drawers = len(asset.stated_joints), joints.drawer
-    asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
-    asset = with_moving(corrected(asset, settings.labels), settings.motions, settings.labels, drawers)
-    asset, chosen = _with_source(asset, source, settings.weights, stages)
+    asset, chosen = _with_source(asset, source, settings, drawers, stages)
     motion = _motion(chosen, settings.weights)
-    if not motion.reads_annotation:
-        asset = asset.without_annotation()
     parse = partial(cache.value, "parse", parse_graph, asset)  # contacts only
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
     source_name = f"complete by {chosen} of {settings.weights}"
@@ -215,6 +213,10 @@ def functionalize(
     body, realized = without_idle(body, realized)
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
+    realized = replace(realized, object=fitted_object(realized.object, fittings))
+    if settings.small_parts:
+        small = partial(with_small_parts, realized, asset, joints)
+        realized = stages.timed("small parts", small, lambda _: realized)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(
@@ -222,7 +224,7 @@ def functionalize(
         MotionSource(completion.source) if stages.gave_up("complete") else chosen,
         graph_built,
         plan,
-        fitted_object(realized.object, fittings),
+        realized.object,
         realized.report,
         body,
         fittings,
@@ -235,14 +237,16 @@ def functionalize(
 
 
 def _with_source(
-    asset: Asset, source: MotionSource | ForeignMotions, weights: Path | None, stages: Stages
+    asset: Asset, source: MotionSource | ForeignMotions, settings: Settings, drawers: DrawerConfig, stages: Stages
 ) -> tuple[Asset, MotionSource]:
-    """Returns the asset with the motions that another system predicted, if any, and the source to use."""
+    """Returns the asset as the motion source is to see it, corrected by the user, and the source to use."""
+    asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
+    asset = with_moving(corrected(asset, settings.labels), settings.motions, settings.labels, drawers)
     if isinstance(source, ForeignMotions):
         return stages.timed("match", lambda: attach_motions(asset, source)), MotionSource(source.source)
-    chosen = choose_source(asset, source, weights)
+    chosen = choose_source(asset, source, settings.weights)
     _require_attached(asset, chosen)
-    return asset, chosen
+    return asset if MOTIONS[chosen].reads_annotation else asset.without_annotation(), chosen
 
 
 def _as_built(

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 
-from grafu.articulation.articulated_object import Joint
+from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.joints.report import Installed
@@ -35,6 +35,8 @@ from grafu.pipeline.verdict import verdict_of
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel
+
+_ON_FLOOR = 0.01  # metres: what ends lower stands on the floor
 
 
 def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str, float] | None = None) -> Report:
@@ -115,17 +117,34 @@ def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
     joints = {joint.id: joint for joint in result.object.joints}
     grasps = _grasps(result)
     pulled = {name: result.object.leader_of(joint).child for name, joint in joints.items()}
-    return tuple(
+    small = _small_parts(result)
+    records = (
         _joint_record(made, joints[made.joint], grasps.get(made.moving, grasps.get(pulled[made.joint], "none")))
         for made in result.report.installed
     )
+    return tuple(record.model_copy(update={"small": record.part in small}) for record in records)
+
+
+def _small_parts(result: Functionalized) -> frozenset[str]:
+    """Returns the knobs, buttons, wheels and casters with a joint of their own: no plan asks for these."""
+    planned = {request.moving for request in result.plan.joints}
+    return frozenset(made.moving for made in result.report.installed if made.moving not in planned)
 
 
 def _grasps(result: Functionalized) -> dict[str, Grasp]:
     """Returns how each moving body can be grasped in the end."""
     found: dict[str, Grasp] = {moving: grasp.kind for moving, grasp in result.fittings.grasps.items()}
     found |= {a.part.carried_by: "handle" for a in result.fittings.additions if a.part.carried_by}
-    return found | {c.part.id: "recess" for c in result.fittings.changes.carved}
+    found |= {c.part.id: "recess" for c in result.fittings.changes.carved}
+    return found | {moving: _grasp_of_small(result.object, moving) for moving in _small_parts(result)}
+
+
+def _grasp_of_small(made: ArticulatedObject, moving: str) -> Grasp:
+    """Returns how a small part is moved: what stands on the floor rolls with the piece, the others are held."""
+    floor = min(float(link.mesh.box.low[2]) for link in made.links)
+    below = [made.link(moving), *(made.link(joint.child) for joint in made.joints if joint.parent == moving)]
+    stands = min(float(link.mesh.box.low[2]) for link in below) <= floor + _ON_FLOOR
+    return "driven" if stands else "itself"
 
 
 def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:

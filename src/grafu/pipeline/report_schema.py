@@ -19,7 +19,7 @@ Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
 Row = tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat]
 Ratio = Annotated[float, Field(ge=0, le=1)]
 NOT_ADDED: Final = "not added"
-Grasp = Literal["handle", "recess", "edge", "driven", "none"]
+Grasp = Literal["handle", "recess", "edge", "itself", "driven", "none"]
 
 
 class ReportRecord(BaseModel):
@@ -149,7 +149,11 @@ class JointRecord(ReportRecord):
     after: tuple[str, ...] = Field(description="joints that must be open before this one can move")
     parent: str = Field(default="", description="the link of model.urdf that carries it; empty: not stated")
     follows: CouplingRecord | None = Field(default=None, description="the joint that it follows; null: none")
-    grasp: Grasp = Field(description="how it can be grasped; a follower without a grasp: how its leader can be")
+    grasp: Grasp = Field(
+        description="how it can be grasped (`itself`: a knob or button is held, `driven`: a drive, or the whole piece, "
+        "moves it); a follower without a grasp: how its leader can be"
+    )
+    small: bool = Field(default=False, description="whether it is a knob, a button, a wheel or a caster")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
     notes: tuple[str, ...] = Field(description="anything else worth knowing")
 

@@ -32,14 +32,15 @@ SCHEMA = "grafu.settings/1"
 class Settings(ShortRepr):
     """Where motions come from, how the input is read, what is added, and what is decided of single parts and joints.
 
-    `labels` and `motions` go by the ids of parts, `joints` by those of moving parts. `weights` is a file of trained
-    weights (ONNX) for the network; None: those that came with the package. A motion source that reads another system's
-    file is no setting: it needs the file.
+    With `small_parts` knobs, buttons and wheels get joints of their own. `labels` and `motions` go by the ids of parts,
+    `joints` by those of moving parts. `weights` is a file of trained weights (ONNX) for the network; None: those that
+    came with the package. A motion source that reads another system's file is no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO
     reading: LoadOptions = LoadOptions()
     trim: bool = True
+    small_parts: bool = False
     labels: Mapping[str, PartLabel] = field(default_factory=dict)
     motions: Mapping[str, MotionChoice] = field(default_factory=dict)
     joints: Mapping[str, JointChoice] = field(default_factory=dict)

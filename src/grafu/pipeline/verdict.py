@@ -197,7 +197,8 @@ def _names(faults: tuple[FaultRecord, ...]) -> str:
 def _fronts_words(report: Report) -> str:
     """Returns how many doors and drawers there are that should move; empty where there is none."""
     category = {part.id: part.category for part in report.parts}
-    slides = [motion_kind(joint.type).slides for joint in report.joints]
+    slides = [motion_kind(joint.type).slides for joint in report.joints if not joint.small]
     slides += [category.get(part) is PartLabel.DRAWER for part in parts_without_joint(report)]
     counts = Counter("drawer" if slide else "door" for slide in slides)
-    return listed(counted(counts[kind], kind) for kind in ("door", "drawer") if counts[kind])
+    counts["small part"] = sum(joint.small for joint in report.joints)
+    return listed(counted(counts[kind], kind) for kind in ("door", "drawer", "small part") if counts[kind])

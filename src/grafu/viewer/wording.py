@@ -83,13 +83,15 @@ def size_words(size: Iterable[float]) -> str:
 
 
 def _moves(report: Report) -> str:
-    kinds = [motion_kind(joint.type) for joint in report.joints]
+    kinds = [motion_kind(joint.type) for joint in report.joints if not joint.small]
     turning, sliding = sum(kind.turns for kind in kinds), sum(kind.slides for kind in kinds)
+    small = sum(joint.small for joint in report.joints)
     phrases = [f"{counted(turning, 'part')} on hinges"] if turning else []
     phrases += [f"{sliding} on rails" if turning else f"{counted(sliding, 'part')} on rails"] if sliding else []
+    phrases += [counted(small, "small part")] if small else []
     if not phrases:
         return "Nothing moves."
-    return f"{listed(phrases)} {'moves' if turning + sliding == 1 else 'move'}."
+    return f"{listed(phrases)} {'moves' if turning + sliding + small == 1 else 'move'}."
 
 
 def _lacked(report: Report) -> str:

@@ -308,3 +308,14 @@ def test_physx_can_be_left_out(cabinet, tmp_path):
 def test_a_wrong_config_is_refused():
     with pytest.raises(ValueError, match=r"`UsdConfig.armature` must not be negative"):
         UsdConfig(armature=-1.0)
+
+
+def test_a_joint_without_limits_states_none(cabinet, tmp_path):
+    (joint, *others) = cabinet.joints
+    turning = replace(joint, type=JointType.CONTINUOUS, limits=JointLimits(0.0, 2 * np.pi))
+    stage = opened(export_usd(replace(cabinet, joints=(turning, *others))), tmp_path / "turning")
+    path = stage.GetDefaultPrim().GetPath().AppendPath(f"joints/{joint.id}")
+    made = UsdPhysics.RevoluteJoint(stage.GetPrimAtPath(path))
+    assert made
+    assert not made.GetUpperLimitAttr().HasAuthoredValue()
+    assert not made.GetLowerLimitAttr().HasAuthoredValue()

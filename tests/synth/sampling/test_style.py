@@ -3,9 +3,8 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from grafu.synth.sampling.assortment import mixed
 from grafu.synth.sampling.style import LIGHT, LIGHT_FRONT, chunky, draw_style, pushed
-from grafu.synth.sampling.traditions import TRADITIONS
+from grafu.synth.sampling.traditions import TRADITIONS, mixed
 
 
 def styles(name, draws=300):

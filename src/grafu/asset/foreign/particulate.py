@@ -186,7 +186,8 @@ def _parent(part: int, parents: Mapping[int, int], filled: Container[int]) -> st
 
 def _joints(part: int, arrays: Arrays, notes: list[str]) -> list[ForeignJoint]:
     """Returns the joint of a part, or none; of a part that turns and slides, the turn is kept."""
-    kinds = [kind for kind in moving_kinds() if arrays[f"is_part_{kind.word('particulate')}"][part]]
+    stated = (kind for kind in moving_kinds() if kind.limited)  # the format does not tell what turns without limits
+    kinds = [kind for kind in stated if arrays[f"is_part_{kind.word('particulate')}"][part]]
     if not kinds:
         return []
     kind = next((kind for kind in kinds if kind.turns), kinds[0])

@@ -119,8 +119,9 @@ class _StageBuilder:
             return
         made = schema(prim)
         made.CreateAxisAttr(_AXES[along])
-        made.CreateLowerLimitAttr(joint.kind.in_degrees(joint.limits.lower))
-        made.CreateUpperLimitAttr(joint.kind.in_degrees(joint.limits.upper))
+        if joint.kind.limited:
+            made.CreateLowerLimitAttr(joint.kind.in_degrees(joint.limits.lower))
+            made.CreateUpperLimitAttr(joint.kind.in_degrees(joint.limits.upper))
         self._add_resistance(prim, self._physics.dynamics[joint.id], joint.kind)
         if joint.coupling is not None:
             self._add_coupling(prim, joint, joint.coupling)

@@ -16,9 +16,8 @@ from grafu.synth.fronts.hold import Grip, HandleStyle
 from grafu.synth.fronts.layout import CURVED, Between, DrawerBox, LeafStyle
 from grafu.synth.fronts.setting import Mount
 from grafu.synth.pieces.finish import BEECH, BIRCH, GLASS, OAK, STEEL, Finish
-from grafu.synth.sampling.assortment import KNOBS
 from grafu.synth.sampling.chance import Span, between, chance, only, pick, spread
-from grafu.synth.sampling.traditions import TRADITIONS, Tradition, TraditionName
+from grafu.synth.sampling.traditions import KNOBS, TRADITIONS, Tradition, TraditionName
 
 WOODS = (
     BEECH,

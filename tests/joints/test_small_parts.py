@@ -1,0 +1,211 @@
+"""Knobs, buttons, wheels and casters get joints of their own, and nothing else does."""
+
+from math import pi
+
+import mujoco
+import numpy as np
+import pytest
+import yourdfpy
+
+from grafu.articulation.sweep import cycle_tracks
+from grafu.asset.edit import yawed
+from grafu.asset.load import load_asset
+from grafu.asset.options import LoadOptions
+from grafu.export.files import write_files
+from grafu.export.glb import export_glb
+from grafu.export.mjcf import export_mjcf
+from grafu.export.urdf import export_urdf
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import Settings
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType, PartLabel
+from judging import swept_collisions
+from small_scenes import DOOR, SIDE, box, cylinder, scene
+
+BACK = box("back", (-0.02, 0.38, 0.0), (0.4, 0.4, 0.6))
+OTHER_SIDE = box("other_side", (0.4, 0.0, 0.0), (0.42, 0.4, 0.6))
+CASE = (SIDE, OTHER_SIDE, BACK)
+
+
+def made_of(*parts, small=True, source=MotionSource.RULE, **settings):
+    asset = parts[0] if len(parts) == 1 else scene(*parts)
+    config = PipelineConfig(Settings(small_parts=small, **settings))
+    return functionalize(asset, source, builtin_gallery(), config)
+
+
+def small_joints(made):
+    planned = {request.moving for request in made.plan.joints}
+    return {joint.child: joint for joint in made.object.joints if joint.child not in planned}
+
+
+def knob(name="handle", x=0.36, ends=(-0.02, -0.05), radius=0.015):
+    return cylinder(name, ((x, ends[0], 0.3), (x, ends[1], 0.3)), radius)
+
+
+def caster(name, x, y):
+    """A wheel of 60 mm between two cheeks, under a plate at 0.1 m with a stem into the board above."""
+    sides = ((x - 0.022, x - 0.02), (x + 0.02, x + 0.022))
+    cheeks = [box(f"{name}_cheek_{k}", (a, y - 0.01, 0.03), (b, y + 0.01, 0.08)) for k, (a, b) in enumerate(sides)]
+    plate = box(f"{name}_plate", (x - 0.022, y - 0.02, 0.08), (x + 0.022, y + 0.02, 0.09))
+    stem = cylinder(f"{name}_stem", ((x, y, 0.09), (x, y, 0.11)), 0.006)
+    return [*cheeks, plate, stem, cylinder(f"{name}_roll", ((x - 0.015, y, 0.03), (x + 0.015, y, 0.03)), 0.03)]
+
+
+def trolley(*more):
+    boards = [box("floor_board", (-0.3, -0.3, 0.1), (0.3, 0.3, 0.12)), box("wall", (-0.3, 0.28, 0.12), (0.3, 0.3, 0.7))]
+    return [*boards, *more]
+
+
+def test_a_round_knob_turns_on_its_door_and_the_door_keeps_its_handle():
+    made = made_of(*CASE, DOOR, knob())
+    (joint,) = small_joints(made).values()
+
+    assert (joint.parent, joint.child, joint.type) == ("door", "handle", JointType.CONTINUOUS)
+    assert np.allclose(joint.axis.direction, (0, -1, 0))
+    assert joint.axis.distance_to(np.array([0.36, 0.0, 0.3])) < 1e-6
+    assert joint.limits.upper == pytest.approx(2 * pi)
+    records = {record.part: record for record in report_of(made).joints}
+    assert (records["handle"].small, records["handle"].grasp, records["handle"].collision_share) == (True, "itself", 0)
+    assert (records["door"].small, records["door"].grasp) == (False, "handle")
+    assert not [addition for addition in made.additions if addition.part.label is PartLabel.HANDLE]
+    assert "1 door and 1 small part" in report_of(made).verdict.sentence
+    assert not swept_collisions(made.object, made.object.joint_of["door"], 20)
+
+
+def test_without_being_asked_for_nothing_small_moves():
+    made = made_of(*CASE, DOOR, knob(), small=False)
+    assert [joint.child for joint in made.object.joints] == ["door"]
+
+
+def test_the_pieces_of_one_knob_turn_together():
+    stem, head = knob("handle_stem", ends=(-0.02, -0.035), radius=0.008), knob("handle_head", ends=(-0.035, -0.05))
+    made = made_of(*CASE, DOOR, stem, head)
+    (joint,) = small_joints(made).values()
+    assert {visual.name for visual in made.object.link(joint.child).visuals} == {"handle_stem", "handle_head"}
+
+
+def test_a_knob_on_a_turned_piece_turns_about_its_own_axis():
+    made = made_of(yawed(scene(*CASE, DOOR, knob()), 0.5))
+    (joint,) = small_joints(made).values()
+    assert np.allclose(joint.axis.direction, (np.sin(0.5), -np.cos(0.5), 0), atol=1e-6)
+
+
+POSTS = [knob(f"post_{k}", x, (-0.02, -0.045), 0.006) for k, x in enumerate((0.2, 0.3))]
+BAR = cylinder("handle_bar", ((0.15, -0.05, 0.3), (0.35, -0.05, 0.3)), 0.006)
+CUP = knob("cup", 0.05, (0.0, 0.012), 0.0175)
+STILL = {
+    "posts of a bar": (*POSTS, BAR),
+    "a square knob": (box("handle", (0.34, -0.05, 0.28), (0.38, -0.02, 0.32)),),
+    "a flat rosette": (knob("rosette", ends=(-0.02, -0.025), radius=0.02),),
+    "a long rod": (knob("rod", ends=(-0.02, -0.1), radius=0.007),),
+    "a screw's head": (knob("screw", ends=(-0.02, -0.024), radius=0.003),),
+    "a hinge's cup inside": (CUP, box("shelf", (0.0, 0.03, 0.29), (0.4, 0.38, 0.31))),
+    "a round foot": (cylinder("foot", ((-0.01, 0.2, -0.05), (-0.01, 0.2, 0.0)), 0.02),),
+    "a ball as a foot": (cylinder("foot", ((0.0, 0.2, -0.04), (0.0, 0.2, 0.0)), 0.02),),
+}
+
+
+@pytest.mark.parametrize("what", STILL)
+def test_what_only_looks_like_a_small_part_stands_still(what):
+    assert small_joints(made_of(*CASE, DOOR, *STILL[what])) == {}
+
+
+def test_casters_swivel_and_their_wheels_turn():
+    places = [(x, y) for x in (-0.25, 0.25) for y in (-0.25, 0.25)]
+    made = made_of(*trolley(*(part for k, place in enumerate(places) for part in caster(f"c{k}", *place))))
+    joints = small_joints(made)
+    wheels = {name: joint for name, joint in joints.items() if name.endswith("_roll")}
+    forks = {name: joint for name, joint in joints.items() if name not in wheels}
+
+    assert (len(wheels), len(forks)) == (4, 4)
+    for k, (x, y) in enumerate(places):
+        wheel = wheels[f"c{k}_roll"]
+        fork = forks[wheel.parent]
+        assert fork.parent == made.object.root
+        assert np.allclose(fork.axis.direction, (0, 0, 1))
+        assert fork.axis.distance_to(np.array([x, y, 0.0])) < 1e-6
+        assert abs(wheel.axis.direction[0]) == pytest.approx(1.0)
+        assert len(made.object.link(fork.child).visuals) == 4
+    grasps = {record.grasp for record in report_of(made).joints if record.small}
+    assert grasps == {"driven"}
+
+
+def test_a_wheel_in_a_leg_turns_and_the_leg_stands():
+    leg = box("leg", (-0.25, -0.25, 0.05), (-0.22, -0.22, 0.5))
+    roll = cylinder("roll", ((-0.25, -0.235, 0.03), (-0.22, -0.235, 0.03)), 0.03)
+    made = made_of(*trolley(leg, roll))
+    assert set(small_joints(made)) == {"roll"}
+
+
+def test_a_button_is_pressed_and_made_shorter_so_that_it_cuts_into_nothing():
+    made = made_of(*CASE, DOOR, box("start_button", (0.405, -0.01, 0.5), (0.415, 0.0, 0.51)))
+    (joint,) = small_joints(made).values()
+    assert joint.type is JointType.PRISMATIC
+    assert np.allclose(joint.axis.direction, (0, 1, 0))
+    assert joint.limits.upper == pytest.approx(0.003)
+    assert made.object.link("start_button").mesh.box.high[1] == pytest.approx(-0.003)
+    record = next(record for record in report_of(made).joints if record.part == "start_button")
+    assert [one.kind for one in record.clearances] == ["trimmed"]
+    assert record.collision_share == 0
+
+
+def test_a_button_that_may_not_be_trimmed_stays_and_the_report_says_so():
+    made = made_of(*CASE, DOOR, box("start_button", (0.405, -0.01, 0.5), (0.415, 0.0, 0.51)), trim=False)
+    assert small_joints(made) == {}
+    report = report_of(made)
+    assert [(skip.request, skip.what) for skip in report.skipped][-1] == ("start_button", "small joint")
+    assert report.verdict.colour != "red"
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    made = made_of(*CASE, DOOR, knob()).object
+    folder = tmp_path_factory.mktemp("knob")
+    for export in (export_urdf, export_mjcf):
+        write_files(export(made), folder / export.__name__)
+    return made, folder
+
+
+def test_urdf_and_mjcf_state_no_limits(files):
+    _, folder = files
+    joints = yourdfpy.URDF.load(str(folder / "export_urdf" / "model.urdf")).joint_map
+    assert joints["handle_joint"].type == "continuous"
+    assert joints["handle_joint"].limit.lower is None
+    model = mujoco.MjModel.from_xml_path(str(folder / "export_mjcf" / "model.xml"))
+    limited = {model.joint(k).name: bool(model.jnt_limited[k]) for k in range(model.njnt)}
+    assert (limited["handle_joint"], limited["door_joint"]) == (False, True)
+
+
+def test_it_turns_on_and_on_in_a_simulation(files):
+    _, folder = files
+    model = mujoco.MjModel.from_xml_path(str(folder / "export_mjcf" / "model.xml"))
+    data = mujoco.MjData(model)
+    k = model.joint("handle_joint").qposadr[0]
+    data.qpos[k] = 20.0
+    mujoco.mj_step(model, data)
+    assert data.qpos[k] == pytest.approx(20.0, abs=0.5)
+
+
+def test_the_animation_goes_all_the_way_round(files):
+    made, _ = files
+    track = next(track for track in cycle_tracks(made) if track.joint == "handle_joint")
+    assert track.values.max() == pytest.approx(2 * pi)
+    assert np.abs(np.diff(track.values)).max() < pi  # a step of half a turn would be shown the other way round
+    assert export_glb(made).contents["model.glb"]
+
+
+def test_a_urdf_with_small_joints_gives_them_again(files):
+    _, folder = files
+    path = folder / "export_urdf" / "model.urdf"
+    asset = load_asset(path, LoadOptions())
+    stated = asset.as_annotated()
+    assert [joint.part for joint in stated.joints] != []
+    assert [(joint.type, joint.limited) for joint in stated.small_joints] == [(JointType.REVOLUTE, False)]
+
+    again = made_of(asset, source=MotionSource.ANNOTATION)
+    (joint,) = small_joints(again).values()
+    assert joint.type is JointType.CONTINUOUS
+    assert np.allclose(joint.axis.direction, (0, -1, 0), atol=1e-6)
+    assert small_joints(made_of(asset, source=MotionSource.ANNOTATION, small=False)) == {}
