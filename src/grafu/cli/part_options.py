@@ -66,7 +66,7 @@ GRIPS = ("grip", "groove", "edge", "hole")  # `grip`: whichever of the others fi
 
 
 def add_addition_options(parser: argparse.ArgumentParser) -> None:
-    """Adds --only, --no-top, --no-handles, --no-drawer-boxes, --top, --handle, --interior, --small-parts, --complete."""
+    """Adds what is said of additions: --only, --no-top, --no-handles, ..., --small-parts and --complete."""
     group = parser.add_argument_group("what is added (by default: tops, handles, drawer boxes, predicted shelves)")
     group.add_argument("--only", choices=("dynamic",), help="dynamic: joints and their hardware, nothing else is added")
     group.add_argument("--no-top", action="store_true", help="add no top, also where there is none")
