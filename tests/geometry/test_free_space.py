@@ -27,11 +27,10 @@ def brute_force(occupied: np.ndarray, least: np.ndarray) -> set[tuple]:
         grid[tuple(slice(a, b) for a, b in zip(low, high, strict=True))] = True
     ranges = list(combinations(range(SIDE + 1), 2))
     empty = [box for box in product(ranges, repeat=3) if not grid[tuple(slice(*r) for r in box)].any()]
-
-    def holds(outer: tuple, inner: tuple) -> bool:
-        return all(o[0] <= i[0] and i[1] <= o[1] for o, i in zip(outer, inner, strict=True))
-
-    top = [box for box in empty if not any(other != box and holds(other, box) for other in empty)]
+    bounds = np.array(empty).reshape(-1, 3, 2)
+    lows, highs = bounds[:, None, :, 0], bounds[:, None, :, 1]
+    holds = ((bounds[None, :, :, 0] <= lows) & (bounds[None, :, :, 1] >= highs)).all(axis=2)  # [inner, outer]
+    top = [box for box, count in zip(empty, holds.sum(axis=1), strict=True) if count == 1]  # each holds itself
     return {box for box in top if all(b - a >= s for (a, b), s in zip(box, least, strict=True))}
 
 
