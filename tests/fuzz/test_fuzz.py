@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from hashlib import sha256
 from random import Random
 
 import pytest
@@ -47,16 +48,14 @@ def test_a_case_that_broke_a_rule_is_told_with_the_command_that_runs_it_again():
 
 
 def test_a_case_follows_from_its_seed_and_index():
-    code = "from fuzz.cases import make_case; print([hash_of(make_case({}, k)) for k in range(44)])"
+    code = "from fuzz.cases import make_case; print([hash_of(make_case(3, k)) for k in range(44)])"
     code = f"from hashlib import sha256\nhash_of = lambda case: sha256(repr(case).encode()).hexdigest()\n{code}"
+    other = "2" if os.environ.get("PYTHONHASHSEED") == "1" else "1"  # than that of this process
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "PYTHONHASHSEED": other}
+    command = [sys.executable, "-c", code]
+    said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
 
-    def said(seed: int, hash_seed: str) -> str:
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "PYTHONHASHSEED": hash_seed}
-        command = [sys.executable, "-c", code.format(seed)]
-        return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
-
-    first = said(3, "1")
-    assert said(3, "2") == first
+    assert said.strip() == str([sha256(repr(make_case(3, k)).encode()).hexdigest() for k in range(44)])
     assert make_case(4, 1) != make_case(3, 1)
 
 
@@ -77,7 +76,7 @@ def test_what_is_not_changed_is_read(cases):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("first", range(0, 500, 100))
+@pytest.mark.parametrize("first", range(0, 300, 100))
 def test_no_case_breaks_a_rule(first):
     plan = Plan(15, tuple(range(first, first + 100)))
     answers = run_cases(plan)

@@ -34,7 +34,7 @@ def touches(result: Realized, asset: Asset, part: str, mount: str) -> bool:
     return any(MeshCollider(v.mesh).is_within(within, MeshCollider(static.mesh)) for v in still)
 
 
-@pytest.mark.parametrize("kind", ["overlay pair", "chest with a lid"])
+@pytest.mark.parametrize("kind", ["overlay door, hinged right", "chest with a lid"])
 def test_every_still_part_carries_the_joint_or_is_refused_by_name(kind):
     asset = made_kind(kind)
     moving = {r.moving for r in plan_from_annotation(asset).joints} | {p.id for p in asset.parts if p.carried_by}

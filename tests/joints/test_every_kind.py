@@ -10,12 +10,16 @@ from grafu.synth.samples import KINDS, TIDY
 from grafu.vocabulary import JointType
 from judging import deepest_cut, hardware, installed, made_kind, realized_kind, swept_collisions, true_joints
 
-every_kind = pytest.mark.parametrize("kind", KINDS)
 CUT = 0.001  # of the object's largest side: what hardware is inset by where there is no room
 TOUCH = 0.0008  # of the object's largest side: more is a collision
 
 
-@every_kind
+@pytest.fixture(scope="module", params=KINDS)
+def kind(request):
+    """Each kind in turn, for all tests: one process asks all about it, and only this one builds it."""
+    return request.param
+
+
 def test_each_door_and_drawer_gets_a_joint_of_its_type(kind):
     asset, result = made_kind(kind), realized_kind(kind)
     assert result.report.skipped == ()
@@ -23,7 +27,6 @@ def test_each_door_and_drawer_gets_a_joint_of_its_type(kind):
     assert set(installed(result)) == set(true_joints(asset))
 
 
-@every_kind
 def test_no_part_is_lost_and_attached_parts_move_along(kind):
     asset, obj = made_kind(kind), realized_kind(kind).object
     link_of = {v.name: link.id for link in obj.links for v in link.visuals if v.role is not VisualRole.HARDWARE}
@@ -31,7 +34,6 @@ def test_no_part_is_lost_and_attached_parts_move_along(kind):
     assert link_of == {p.id: p.carried_by or (p.id if p.id in moving_bodies else obj.root) for p in asset.parts}
 
 
-@every_kind
 def test_nothing_collides_with_the_static_body(kind):
     asset, obj = made_kind(kind), realized_kind(kind).object
     for joint in obj.joints:
@@ -39,7 +41,6 @@ def test_nothing_collides_with_the_static_body(kind):
         assert max(hit.values(), default=0.0) <= TOUCH * asset.extent, (joint.child, hit)
 
 
-@every_kind
 def test_each_joint_opens_most_of_its_true_way(kind):
     for part, joint in true_joints(made_kind(kind)).items():
         outcome = installed(realized_kind(kind))[part]
@@ -48,7 +49,6 @@ def test_each_joint_opens_most_of_its_true_way(kind):
         assert realized_kind(kind).object.joint_of[part].limits.upper == outcome.opening
 
 
-@every_kind
 def test_each_axis_points_the_true_way_along_the_true_border(kind):
     asset, result = made_kind(kind), realized_kind(kind)
     for part, joint in true_joints(asset).items():
@@ -58,14 +58,12 @@ def test_each_axis_points_the_true_way_along_the_true_border(kind):
             assert axis.distance_to(joint.axis.closest_point(box.center)) <= 0.12 * box.size.max()
 
 
-@every_kind
 def test_every_moving_body_stays_connected_through_anchored_hardware(kind):
     obj = realized_kind(kind).object
     gaps = largest_gaps(obj, ConnectivityConfig(poses=4))
     assert max(gaps.values()) <= 0.001 * made_kind(kind).extent
 
 
-@every_kind
 def test_hardware_cuts_into_no_part_of_the_other_side(kind):
     asset, result = made_kind(kind), realized_kind(kind)
     obj = result.object
@@ -79,7 +77,6 @@ def test_hardware_cuts_into_no_part_of_the_other_side(kind):
         assert deepest_cut(moving, body, joint) <= CUT * asset.extent, joint.child
 
 
-@every_kind
 def test_the_report_says_what_the_judge_finds(kind):
     asset, result = made_kind(kind), realized_kind(kind)
     ratios = collision_shares(result.object, CollisionConfig(poses=12, tolerance=TOUCH))
