@@ -40,7 +40,7 @@ def test_a_mirror_image_swaps_left_and_right():
 @pytest.mark.slow
 @pytest.mark.skipif(not MODELS.is_dir(), reason="the real furniture is not here")
 def test_made_doors_teach_about_real_ones():
-    train, asked = synthetic_doors(300), real_doors(MODELS)
+    train, asked = synthetic_doors(200), real_doors(MODELS)
     chance = max(float(np.mean([d.side == side for d in asked])) for side in SIDES)
     assert accuracy(train, asked, with_handles=True) > chance + 0.3
     assert accuracy(train, asked, with_handles=False) > chance + 0.2

@@ -184,8 +184,8 @@ def test_a_run_says_how_many_stated_joints_no_one_read(tmp_path: Path) -> None:
 def test_real_folders_without_joints_or_bodies_read_the_same(folder: Path, tmp_path: Path) -> None:
     full = load_asset(folder)
     assert full.stated_joints
-    for way in WAYS if folder in PARTNET else WAYS[:1]:  # the others have no list of links
-        agree(full, load_asset(way(folder, tmp_path / way.__name__)))
+    for change in WAYS if folder in PARTNET else WAYS[:1]:  # the others have no list of links
+        agree(full, load_asset(change(folder, tmp_path / change.__name__)))
 
 
 @pytest.mark.parametrize("path", URDFS, ids=lambda p: p.stem)
