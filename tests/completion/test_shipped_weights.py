@@ -20,7 +20,7 @@ from grafu.vocabulary import PartLabel
 pytestmark = pytest.mark.slow  # for what `accuracies` computes once per process
 
 CARD = Path(__file__).parents[2] / "docs" / "network.md"
-MODELS = 60
+MODELS = 40
 VALIDATION_SEED = 990_001
 
 
