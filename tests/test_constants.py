@@ -99,7 +99,7 @@ OF_MODULES = {
     "segmentation": {
         "candidates.py": {"_NO_AREA": TOLERANCE},
         "division.py": {"_Z": NUMBERING},
-        "fronts.py": {"_RING_CELLS": SAMPLES},
+        "fronts.py": {"_RING_CELLS": SAMPLES, "_SHEET": TOLERANCE},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
         "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES, "_MANY": SAMPLES, "_SPARE": TOLERANCE},
     },

@@ -280,3 +280,63 @@ def test_a_low_upright_strip_with_a_knob_is_no_drawer():
     knob = board((-0.65, -0.42, 0.4), (-0.63, -0.39, 0.42))
 
     assert cut(merge_meshes([*LOW_TABLE, stile, knob])) == {}
+
+
+# A chest whose two fronts are shells of one object, 0.9 x 0.4 x 0.5 m, its front at y = 0.
+CHEST = [
+    board((-0.45, 0.0, 0.0), (-0.43, 0.4, 0.5)),
+    board((0.43, 0.0, 0.0), (0.45, 0.4, 0.5)),
+    board((-0.43, 0.38, 0.0), (0.43, 0.4, 0.5)),
+    board((-0.43, 0.0, 0.48), (0.43, 0.38, 0.5)),
+    board((-0.43, 0.0, 0.0), (0.43, 0.38, 0.02)),
+]
+STACK = [board((-0.42, -0.02, z), (0.42, 0.0, z + 0.21)) for z in (0.03, 0.26)]
+PLATES = [board((x, -0.026, z + 0.09), (x + 0.05, -0.02, z + 0.12)) for x in (-0.3, 0.25) for z in (0.03, 0.26)]
+FEET = [board((x, 0.1, -0.05), (x + 0.05, 0.15, 0.0)) for x in (-0.4, 0.35)]
+
+
+@pytest.mark.parametrize("others", [[], FEET], ids=["alone", "with feet"])
+def test_what_lies_on_fronts_of_another_object_is_parted_by_them(others):
+    found = cut(merge_meshes([*CHEST, *STACK]), merge_meshes([*PLATES, *others]))
+
+    assert boxes({0: found[0]}, "front") == rounded(STACK)
+    lying = [(round(box.low[2], 4), round(box.high[2], 4)) for role, box in found[1] if role == "on front"]
+    assert sorted(lying) == [(0.12, 0.15), (0.35, 0.38)]
+    assert [role for role, _ in found[1]].count("rest") == bool(others)
+
+
+def test_what_lies_on_one_front_alone_stays_whole():
+    lower = [plate for plate in PLATES if plate.box.low[2] < 0.2]
+    assert set(cut(merge_meshes([*CHEST, *STACK]), merge_meshes(lower))) == {0}
+
+
+HALVES = [board((x, -0.02, 0.03), (x + 0.42, 0.0, 0.24)) for x in (-0.42, 0.0)]
+
+
+def test_two_mirrored_halves_with_a_plate_across_their_seam_are_one_front():
+    across = board((-0.03, -0.026, 0.12), (0.03, -0.02, 0.15))
+    found = cut(merge_meshes([*CHEST, STACK[1], *HALVES]), across)
+    assert boxes(found, "front") == rounded(STACK)
+
+
+def test_two_doors_that_meet_with_a_handle_each_stay_two():
+    handles = [board((x, -0.05, 0.1), (x + 0.02, -0.02, 0.17)) for x in (-0.05, 0.03)]
+    found = cut(merge_meshes([*CHEST, STACK[1], *HALVES, *handles]))
+    assert len(boxes(found, "front")) == 3
+
+
+def test_a_sheet_seen_from_its_edge_is_no_handle():
+    corners = [[0.1, y, z] for y, z in ((-0.05, 0.05), (0.0, 0.05), (0.0, 0.2), (-0.05, 0.2))]
+    sheet = TriangleMesh(np.array(corners), np.array([[0, 1, 2], [0, 2, 3]]))
+    found = cut(merge_meshes([*CHEST, *STACK, sheet]))
+    assert boxes(found, "handle") == []
+
+
+@pytest.mark.parametrize(
+    ("width", "out", "role"), [(0.83, 0.002, "front"), (0.83, 0.03, "handle"), (0.6, 0.003, "handle")]
+)
+def test_a_strip_along_a_whole_border_is_a_moulding_and_goes_with_its_front(width, out, role):
+    strip = board((-width / 2, -0.02 - out, 0.04), (width / 2, -0.02, 0.05))
+    found = cut(merge_meshes([*CHEST, *STACK, strip]))
+    inside = [r for r, box in found[0] if box.contains(strip.box.corners()).all() and r != "rest"]
+    assert inside == [role]

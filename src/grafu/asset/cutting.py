@@ -159,8 +159,12 @@ def _is_handle(part: Part, piece: FacePiece | None) -> bool:
 def _part(part: Part, piece: FacePiece | None, name: str, T: Mat4) -> Part:
     if piece is None:
         return replace(part, id=name)
-    keeps = piece.role == "body" or (part.label.is_movable == (piece.role == "front") and piece.role != "handle")
+    keeps = piece.role in ("body", "on front") or (
+        part.label.is_movable == (piece.role == "front") and piece.role != "handle"
+    )
     label, by = (part.label, part.labelled_by) if keeps else (PartLabel.UNKNOWN, "none")
+    if piece.role == "on front" and label is PartLabel.UNKNOWN:
+        label = PartLabel.MISC  # whatever it is, it is no front
     surfaces = faces_of_part(part, piece.faces)
     if piece.towards is not None:
         surfaces = (*surfaces, _back(part, surfaces, piece.towards, T))
@@ -191,6 +195,9 @@ def _named(part: Part, piece: FacePiece | None, model: str, T: Mat4, config: Cut
 
 def _note(part: Part, pieces: list[FacePiece]) -> str:
     counts = Counter(piece.role for piece in pieces)
+    if counts["on front"]:
+        rest = " and elsewhere" if counts["rest"] else ""
+        return f"{part.source.name} lies on fronts ({counts['on front']}){rest}: a part on each (--parts auto)"
     found = [f"{counts[role]} {role}{'s' if counts[role] > 1 else ''}" for role in ("front", "handle") if counts[role]]
     if counts["body"]:
         return f"{part.source.name} holds {found[0]} drawn in it: parts of their own (--parts auto)"

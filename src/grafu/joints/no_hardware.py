@@ -19,7 +19,7 @@ NO_HARDWARE = "none"
 _NOTE = "no hinge or rail finds room: it moves without hardware"
 DRAWN = "drawn"
 """`Placement.template` of a door on the hinges, or a column in the sleeve, that the input has."""
-_DEPTHS = (0.0, 0.25, 0.5, 0.75, 1.0)  # of a door's thickness, from its front, at which an axis runs along its border
+_DEPTHS = tuple(k / 16 for k in range(17))  # of a door's thickness, from its front: an axis along its border each
 _POSES = 5  # from closed to open in which it must be near what stands around it
 
 _Search = DoorSearch | DrawerSearch

@@ -1,7 +1,7 @@
 """Small parts that move by themselves: knobs and wheels turn without limits, buttons are pressed, casters swivel.
 
 They are found by their shape, and by what they touch, on an object whose doors and drawers work already; only buttons
-are told by their names. A knob has a round outline, stands on something with one end, and has nothing before the other.
+go by their names. A knob has a round outline, stands on something with one end, and has nothing before the other.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

@@ -17,7 +17,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Indices
-from grafu.segmentation.config import CandidateConfig, FrameConfig
+from grafu.segmentation.config import CandidateConfig, FrameConfig, SegmentationConfig
 from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
 
 _NO_AREA = 1e-300
@@ -139,6 +139,30 @@ def framed(view: ShellsView, config: FrameConfig) -> list[tuple[int, ...]]:
                 members = _filled(around, (numbers[bar], numbers[other]), along, extent[bar], config)
                 if members:
                     found.append(tuple(near[[*members]].tolist()))
+    return _without_shared(found)
+
+
+def halves(view: ShellsView, config: SegmentationConfig) -> list[tuple[int, ...]]:
+    """Returns the pairs of plates that are mirror images, meet in a seam, and have one handle or the like across it.
+
+    A front that was drawn as one half and mirrored is such a pair. Two doors that meet have a handle each, and none
+    across their seam.
+    """
+    size, scale = view.size, Scale.of(view)
+    same, near = config.frames.same * scale.extent, config.candidates.near * scale.extent
+    area = size[:, 0] * size[:, 1]
+    plates = np.flatnonzero(size[:, :2].min(axis=1) >= config.candidates.least * scale.extent / 2)
+    found: list[tuple[int, ...]] = []
+    for k in plates.tolist():
+        seam = float(view.high[k, 0])
+        beside = plates[(view.owner[plates] == view.owner[k]) & (np.abs(view.low[plates, 0] - seam) <= same[k])]
+        ends = np.maximum(np.abs(view.low - view.low[k])[:, 1:], np.abs(view.high - view.high[k])[:, 1:]).max(axis=1)
+        alike = beside[(np.abs(size[beside] - size[k]).max(axis=1) <= same[k]) & (ends[beside] <= same[k])]
+        across = (np.abs(view.low[:, 0] + view.high[:, 0] - 2 * seam) <= same[k]) & (size[:, 0] > 2 * near[k])
+        across &= (view.low[:, 1:] >= view.low[k, 1:] - near[k]).all(axis=1) & (view.high[:, 1] <= view.high[k, 1])
+        across &= (area <= config.members.handle_area * area[k]) & (view.high[:, 2] >= view.high[k, 2] - near[k])
+        if len(alike) == 1 and across.any():
+            found.append((k, int(alike[0])))
     return _without_shared(found)
 
 

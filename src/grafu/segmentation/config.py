@@ -126,6 +126,8 @@ class MemberConfig(ShortRepr):
     """How far apart the pieces of one handle still touch (multiple of `near`)."""
     thick_handle: float = 0.4
     """How thick a handle is (multiple of that gap): thinner ones are printed marks."""
+    moulding: float = 0.95
+    """How long a moulding is at least (of its front); it stands out by `near` at most, which a handle does not."""
     on_front: float = 0.6
     """How much of a handle lies on its front (of its outline)."""
     liner: float = 1.5

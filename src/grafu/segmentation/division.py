@@ -4,7 +4,7 @@ It asks geometry alone.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final, Literal, final
 
 import numpy as np
@@ -13,9 +13,9 @@ from jaxtyping import Bool, Int
 from grafu.geometry.arrays import Indices, Mat3, Vec3
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.candidates import Scale, candidates, framed, merged, overlaps
+from grafu.segmentation.candidates import Scale, candidates, framed, halves, merged, overlaps
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
-from grafu.segmentation.fronts import FrontShells, fronts_among
+from grafu.segmentation.fronts import FrontShells, fronts_among, lying_on_fronts
 from grafu.segmentation.view import MaskOfShells, OfShells, ShellsView, view_of
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
@@ -29,12 +29,12 @@ _Z: Final = np.array([0.0, 0.0, 1.0])
 class FacePiece:
     """Faces of one object that become a part, and its role in that object.
 
-    "front" and "handle" are new parts; "rest" is what is left of an object that hid fronts, and "body" a door or drawer
-    without the handles that were drawn in it. A front that was drawn on a surface looks `towards` a unit direction;
-    None: it is a shell of its own.
+    "front" and "handle" are new parts; "rest" is what is left of an object, "body" a door or drawer without the handles
+    that were drawn in it, "on front" what lies on a front of another object. A front that was drawn on a surface looks
+    `towards` a unit direction; None: it is a shell of its own.
     """
 
-    role: Literal["front", "handle", "rest", "body"]
+    role: Literal["front", "handle", "rest", "body", "on front"]
     faces: Indices
     towards: Vec3 | None = None
 
@@ -82,17 +82,18 @@ def divided(
     if materials is not None:
         left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
         parted = MeshShells.of(meshes, materials) if left.any() else shells
-        pieces |= replace(_from_the_best_side(parted, left, whole, config), hidden={}).pieces(parted)
+        pieces |= FoundFronts({}, _from_the_best_side(parted, left, whole, config).with_handles).pieces(parted)
     return dict(sorted(pieces.items()))
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class FoundFronts:
-    """What one side shows, by object: fronts that objects hide, and objects that are one front with handles on it."""
+    """What one side shows, by object: hidden fronts, a front with handles on it, shells that lie on others' fronts."""
 
     hidden: dict[int, tuple[FrontShells, ...]]
     with_handles: dict[int, FrontShells]
+    on_fronts: dict[int, tuple[tuple[int, ...], ...]] = field(default_factory=dict)
 
     @property
     def clear(self) -> dict[int, tuple[FrontShells, ...]]:
@@ -105,7 +106,8 @@ class FoundFronts:
         starts = np.cumsum([0, *counts])
         pieces = {owner: _pieces(shells, owner, int(starts[owner]), fronts) for owner, fronts in self.hidden.items()}
         apart = {o: _handles_apart(shells, o, int(starts[o]), front) for o, front in self.with_handles.items()}
-        return pieces | apart
+        lying = {o: _lying_apart(shells, o, int(starts[o]), groups) for o, groups in self.on_fronts.items()}
+        return pieces | apart | lying
 
 
 def _from_the_best_side(
@@ -129,7 +131,7 @@ def _from_the_best_side(
             return found
         area = sum(outline(view, front) for fronts in found.clear.values() for front in fronts)
         ahead = found if turn == 0 else ahead
-        clear, most = (FoundFronts(found.clear, found.with_handles), area) if area > most else (clear, most)
+        clear, most = (replace(found, hidden=found.clear), area) if area > most else (clear, most)
         handled = handled or found.with_handles
     chosen = clear if clear.hidden else ahead
     return chosen if chosen.hidden else FoundFronts({}, handled)
@@ -152,7 +154,7 @@ def fronts_by_object(
     view: ShellsView, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig
 ) -> FoundFronts:
     """Returns the fronts of each object that hides some, and of each that is one with handles."""
-    view, members = merged(view, framed(view, config.frames))
+    view, members = merged(view, [*framed(view, config.frames), *halves(view, config)])
     may = may[[shells[0] for shells in members]]
     found: dict[int, list[FrontShells]] = {}
     for front in _with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config):
@@ -161,9 +163,11 @@ def fronts_by_object(
     hidden = {o: fronts for o, fronts in flush.items() if fronts and _hides(view, o, fronts, whole[o], config)}
     others = {o: fronts for o, fronts in flush.items() if o not in hidden}
     single = {o: f[0] for o, f in others.items() if _is_one_with_handles(view, o, f, config.division)}
+    lying = lying_on_fronts(view, may & ~np.isin(view.owner, [*hidden, *single]), hidden, config)
     return FoundFronts(
         {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()},
         {o: front.made_of(members) for o, front in single.items()},
+        {o: tuple(tuple(m for k in group for m in members[k]) for group in groups) for o, groups in lying.items()},
     )
 
 
@@ -262,6 +266,13 @@ def _handles_apart(shells: MeshShells, owner: int, start: int, front: FrontShell
     """Returns a front without its handles, and these."""
     body, found = _split(shells, owner, start, front.handles)
     return [FacePiece("body", body), *(FacePiece("handle", faces) for faces in found)]
+
+
+def _lying_apart(shells: MeshShells, owner: int, start: int, groups: Sequence[tuple[int, ...]]) -> list[FacePiece]:
+    """Returns what of an object lies on each front, and what lies on none."""
+    rest, found = _split(shells, owner, start, groups)
+    lying = [FacePiece("on front", faces) for faces in found]
+    return [*([FacePiece("rest", rest)] if len(rest) else []), *lying]
 
 
 def _split(shells: MeshShells, owner: int, start: int, groups: Sequence[tuple[int, ...]]) -> tuple[Faces, list[Faces]]:

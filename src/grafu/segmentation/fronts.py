@@ -1,6 +1,6 @@
 """Fronts with what belongs to them: panes, mouldings and liners, the boards of a drawer, handles. It asks no names."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, final
 
@@ -13,6 +13,7 @@ from grafu.segmentation.candidates import Scale, overlaps, within
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.view import MaskOfShells, ShellsView
 
+_SHEET = 1e-6  # of the gap across which pieces touch: what is no wider, seen from the front, is a sheet
 _RING_CELLS = 3  # rays around a handle that show where its front lies
 
 
@@ -58,6 +59,27 @@ def fronts_among(view: ShellsView, plates: Indices, config: SegmentationConfig) 
         taken |= front.all_shells
         found.append(front)
     return tuple(found)
+
+
+def lying_on_fronts(
+    view: ShellsView, may: MaskOfShells, hidden: Mapping[int, tuple[FrontShells, ...]], config: SegmentationConfig
+) -> dict[int, tuple[tuple[int, ...], ...]]:
+    """Returns for each object the shells that lie on fronts hidden in others, a group for each, where that parts it."""
+    plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
+    near, gap = config.candidates.near * Scale.of(view).extent[plates], config.members.handle_gap
+    area = np.prod(view.size[:, :2], axis=1)
+    found: dict[int, tuple[tuple[int, ...], ...]] = {}
+    for owner in np.unique(view.owner[may]).tolist() if len(plates) else ():
+        own = np.flatnonzero(view.owner == owner)
+        low, high = view.low[own, None], view.high[own, None]
+        shared = np.minimum(high, view.high[plates])[..., :2] - np.maximum(low, view.low[plates])[..., :2]
+        on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * area[own, None]
+        on &= (low[..., 2] >= view.low[plates, 2] - near) & (low[..., 2] <= view.high[plates, 2] + gap * near)
+        lies, fronts = on.any(axis=1), on.argmax(axis=1)
+        served = np.unique(fronts[lies]).tolist()
+        if served and (len(served) > 1 or not lies.all()):
+            found[owner] = tuple(tuple(own[lies & (fronts == k)].tolist()) for k in served)
+    return found
 
 
 def _ranked(view: ShellsView, plates: Indices) -> list[int]:
@@ -124,7 +146,9 @@ class _FrontFinder:
         out = (view.high[:, 2] > front + config.handle_least_out * near) & (view.low[:, 2] >= view.low[plate, 2] - near)
         starts = view.low[:, 2] <= front + config.handle_gap * near
         starts &= view.high[:, 2] <= front + config.handle_out * extent
-        return np.asarray(small & on & out & starts)
+        mouldings = (view.size[:, :2] >= config.moulding * view.size[plate, :2]).any(axis=1)
+        mouldings &= view.high[:, 2] <= front + near
+        return np.asarray(small & on & out & starts & ~mouldings)
 
     def _level_near(self, shell: int, plate: int) -> float:
         """Returns how far the plate comes forward around a shell: curved fronts come farther elsewhere."""
@@ -178,7 +202,10 @@ class _FrontFinder:
         return nothing if lid.any() else box
 
     def _grouped(self, shells: Indices) -> tuple[tuple[int, ...], ...]:
-        """Returns shells as groups of those that touch, bar and posts of one handle; flat ones are printed marks."""
+        """Returns shells as groups of those that touch, bar and posts of one handle.
+
+        What is flat is a printed mark, a sheet that is seen from its edge the seam of a mirrored half.
+        """
         if not len(shells):
             return ()
         low, high = self._view.low[shells], self._view.high[shells]
@@ -187,7 +214,9 @@ class _FrontFinder:
         touching = coo_matrix(gaps <= near)
         count, label = connected_components(touching, directed=False)
         groups = [label == k for k in range(count)]
-        thick = [high[group, 2].max() - low[group, 2].min() >= self._config.thick_handle * near for group in groups]
+        sizes = [high[group].max(axis=0) - low[group].min(axis=0) for group in groups]
+        least = np.array([_SHEET, _SHEET, self._config.thick_handle]) * near
+        thick = [bool((size >= least).all()) for size in sizes]
         return tuple(tuple(shells[group].tolist()) for group, is_thick in zip(groups, thick, strict=True) if is_thick)
 
 
