@@ -4,12 +4,15 @@ Labels come first, because edges are more accurate when labels are given. Free s
 that they added as nodes of the input, until none fires: the number of handles has no limit. The last result is the mean
 of two forward passes, on the graph and on its mirror image: their errors differ.
 
-Labels of unlabelled parts: the network's category, weighed by whether anything could carry such a part.
+Labels of unlabelled parts: the network's category, weighed by whether anything could carry such a part, and by whether
+it is one of a column of wide fronts, which are drawers rather than doors.
 
 Labels that the input states are kept, whatever the network states.
 """
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from grafu.completion.answers import decision_of
 from grafu.completion.config import DecodeConfig
@@ -19,6 +22,7 @@ from grafu.completion.probabilities import Probabilities, averaged, mirrored_bac
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
 from grafu.completion.votes import ranking_of
+from grafu.geometry.arrays import Indices
 from grafu.geometry.budget import fits, present_budget, require_room, require_time
 from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, LABELS, RAIL, UNKNOWN
 from grafu.graph.completion import Decision, GraphCompletion
@@ -27,6 +31,7 @@ from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.vocabulary import PartLabel
 
+_LEAST = 1e-9  # no weight is less, so that odds are finite
 _CARRIED_BY = {DOOR: HINGE, DRAWER: RAIL, HANDLE: ATTACHED}
 
 
@@ -39,12 +44,12 @@ def choose_labels(
     """
     labels: dict[str, PartLabel] = {}
     decisions = []
-    weights = _weights(probabilities, len(graph.nodes), config)
+    weights = _with_columns(_weights(probabilities, len(graph.nodes), config), graph, config)
     for k, node in enumerate(graph.nodes):
         if node.label is not PartLabel.UNKNOWN:
             continue
         allowed = _allowed(graph, node.id, labels)
-        ranking = ranking_of([label.value for label in LABELS], np.maximum(weights[k], 1e-9) * allowed)
+        ranking = ranking_of([label.value for label in LABELS], np.maximum(weights[k], _LEAST) * allowed)
         labels[node.id] = PartLabel(ranking.choice)
         decisions.append(decision_of(node.id, "label", ranking))
     return labels, tuple(decisions)
@@ -59,6 +64,42 @@ def _weights(probabilities: Probabilities, count: int, config: DecodeConfig) -> 
             carried = others[..., kind].max(axis=1)
             weights[:, label] *= config.edge_for_label + (1.0 - config.edge_for_label) * carried
     return weights
+
+
+_ALIGNED = 0.05  # of a front's width: how far the sides of fronts of one column differ
+_BETWEEN = 0.5  # of a front's height: how far the next one of its column may be, and how much its height may differ
+
+
+def _with_columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
+    """Returns the weights of labels where the fronts of a column agree on being doors or drawers, more likely drawers.
+
+    Wide fronts right above each other, seen from the front, are a column: their odds are the mean of the logarithms.
+    """
+    made = weights.copy()
+    for column in _columns(weights, graph, config):
+        odds = np.log(np.maximum(weights[column, DRAWER], _LEAST) / np.maximum(weights[column, DOOR], _LEAST))
+        ratio = config.stacked * float(np.exp(odds.mean()))
+        both = weights[column, DOOR] + weights[column, DRAWER]
+        made[column, DRAWER], made[column, DOOR] = both * ratio / (1 + ratio), both / (1 + ratio)
+    return made
+
+
+def _columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> list[Indices]:
+    """Returns the columns of wide fronts, each as the numbers of its nodes."""
+    low, high = (np.array([getattr(node.box, end) for node in graph.nodes]) for end in ("low", "high"))
+    size = high - low
+    wide = size[:, 0] >= config.wide * size[:, 2]
+    fronts = np.flatnonzero(wide & np.isin(weights.argmax(axis=1), (DOOR, DRAWER)))
+    if len(fronts) < 2:
+        return []
+    low, high, size = low[fronts], high[fronts], size[fronts]
+    aside = np.maximum(np.abs(low[:, None, 0] - low[None, :, 0]), np.abs(high[:, None, 0] - high[None, :, 0]))
+    between = np.maximum(low[:, None, 2] - high[None, :, 2], low[None, :, 2] - high[:, None, 2])
+    near = (aside <= _ALIGNED * size[:, None, 0]) & (np.abs(between) <= _BETWEEN * size[:, None, 2])
+    near &= np.abs(size[:, None, 2] - size[None, :, 2]) <= _BETWEEN * size[:, None, 2]
+    count, number = connected_components(coo_matrix(near | near.T), directed=False)
+    groups = (fronts[number == k] for k in range(count))
+    return [group for group in groups if len(group) > 1]
 
 
 def _allowed(graph: FunctionalGraph, node_id: str, chosen: dict[str, PartLabel]) -> np.ndarray:

@@ -182,7 +182,7 @@ class RealizationConfig(ShortRepr):
     """
 
     LENGTHS = (
-        *("contact", "flush", "anchor", "bridge", "chosen_reach"),
+        *("contact", "flush", "anchor", "bridge", "hinge_bridge", "chosen_reach"),
         *("max_hidden_trim", "max_back_trim", "thinnest_front"),
     )
     depth: float = 0.0004
@@ -194,7 +194,9 @@ class RealizationConfig(ShortRepr):
     anchor: float = 0.001
     """Farthest that hardware may be from what it is mounted on before a support block bridges the gap (metres)."""
     bridge: float = 0.6
-    """Longest support block (metres)."""
+    """Longest support block of a rail (metres)."""
+    hinge_bridge: float = 0.15
+    """Longest support block of a hinge (metres): beyond that a door rather moves without hardware."""
     chosen_reach: float = 0.1
     """Longest block that bridges the gap to a chosen mount: what stands farther off does not carry it (metres)."""
     door_opening: float = radians(110)
@@ -270,7 +272,7 @@ class RealizationConfig(ShortRepr):
         require_positive(
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
-        require_positive(self, "lid_opening", "no_hardware_gap", "carved_faces")
+        require_positive(self, "hinge_bridge", "lid_opening", "no_hardware_gap", "carved_faces")
         require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
         require_ratios(
             self,

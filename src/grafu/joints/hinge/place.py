@@ -208,7 +208,7 @@ def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> HingeSite:
         upper=upper,
         depth=search.depth,
         anchor=search.config.anchor,
-        reach=search.config.chosen_reach if mount else search.config.bridge,
+        reach=search.config.chosen_reach if mount else search.config.hinge_bridge,
         config=search.config.hinge,
         block=search.config.block,
         holders=search.request.holders,
