@@ -208,3 +208,41 @@ def test_objects_without_names_that_are_one_drawer_are_joined(tmp_path):
     assert any("joined to Cube.008" in note for note in found.notes)
     assert len(read(nameless, parts="input").parts) == len(meshes)
     assert len(read([*CABINET, *(f"side_panel_{name}" for name in boards)]).parts) == len(CABINET) - 1 + len(boards)
+
+
+TUB = [
+    ((-0.5, -0.3, 0.0), (0.5, -0.28, 0.58)),
+    ((-0.5, 0.28, 0.0), (0.5, 0.3, 0.58)),
+    ((-0.5, -0.28, 0.0), (-0.48, 0.28, 0.58)),
+    ((0.48, -0.28, 0.0), (0.5, 0.28, 0.58)),
+    ((-0.48, -0.28, 0.0), (0.48, 0.28, 0.02)),
+]
+SEAL, COVER = ((-0.49, -0.29, 0.58), (0.49, 0.29, 0.585)), ((-0.5, -0.3, 0.585), (0.5, 0.3, 0.62))
+GRIP = ((-0.1, -0.33, 0.6), (0.1, -0.3, 0.615))
+
+
+@pytest.mark.parametrize(
+    ("model", "objects", "has_lid"),
+    [
+        ("chest_freezer", [[*TUB, SEAL, COVER, GRIP]], True),
+        ("toy chest", [TUB, [SEAL], [COVER]], True),
+        ("chest", [TUB, [SEAL]], True),
+        ("chest", [TUB], False),
+        ("chest_of_drawers", [[*TUB, COVER]], False),
+        ("box", [[*TUB, COVER]], False),
+    ],
+)
+def test_what_is_called_a_chest_gets_the_lid_that_covers_it(model, objects, has_lid):
+    boards = [[TriangleMesh.box_mesh(Box(np.array(a), np.array(b))) for a, b in one] for one in objects]
+    parts = tuple(
+        Part(f"cube_{k}", PartLabel.UNKNOWN, (Surface(merge_meshes(one)),), PartSource(f"cube_{k}"))
+        for k, one in enumerate(boards)
+    )
+    found = cut_where_fronts_appear(Reading("mesh file", parts, Convention("test")), IDENTITY_FRAME, model)
+
+    lids = [part for part in found.parts if part.label is PartLabel.DOOR]
+    assert len(lids) == has_lid
+    if has_lid and any(COVER in one for one in objects):
+        assert lids[0].id.endswith("_lid")
+        assert lids[0].box.low[2] == pytest.approx(COVER[0][2])
+        assert (lids[0].box.low[1] == pytest.approx(GRIP[0][1])) == (GRIP in objects[0])

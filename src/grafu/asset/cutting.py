@@ -10,7 +10,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.labels import is_appliance, sense_of
+from grafu.asset.labels import is_appliance, is_chest, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
 from grafu.asset.part import ROBOTS, Frame, Part
@@ -22,7 +22,7 @@ from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import merge_meshes
 from grafu.segmentation.config import CreaseConfig
-from grafu.segmentation.creases import back_of, drawn_fronts
+from grafu.segmentation.creases import back_of, drawn_fronts, lid_of_chest
 from grafu.segmentation.division import FacePiece, divided
 from grafu.segmentation.joining import joined_objects
 from grafu.vocabulary import PartLabel
@@ -71,6 +71,8 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     cuts = divided(meshes, open_to, whole, materials)
     if not cuts and not any(whole) and len(reading.parts) <= config.few:
         cuts = drawn_fronts(meshes, open_to, materials)
+    if is_chest(name) and not any(whole) and sum(p.role == "front" for found in cuts.values() for p in found) <= 1:
+        cuts = lid_of_chest(meshes, open_to) or cuts  # its front wall is a plate, too
     if not cuts:
         return reading
     model = "" if any(part.label is PartLabel.DOOR for part in reading.parts) else name
@@ -140,7 +142,7 @@ def _ids(pieces: list[tuple[Part, FacePiece | None]]) -> list[str]:
 
 
 def _is_new(piece: FacePiece | None) -> bool:
-    return piece is not None and piece.role in ("front", "handle")
+    return piece is not None and piece.role in ("front", "handle", "lid")
 
 
 def _freed(part: Part, cut: set[str]) -> Part:
@@ -165,6 +167,8 @@ def _part(part: Part, piece: FacePiece | None, name: str, T: Mat4) -> Part:
     label, by = (part.label, part.labelled_by) if keeps else (PartLabel.UNKNOWN, "none")
     if piece.role == "on front" and label is PartLabel.UNKNOWN:
         label = PartLabel.MISC  # whatever it is, it is no front
+    if piece.role == "lid":
+        label, by = PartLabel.DOOR, "name"
     surfaces = faces_of_part(part, piece.faces)
     if piece.towards is not None:
         surfaces = (*surfaces, _back(part, surfaces, piece.towards, T))
@@ -198,7 +202,9 @@ def _note(part: Part, pieces: list[FacePiece]) -> str:
     if counts["on front"]:
         rest = " and elsewhere" if counts["rest"] else ""
         return f"{part.source.name} lies on fronts ({counts['on front']}){rest}: a part on each (--parts auto)"
-    found = [f"{counts[role]} {role}{'s' if counts[role] > 1 else ''}" for role in ("front", "handle") if counts[role]]
+    found = [
+        f"{counts[role]} {role}{'s' if counts[role] > 1 else ''}" for role in ("front", "handle", "lid") if counts[role]
+    ]
     if counts["body"]:
         return f"{part.source.name} holds {found[0]} drawn in it: parts of their own (--parts auto)"
     rest = " and the rest" if counts["rest"] else ""

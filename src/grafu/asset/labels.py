@@ -91,6 +91,7 @@ _CONTAINERS = word_set(
     "dishwasher washer "
     "bed stair nightstand shell housing"
 )
+_CHESTS = word_set("chest trunk coffer")
 _APPLIANCES = word_set("fridge refrigerator freezer oven stove cooker microwave dishwasher washer")
 
 
@@ -131,6 +132,12 @@ def is_control(name: str) -> bool:
     """Whether the name is that of a wheel, caster, knob, button or the like: it may turn, but on no hinge or rail."""
     said = {singular(w) for w in spoken(name)}
     return bool(said & _CONTROLS) and not said & {"door", "drawer"}
+
+
+def is_chest(name: str) -> bool:
+    """Whether the name is that of a chest, a trunk or a chest freezer, but of no chest of drawers."""
+    said = {singular(w) for w in spoken(name)}
+    return bool(said & _CHESTS) and "drawer" not in said
 
 
 def is_appliance(name: str) -> bool:

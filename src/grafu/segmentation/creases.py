@@ -1,4 +1,6 @@
-"""Fronts drawn on a welded surface: a groove, a step or another material parts them from their case.
+"""What is cut where no front is a shell: fronts drawn on a welded surface, and the lid of what is called a chest.
+
+A groove, a step or another material parts a drawn front from its case.
 
 The foot of a groove around a door, or the corner where a raised or sunk front meets its frame, is an inner corner; the
 outer edges of a case and of a front are none. So a surface that is parted at its inner corners, and where its material
@@ -6,7 +8,8 @@ changes, has each front as a patch, with the edges that it has.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import final
 
 import numpy as np
 from jaxtyping import Bool, Int
@@ -15,10 +18,11 @@ from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Faces, Indices, Vec3
 from grafu.geometry.components import welded
+from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.candidates import within
 from grafu.segmentation.config import CreaseConfig, SegmentationConfig
-from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object, outline
+from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object, outline, split
 from grafu.segmentation.fronts import FrontShells
 from grafu.segmentation.view import ShellsView, view_of
 
@@ -196,3 +200,45 @@ def _border(faces: Faces) -> tuple[Edges, Edges]:
     _, number, counts = np.unique(key, return_inverse=True, return_counts=True)
     alone = counts[number.reshape(-1)] == 1
     return start[alone], end[alone]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class LidConfig:
+    """What may be the lid of a chest.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    plan: float = 0.85
+    """What of the chest's plan it covers at least (fraction of the area)."""
+    height: float = 0.3
+    """How high it is at most (fraction of the chest's height)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
+
+
+def lid_of_chest(
+    meshes: Sequence[TriangleMesh], open_to: Sequence[bool], config: LidConfig = LidConfig()
+) -> dict[int, list[FacePiece]]:
+    """Returns the object that holds the lid of a chest, cut into that, with what stands on it, and the rest, if any.
+
+    Of the shells that cover the chest from above the lid is the largest.
+    """
+    shells = MeshShells.of(meshes)
+    view = view_of(shells.mesh, shells.shell, shells.owner, axes_from(0))
+    low, high = view.low.min(axis=0), view.high.max(axis=0)
+    plan, tall = view.size[:, 0] * view.size[:, 2], high[1] - low[1]
+    lids = plan >= config.plan * (high - low)[0] * (high - low)[2]
+    lids &= (view.size[:, 1] <= config.height * tall) & (view.low[:, 1] > low[1] + tall / 2)
+    lids &= np.asarray(open_to, dtype=bool)[view.owner]
+    if not lids.any():
+        return {}
+    lid = max(np.flatnonzero(lids).tolist(), key=lambda k: float(plan[k] * view.size[k, 1]))
+    owner, middle = int(view.owner[lid]), float(view.low[lid, 1])
+    above = np.flatnonzero((view.owner == owner) & ((view.low + view.high)[:, 1] / 2 >= middle)).tolist()
+    start = sum(len(mesh.faces) for mesh in meshes[:owner])
+    rest, (found,) = split(shells, owner, start, [tuple(above)])
+    return {owner: [*([FacePiece("rest", rest)] if len(rest) else []), FacePiece("lid", found)]}

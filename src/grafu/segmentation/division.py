@@ -29,12 +29,12 @@ _Z: Final = np.array([0.0, 0.0, 1.0])
 class FacePiece:
     """Faces of one object that become a part, and its role in that object.
 
-    "front" and "handle" are new parts; "rest" is what is left of an object, "body" a door or drawer without the handles
-    that were drawn in it, "on front" what lies on a front of another object. A front that was drawn on a surface looks
-    `towards` a unit direction; None: it is a shell of its own.
+    "front", "handle" and "lid" are new parts; "rest" is what is left of an object, "body" a door or drawer without the
+    handles that were drawn in it, "on front" what lies on a front of another object. A front that was drawn on a
+    surface looks `towards` a unit direction; None: it is a shell of its own.
     """
 
-    role: Literal["front", "handle", "rest", "body", "on front"]
+    role: Literal["front", "handle", "lid", "rest", "body", "on front"]
     faces: Indices
     towards: Vec3 | None = None
 
@@ -256,7 +256,7 @@ def _pieces(shells: MeshShells, owner: int, start: int, fronts: tuple[FrontShell
     """Returns what is left of an object, its fronts, and their handles."""
     plates = [front.shells for front in fronts]
     handles = [handle for front in fronts for handle in front.handles]
-    rest, found = _split(shells, owner, start, [*plates, *handles])
+    rest, found = split(shells, owner, start, [*plates, *handles])
     new = [FacePiece("front", faces) for faces in found[: len(plates)]]
     new += [FacePiece("handle", faces) for faces in found[len(plates) :]]
     return [*([FacePiece("rest", rest)] if len(rest) else []), *new]
@@ -264,18 +264,18 @@ def _pieces(shells: MeshShells, owner: int, start: int, fronts: tuple[FrontShell
 
 def _handles_apart(shells: MeshShells, owner: int, start: int, front: FrontShells) -> list[FacePiece]:
     """Returns a front without its handles, and these."""
-    body, found = _split(shells, owner, start, front.handles)
+    body, found = split(shells, owner, start, front.handles)
     return [FacePiece("body", body), *(FacePiece("handle", faces) for faces in found)]
 
 
 def _lying_apart(shells: MeshShells, owner: int, start: int, groups: Sequence[tuple[int, ...]]) -> list[FacePiece]:
     """Returns what of an object lies on each front, and what lies on none."""
-    rest, found = _split(shells, owner, start, groups)
+    rest, found = split(shells, owner, start, groups)
     lying = [FacePiece("on front", faces) for faces in found]
     return [*([FacePiece("rest", rest)] if len(rest) else []), *lying]
 
 
-def _split(shells: MeshShells, owner: int, start: int, groups: Sequence[tuple[int, ...]]) -> tuple[Faces, list[Faces]]:
+def split(shells: MeshShells, owner: int, start: int, groups: Sequence[tuple[int, ...]]) -> tuple[Faces, list[Faces]]:
     """Returns the faces of an object that are in none of some groups of shells, and those of each group."""
     faces = np.flatnonzero(shells.owner[shells.shell] == owner)
     of = shells.shell[faces]
