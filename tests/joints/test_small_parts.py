@@ -45,12 +45,13 @@ def knob(name="handle", x=0.36, ends=(-0.02, -0.05), radius=0.015):
 
 
 def caster(name, x, y):
-    """A wheel of 60 mm between two cheeks, under a plate at 0.1 m with a stem into the board above."""
+    """A wheel of 60 mm on an axle between two cheeks, under a plate at 0.1 m with a stem into the board above."""
     sides = ((x - 0.022, x - 0.02), (x + 0.02, x + 0.022))
     cheeks = [box(f"{name}_cheek_{k}", (a, y - 0.01, 0.03), (b, y + 0.01, 0.08)) for k, (a, b) in enumerate(sides)]
     plate = box(f"{name}_plate", (x - 0.022, y - 0.02, 0.08), (x + 0.022, y + 0.02, 0.09))
     stem = cylinder(f"{name}_stem", ((x, y, 0.09), (x, y, 0.11)), 0.006)
-    return [*cheeks, plate, stem, cylinder(f"{name}_roll", ((x - 0.015, y, 0.03), (x + 0.015, y, 0.03)), 0.03)]
+    axle = cylinder(f"{name}_axle", ((x - 0.022, y, 0.03), (x + 0.022, y, 0.03)), 0.003)
+    return [*cheeks, plate, stem, axle, cylinder(f"{name}_roll", ((x - 0.015, y, 0.03), (x + 0.015, y, 0.03)), 0.03)]
 
 
 def trolley(*more):
@@ -92,6 +93,17 @@ def test_a_knob_on_a_turned_piece_turns_about_its_own_axis():
     assert np.allclose(joint.axis.direction, (np.sin(0.5), -np.cos(0.5), 0), atol=1e-6)
 
 
+def test_a_shaft_turns_in_the_hole_that_it_passes_through():
+    made = made_of(*CASE, DOOR, knob(ends=(-0.005, -0.05)))
+    (record,) = [record for record in report_of(made).joints if record.small]
+    assert record.collision_share == 0
+    assert report_of(made).verdict.colour == "green"
+
+
+def test_a_knob_that_hangs_in_the_air_stays_a_piece():
+    assert small_joints(made_of(*CASE, DOOR, knob(ends=(-0.035, -0.06)))) == {}
+
+
 POSTS = [knob(f"post_{k}", x, (-0.02, -0.045), 0.006) for k, x in enumerate((0.2, 0.3))]
 BAR = cylinder("handle_bar", ((0.15, -0.05, 0.3), (0.35, -0.05, 0.3)), 0.006)
 CUP = knob("cup", 0.05, (0.0, 0.012), 0.0175)
@@ -127,7 +139,7 @@ def test_casters_swivel_and_their_wheels_turn():
         assert np.allclose(fork.axis.direction, (0, 0, 1))
         assert fork.axis.distance_to(np.array([x, y, 0.0])) < 1e-6
         assert abs(wheel.axis.direction[0]) == pytest.approx(1.0)
-        assert len(made.object.link(fork.child).visuals) == 4
+        assert len(made.object.link(fork.child).visuals) == 5
     grasps = {record.grasp for record in report_of(made).joints if record.small}
     assert grasps == {"driven"}
 

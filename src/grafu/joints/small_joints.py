@@ -9,6 +9,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import Mat4
+from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import merge_meshes
@@ -20,6 +21,7 @@ from grafu.joints.no_hardware import DRAWN
 from grafu.joints.plan import JointRequest
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import Clearance, Installed, Outcome
+from grafu.joints.small_parts import SOURCE as FOUND
 from grafu.joints.small_parts import small_parts, stated_small_parts
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.border import part_axes
@@ -88,6 +90,11 @@ def _built(
     if opening < config.restricted * wanted:
         why = "what stands around it leaves it no room to move"
         return made, Refusal(request.moving, Reason.BLOCKED, why, Asked.SMALL_JOINT)
+    ratio, gap, mount = _figures(taken, opening, made, config)
+    if request.source == FOUND and gap > config.no_hardware_gap * _extent(made):
+        return made, Refusal(
+            request.moving, Reason.NO_SUPPORT, f"it is {gap:.4f} m off what could carry it", Asked.SMALL_JOINT
+        )
     joint = Joint(
         joint_id(request.moving), request.type, taken.link.id, request.moving, request.axis, JointLimits(0.0, opening)
     )
@@ -97,7 +104,6 @@ def _built(
         for link in made.links
     ]
     changed = replace(made, links=(*links, Link(request.moving, taken.visuals)), joints=(*made.joints, joint))
-    ratio, gap, mount = _figures(taken, opening, made, config)
     return changed, Installed(
         moving=request.moving,
         joint=joint.id,
@@ -151,8 +157,11 @@ def _swept(
     motion = taken.request.kind.along(taken.request.axis)
     box = swept_box(mesh.box, motion, opening)
     near = [Obstacle(v.name, MeshCollider(v.mesh)) for v in taken.others if v.mesh.box.overlaps(box)]
-    extent = max(float(link.mesh.box.size.max()) for link in made.links)
-    return SweptBody(mesh, config.depth * extent, part_axes(mesh)), in_the_way(near, box)
+    return SweptBody(mesh, config.depth * _extent(made), part_axes(mesh)), in_the_way(near, box)
+
+
+def _extent(made: ArticulatedObject) -> float:
+    return float(Box.enclosing(link.mesh.box for link in made.links).size.max())
 
 
 def _span(taken: _Taken) -> float:
@@ -181,10 +190,16 @@ def _scaling(direction: np.ndarray, factor: float, place: float) -> Mat4:
 def _figures(
     taken: _Taken, opening: float, made: ArticulatedObject, config: RealizationConfig
 ) -> tuple[float, float, str]:
-    """Returns the fraction of poses that collide, the gap in metres to what carries the part, and which part does."""
+    """Returns the fraction of poses that collide, the gap in metres to what carries the part, and which part does.
+
+    What of its carrier the part passes through at rest is its bearing: a shaft turns in its hole.
+    """
     request = taken.request
     body, near = _swept(taken, opening, made, config)
-    ratio = sweep(body, request.kind.along(request.axis), opening, near, config.fine_poses).ratio
+    carrier = {visual.name for visual in taken.link.visuals}
+    bearings = carrier & set(blockers_at(body, np.eye(4), near))
+    others = [obstacle for obstacle in near if obstacle.id not in bearings]
+    ratio = sweep(body, request.kind.along(request.axis), opening, others, config.fine_poses).ratio
     own = [MeshCollider(visual.mesh) for visual in taken.visuals]
     names = {visual.name for visual in taken.visuals}
     still = [visual for visual in taken.link.visuals if visual.name not in names]
