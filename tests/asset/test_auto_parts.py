@@ -123,9 +123,14 @@ def test_fronts_of_what_is_called_doors_are_doors_and_the_rest_is_not():
     [
         (
             CASE,
-            r"none of its 6 shells looks like the front of a door or drawer; --parts loose makes parts of its 6 shells",
+            "none of its 6 shells looks like the front of a door or drawer, and none is drawn on it along its creases, "
+            "materials and texture islands; --parts loose makes parts of its 6 shells",
         ),
-        (CASE[:1], "it is one connected shell, in which no front of a door or drawer is found; divide it first"),
+        (
+            CASE[:1],
+            "it is one connected shell, in which no front of a door or drawer is found: none is drawn on it along its "
+            "creases, materials and texture islands; divide it first",
+        ),
     ],
 )
 def test_one_mesh_without_a_front_is_refused_naming_what_was_tried(tmp_path, names, said):

@@ -8,6 +8,8 @@ from trimesh.visual import TextureVisuals
 from trimesh.visual.material import PBRMaterial
 
 import grafu
+from grafu.asset.load import load_asset
+from grafu.errors import UnsegmentedAsset
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.config import CreaseConfig
@@ -82,20 +84,42 @@ def test_a_surface_that_is_inside_out_is_read_as_it_is_meant():
 
 
 def test_another_material_draws_a_front_on_an_even_face():
-    grid = trimesh.remesh.subdivide_to_size(*_box(), max_edge=0.06)
-    mesh = TriangleMesh(*grid)
-    middles = mesh.triangles.mean(axis=1)
-    ahead = mesh.face_normals @ FRONT > 0.9
-    upper = ahead & (middles[:, 2] > 0.45) & (middles[:, 2] < 0.75) & (np.abs(middles[:, 0] - 0.3) < 0.25)
-    lower = ahead & (middles[:, 2] > 0.05) & (middles[:, 2] < 0.4) & (np.abs(middles[:, 0] - 0.3) < 0.25)
-    found = cut(mesh, materials=[np.where(upper | lower, 1, 0)])
+    mesh, drawn = even_faces()
+    found = cut(mesh, materials=[np.where(drawn > 0, 1, 0)])
     assert [piece.role for piece in found[0]].count("front") == 2
 
 
-def _box():
+def even_faces():
+    """A plain box in small faces, and for each face whether it lies in one of two fronts (1, 2) or elsewhere (0)."""
     body = trimesh.creation.box(SIZE)
     body.apply_translation(np.array(SIZE) / 2)
-    return body.vertices, body.faces
+    mesh = TriangleMesh(*trimesh.remesh.subdivide_to_size(body.vertices, body.faces, max_edge=0.06))
+    middles = mesh.triangles.mean(axis=1)
+    ahead = (mesh.face_normals @ FRONT > 0.9) & (np.abs(middles[:, 0] - 0.3) < 0.25)
+    upper = ahead & (middles[:, 2] > 0.45) & (middles[:, 2] < 0.75)
+    lower = ahead & (middles[:, 2] > 0.05) & (middles[:, 2] < 0.4)
+    return mesh, np.where(upper, 1, np.where(lower, 2, 0))
+
+
+@pytest.mark.parametrize("islands", [True, False])
+def test_islands_of_the_texture_draw_fronts_on_an_even_face(tmp_path, islands):
+    mesh, drawn = even_faces()
+    corners = mesh.triangles.reshape(-1, 3)
+    of = np.repeat(drawn, 3) if islands else 0
+    uv = corners[:, [0, 2]] * 0.3 + corners[:, 1:2] * 0.01 + np.multiply.outer(of, [0.31, 0.0])
+    visual = TextureVisuals(uv=uv, material=PBRMaterial(baseColorFactor=[180, 120, 60, 255], name="oak"))
+    body = trimesh.Trimesh(corners, np.arange(len(corners)).reshape(-1, 3), visual=visual, process=False)
+    body.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, (1, 0, 0)))
+    body.export(tmp_path / "cabinet.glb")
+    if not islands:
+        with pytest.raises(UnsegmentedAsset, match="along its creases, materials and texture islands"):
+            load_asset(tmp_path / "cabinet.glb")
+        return
+    asset = load_asset(tmp_path / "cabinet.glb")
+    fronts = [part for part in asset.parts if part.id.startswith("geometry_0_front")]
+    assert len(fronts) == 2
+    assert all(surface.uv is not None for part in fronts for surface in part.surfaces[:1])
+    assert sorted(round(float(part.box.size[2]), 2) for part in fronts) == [0.3, 0.35]
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import merge_meshes
 from grafu.segmentation.config import CreaseConfig
-from grafu.segmentation.creases import back_of, drawn_fronts, lid_of_chest
+from grafu.segmentation.creases import back_of, drawn_fronts, lid_of_chest, uv_islands
 from grafu.segmentation.division import FacePiece, divided
 from grafu.segmentation.joining import joined_objects
 from grafu.vocabulary import PartLabel
@@ -71,6 +71,8 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     cuts = divided(meshes, open_to, whole, materials)
     if not cuts and not any(whole) and len(reading.parts) <= config.few:
         cuts = drawn_fronts(meshes, open_to, materials)
+        if not cuts and any(surface.uv is not None for part in reading.parts for surface in part.surfaces):
+            cuts = drawn_fronts(meshes, open_to, [_islands(part) for part in reading.parts])
     if is_chest(name) and not any(whole) and sum(p.role == "front" for found in cuts.values() for p in found) <= 1:
         cuts = lid_of_chest(meshes, open_to) or cuts  # its front wall is a plate, too
     if not cuts:
@@ -124,6 +126,16 @@ def _may_be_cut(part: Part, config: CutConfig) -> bool:
 def _materials(part: Part) -> Indices:
     """Returns the number of the surface of each face of the part's mesh."""
     return np.repeat(np.arange(len(part.surfaces)), [len(surface.mesh.faces) for surface in part.surfaces])
+
+
+def _islands(part: Part) -> Indices:
+    """Returns the number of the UV island of each face of the part's mesh; no island has faces of two surfaces."""
+    found: list[np.ndarray] = []
+    for surface in part.surfaces:
+        start = int(found[-1].max(initial=-1)) + 1 if found else 0
+        one = np.zeros(len(surface.mesh.faces), np.int64)
+        found.append(start + (one if surface.uv is None else uv_islands(surface.mesh, surface.uv)))
+    return np.concatenate(found)
 
 
 def _turn(frame: Frame) -> Mat4:

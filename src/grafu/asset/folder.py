@@ -99,9 +99,10 @@ def divide(surfaces: Sequence[Surface]) -> str:
 def looked_for_fronts(surfaces: Sequence[Surface]) -> str:
     """Returns what was tried to find parts in one mesh, in vain."""
     shells = shell_count(surfaces)
+    drawn = "none is drawn on it along its creases, materials and texture islands"
     if shells == 1:
-        return "it is one connected shell, in which no front of a door or drawer is found"
-    return f"none of its {shells} shells looks like the front of a door or drawer"
+        return f"it is one connected shell, in which no front of a door or drawer is found: {drawn}"
+    return f"none of its {shells} shells looks like the front of a door or drawer, and {drawn}"
 
 
 def mesh_files_in(folder: Path) -> list[Path]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Int
+from jaxtyping import Bool, Float, Int
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -27,6 +27,7 @@ from grafu.segmentation.fronts import FrontShells
 from grafu.segmentation.view import ShellsView, view_of
 
 OfFaces = Int[np.ndarray, " faces"]
+_SAME_UV = 1e-4  # of a texture's side: coordinates nearer to each other are one point of it
 Members = Int[np.ndarray, " members"]
 Edges = Int[np.ndarray, " edges"]
 MaskOfFaces = Bool[np.ndarray, " faces"]
@@ -106,6 +107,16 @@ def front_patches(mesh: TriangleMesh, material: OfFaces, towards: Vec3, config: 
     for one in np.flatnonzero(counts > 1).tolist():
         _part(number, np.flatnonzero(patch == one), facet, ahead, mesh, towards, config)
     return np.unique(number, return_inverse=True)[1].reshape(-1).astype(np.int64)
+
+
+def uv_islands(mesh: TriangleMesh, uv: Float[np.ndarray, "n 2"]) -> OfFaces:
+    """Returns for each face the number of its island: faces that meet in texture space as they do in space."""
+    if not len(mesh.faces):
+        return np.zeros(0, np.int64)
+    corners = np.column_stack([welded(mesh.vertices), np.round(uv / _SAME_UV).astype(np.int64)])
+    position = np.unique(corners, axis=0, return_inverse=True)[1].reshape(-1)[mesh.faces]
+    first, second, _ = _shared_edges(position)
+    return _numbers(len(mesh.faces), first, second, np.ones(len(first), dtype=bool))
 
 
 def _part(
