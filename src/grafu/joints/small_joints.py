@@ -21,7 +21,7 @@ from grafu.joints.no_hardware import DRAWN
 from grafu.joints.plan import JointRequest
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import Clearance, Installed, Outcome
-from grafu.joints.small_parts import SOURCE as FOUND
+from grafu.joints.small_knobs import SOURCE as FOUND
 from grafu.joints.small_parts import small_parts, stated_small_parts
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.border import part_axes
