@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from grafu.export.files import write_files
 from grafu.export.glb import export_glb
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.vocabulary import PartLabel
+from small_scenes import box
 from strategies import cabinet_specs
 
 UNKNOWN = Convention("nothing")
@@ -134,3 +136,15 @@ def test_a_glb_that_was_written_reads_back_as_its_parts(tmp_path):
     assert [(p.id, p.label, p.carried_by) for p in back.parts] == [(p.id, p.label, p.carried_by) for p in asset.parts]
     for a, b in zip(asset.parts, back.parts, strict=True):
         np.testing.assert_allclose([b.box.low, b.box.high], [a.box.low, a.box.high], atol=1e-6)
+
+
+@pytest.mark.parametrize("front", ["+X", "-X", "-Y", "+Y"])
+def test_fronts_in_the_middle_of_the_whole_show_the_front_by_what_is_seen_of_them(front):
+    # a pedestal whose fronts stand in the middle plane of the bed above it: their places tell nothing
+    bed = box("bed", (-1.0, -1.0, 1.0), (1.0, 1.0, 1.1))
+    case = box("case", (-0.3, 0.0, 0.0), (0.3, 0.6, 0.9))
+    fronts = [box(f"drawer_{k}", (-0.28, -0.02, 0.3 * k + 0.02), (0.28, 0.0, 0.3 * k + 0.28)) for k in range(3)]
+    fronts = [replace(p, label=PartLabel.DRAWER, labelled_by="name") for p in fronts]
+    asset = Asset("bed", "", "made", (bed, case, *fronts))
+    found = settle_frame(reading_of(asset, turned("+Z", front)), LoadOptions(up="+Z"))
+    assert found.front == front

@@ -3,7 +3,7 @@ import pytest
 
 from grafu.asset.labels import label_of
 from grafu.asset.part import Part, PartSource
-from grafu.asset.plausibility import BODY, with_control_panels, with_plausible_labels
+from grafu.asset.plausibility import BODY, with_bodies, with_control_panels, with_plausible_labels
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -129,3 +129,27 @@ def test_a_narrow_front_with_buttons_beside_a_door_is_a_control_panel(button):
 )
 def test_other_fronts_are_no_control_panels(others):
     assert {p.id: p.label for p in with_control_panels((*others, PANEL))}["micro_front"] is PartLabel.UNKNOWN
+
+
+STEPS = [((0.3 * k, 0.0, 0.0), (0.3 * k + 0.3, 0.5, 0.9 - 0.2 * k)) for k in range(4)]  # down along +X
+
+
+def test_fronts_far_inside_the_whole_are_fronts_where_nothing_stands_before_them():
+    fronts = [part(f"drawerstairs{k}", (0.3 * k + 0.3, 0.05, 0.72 - 0.2 * k), (0.3 * k + 0.32, 0.45, 0.88 - 0.2 * k))
+              for k in range(4)]  # fmt: skip
+    hidden = part("drawerstairs9", (0.28, 0.05, 0.05), (0.3, 0.45, 0.2))  # the other steps stand before it
+    behind = part("crate", (0.31, 0.0, 0.0), (0.4, 0.5, 0.25)), part("cupboard", (0.0, 0.0, 0.0), (0.27, 0.5, 0.25))
+    found = labels(part("steps", (0, 0, 0), (1.2, 0.5, 0.9)), *fronts, hidden, *behind)
+    assert all(found[front.id] is PartLabel.DRAWER for front in fronts)
+    assert found["drawerstairs9"] is PartLabel.MISC or found["drawerstairs9"] is PartLabel.UNKNOWN
+
+
+def test_what_holds_several_drawers_is_their_body_whatever_its_name():
+    fronts = [part(f"drawer_{k}", (0.05, 0.0, 0.25 * k + 0.05), (0.45, 0.02, 0.25 * k + 0.25)) for k in range(3)]
+    box, beside = part("box", (0, 0, 0), (0.5, 0.5, 0.8)), part("Cube.003", (0.6, 0, 0), (1.1, 0.5, 0.8))
+    found = {p.id: (p.label, p.labelled_by) for p in with_bodies((box, beside, *fronts))}
+    assert found["box"] == (BODY, "shape")
+    assert found["Cube.003"] == (PartLabel.UNKNOWN, "none")
+    assert with_bodies((box, beside, fronts[0]))[0].label is PartLabel.UNKNOWN  # a drawer box behind its one front
+    named = part("leg", *CASE)
+    assert with_bodies((named, *fronts))[0].label is named.label

@@ -17,6 +17,8 @@ from grafu.errors import AssetError
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
+from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.raycast import RayCaster, open_ratios
 from grafu.geometry.transform import from_rotation
 from grafu.vocabulary import PartLabel
 
@@ -53,6 +55,10 @@ class FrontEvidenceConfig:
     """Fraction of the votes that one side must have to overrule what is stated ..."""
     negligible: float = 0.1
     """... and that the stated side may have at most."""
+    small: float = 0.08
+    """Largest side of a door or drawer that shows it where one of its faces is seen, over that of the object."""
+    seen: float = 0.5
+    """How much more of one face of a door or drawer than of the other must be seen from outside (fraction)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -97,13 +103,23 @@ def front_votes(
     """Returns how much speaks for each horizontal direction as the front.
 
     Doors and drawers vote for the side that they face, handles for the side that they stick out of, back panels for
-    the opposite side.
+    the opposite side. Where these disagree, or say nothing, doors and drawers vote for the side that is seen.
     """
+    votes = _votes(parts, whole, up, config)
+    if max(votes.values()) > config.unanimous * sum(votes.values()) or not any(p.label.is_movable for p in parts):
+        return votes
+    return _votes(parts, whole, up, config, RayCaster(merge_meshes([part.mesh for part in parts])))
+
+
+def _votes(
+    parts: tuple[Part, ...], whole: Box, up: str, config: FrontEvidenceConfig, caster: RayCaster | None = None
+) -> dict[str, float]:
     votes = {d: 0.0 for d in DIRECTIONS if d[1] != up[1]}
     for part in parts:
-        if part.label in (PartLabel.DOOR, PartLabel.DRAWER):
-            if part.box.size.max() >= config.telling * whole.size.max():
-                _add(votes, _side(part, whole, votes, config), 1.0)
+        if part.label.is_movable:
+            ratio = float(part.box.size.max() / whole.size.max())
+            seen = _seen_side(part, caster, votes, config) if caster is not None and ratio >= config.small else None
+            _add(votes, seen or (_side(part, whole, votes, config) if ratio >= config.telling else None), 1.0)
         elif part.label is PartLabel.HANDLE:
             _add(votes, _nearest_side(part.box, whole, votes, config), config.handle)
         elif part.label is PartLabel.BACK_PANEL:
@@ -140,6 +156,17 @@ def _side(part: Part, whole: Box, votes: dict[str, float], config: FrontEvidence
         return _nearest_side(part.box, whole, votes, config)
     offset = part.box.center[thin] - whole.center[thin]
     return spelled(thin, bool(offset > 0)) if abs(offset) > config.aside * whole.half[thin] else None
+
+
+def _seen_side(
+    part: Part, caster: RayCaster, votes: dict[str, float], config: FrontEvidenceConfig
+) -> str | None:
+    """Returns the side to which a plate is open, while something stands behind it; None where that does not tell."""
+    thin = part.box.thin_axis
+    if not any("XYZ"[thin] == direction[1] for direction in votes):
+        return None
+    low, high = open_ratios(caster, part.box, thin)
+    return spelled(thin, high > low) if abs(high - low) >= config.seen else None
 
 
 def _nearest_side(box: Box, whole: Box, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:

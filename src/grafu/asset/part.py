@@ -57,7 +57,7 @@ class Part:
     label: PartLabel
     surfaces: tuple[Surface, ...]
     source: PartSource
-    labelled_by: Literal["name", "annotation", "joint", "user", "prediction", "added", "none"] = "none"
+    labelled_by: Literal["name", "shape", "annotation", "joint", "user", "prediction", "added", "none"] = "none"
     carried_by: str | None = None
 
     def __repr__(self) -> str:

@@ -95,6 +95,16 @@ class _Scene:
         )
         return int((inside & others).sum())
 
+    def is_seen(self, box: Box, axis: int) -> bool:
+        """Whether no other part stands before one of the two faces of a box across an axis; what holds it does not."""
+        spare = self.config.spare * self.extent
+        holds = np.all(self.low <= box.low + spare, axis=1) & np.all(self.high >= box.high - spare, axis=1)
+        across = [k for k in range(3) if k != axis]
+        common = np.minimum(self.high, box.high) - np.maximum(self.low, box.low)
+        beside = np.all(common[:, across] > spare, axis=1) & ~holds
+        before = self.high[:, axis] < box.center[axis], self.low[:, axis] > box.center[axis]
+        return any(not (beside & ahead).any() for ahead in before)
+
 
 def with_plausible_labels(
     parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()
@@ -125,6 +135,22 @@ def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
     ):
         return part
     return replace(part, label=PartLabel.MISC, labelled_by="name")
+
+
+def with_bodies(parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()) -> tuple[Part, ...]:
+    """Returns the parts with unlabelled ones that hold several doors or drawers as the bodies of these."""
+    extent = max((float(np.max(part.box.size)) for part in parts), default=1.0)
+    spare = config.spare * extent
+    fronts = [part.box for part in parts if part.label.is_movable]
+
+    def judged(part: Part) -> Part:
+        if part.label is not PartLabel.UNKNOWN or float(part.box.size.min()) <= config.plate * extent:
+            return part
+        low, high = part.box.low - spare, part.box.high + spare
+        held = sum(bool((box.low >= low).all() and (box.high <= high).all()) for box in fronts)
+        return replace(part, label=BODY, labelled_by="shape") if held > 1 else part
+
+    return tuple(judged(part) for part in parts)
 
 
 def with_control_panels(parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()) -> tuple[Part, ...]:
@@ -219,9 +245,13 @@ def _is_body(box: Box, scene: _Scene) -> bool:
 
 
 def _is_front(box: Box, scene: _Scene) -> bool:
-    """Whether a box is a plate of some size at the outside of the object, facing out."""
+    """Whether a box is a plate of some size that faces out: at the outside of the object, or nothing stands before it.
+
+    The fronts of a staircase with drawers, or of a desk under a bed, lie far inside the object's own box.
+    """
     thin = box.thin_axis
     sides = np.sort(box.size) / scene.extent
     gap = min(box.low[thin] - scene.whole.low[thin], scene.whole.high[thin] - box.high[thin]) / scene.extent
     config = scene.config
-    return bool(sides[0] <= config.plate and sides[1] >= 2 * config.strip and gap <= config.outside)
+    is_plate = bool(sides[0] <= config.plate and sides[1] >= 2 * config.strip)
+    return is_plate and (bool(gap <= config.outside) or (thin != 2 and scene.is_seen(box, thin)))

@@ -15,7 +15,7 @@ from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
 from grafu.asset.pieces import with_joined_pieces
-from grafu.asset.plausibility import with_control_panels, with_plausible_labels
+from grafu.asset.plausibility import with_bodies, with_control_panels, with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
@@ -51,7 +51,7 @@ def settled(
         stands = settle_frame(reading, options, file)
         reading = joined_where_nameless(cut_where_fronts_appear(reading, stands, name), stands)
         reading = _with_split_handles(reading)
-    reading = replace(reading, parts=with_control_panels(reading.parts))
+    reading = replace(reading, parts=with_bodies(with_control_panels(reading.parts)))
     _check_parts(reading, path, options)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options, file)

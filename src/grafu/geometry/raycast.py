@@ -16,6 +16,7 @@ from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from jaxtyping import Bool, Float, Int
 
 from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays
+from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 
@@ -160,6 +161,24 @@ def outer_points(points: Points, mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
         left = np.flatnonzero(~seen)
         seen[left] = np.isinf(caster.along(points[left] + off * direction, direction))
     return seen
+
+
+_RAYS = 5  # in each direction of a face
+
+
+def open_ratios(caster: RayCaster, box: Box, axis: int) -> tuple[float, float]:
+    """Returns the fraction of rays that meet nothing, from just before the lower and the upper face across an axis."""
+    across = [k for k in range(3) if k != axis]
+    steps = (np.arange(_RAYS) + 0.5) / _RAYS
+    places = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
+    origins = np.empty((len(places), 3))
+    origins[:, across] = box.low[across] + places * box.size[across]
+    off, direction = _OFF * float(box.size.max()), np.zeros(3)
+    found = []
+    for sign, face in ((-1.0, box.low), (1.0, box.high)):
+        origins[:, axis], direction[axis] = face[axis] + sign * off, sign
+        found.append(float(np.isinf(caster.along(origins, direction)).mean()))
+    return found[0], found[1]
 
 
 Cast = Callable[[Points, Vec3], Scalars]

@@ -8,7 +8,9 @@ from pathlib import Path
 
 from grafu.asset.part import Asset
 from grafu.completion.network import complete_by_network
+from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, open_network
+from grafu.completion.ways_out import with_ways_out
 from grafu.geometry.sampling import sample_surfaces
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.completion import GraphCompletion, decision_of
@@ -34,6 +36,8 @@ def complete_by_annotation(asset: Asset, graph: FunctionalGraph, source: str = "
 def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | None = None) -> GraphCompletion:
     """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
 
+    Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`).
+
     Raises:
         WeightsError: if the file is missing, or is no such network.
     """
@@ -42,4 +46,9 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     found = complete_by_network(replace(graph, nodes=pointed), network, network.features)
     bare = tuple(replace(node, points=None) for node in found.completed.nodes)
-    return replace(found, input=graph, completed=replace(found.completed, nodes=bare))
+    return with_ways_out(replace(found, input=graph, completed=replace(found.completed, nodes=bare)), asset)
+
+
+def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
+    """Returns the graph as the rule completes it, its drawers turned to the side that they are seen from."""
+    return with_ways_out(complete_by_rule(graph), asset)

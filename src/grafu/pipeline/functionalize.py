@@ -11,7 +11,6 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.foreign.attach import attach_motions
 from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
-from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
 from grafu.geometry.budget import UNLIMITED, Budget
@@ -32,7 +31,7 @@ from grafu.joints.report import RealizationReport
 from grafu.joints.small_joints import with_small_parts
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
-from grafu.pipeline.complete import complete_by_annotation, complete_by_weights
+from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
 from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
@@ -147,7 +146,7 @@ MOTIONS: dict[MotionSource, MotionMethod] = {
     MotionSource.NETWORK: MotionMethod(
         complete_by_weights, _plan_completion, lambda _: has_shipped_weights(), reads_annotation=False
     ),
-    MotionSource.RULE: MotionMethod(lambda _, graph: complete_by_rule(graph), _plan_completion, reads_annotation=False),
+    MotionSource.RULE: MotionMethod(complete_by_shape, _plan_completion, reads_annotation=False),
     **{
         source: MotionMethod(partial(complete_by_annotation, source=source.value), _plan_annotation)
         for source in FOREIGN

@@ -78,7 +78,7 @@ class PartRecord(ReportRecord):
     source: SourceRecord = Field(description="where it came from")
     category: PartLabel = Field(description="its category, as completed")
     labelled_by: str = Field(
-        description="what the category rests on: name, joint, annotation, user, prediction, added, none"
+        description="what the category rests on: name, shape, joint, annotation, user, prediction, added, none"
     )
     link: str = Field(description="the link of model.urdf that holds it; empty: it was replaced")
 

@@ -124,14 +124,18 @@ def _is_flanked(view: ShellsView, shell: int, scale: Scale, config: CandidateCon
     return bool(left.any() and right.any())
 
 
-def framed(view: ShellsView, config: FrameConfig) -> list[tuple[int, ...]]:
-    """Returns the shells of each framed front, a shell in one at most; frames that share a bar are none."""
-    size, extent = view.size, Scale.of(view).extent
+def framed(view: ShellsView, segmentation: SegmentationConfig) -> list[tuple[int, ...]]:
+    """Returns the shells of each framed front, a shell in one at most; frames that share a bar are none.
+
+    A bar is as long as the shorter side of a front at least.
+    """
+    size, extent, config = view.size, Scale.of(view).extent, segmentation.frames
     found: list[tuple[int, ...]] = []
     for along in (1, 0):
         across = 1 - along
         slender = (size[:, along] >= config.bar * size[:, across]) & (size[:, 2] <= config.thick * extent)
         bars = slender & (size[:, 2] <= config.deep * size[:, across]) & (size[:, across] > 0)
+        bars &= size[:, along] >= segmentation.candidates.least * extent
         for bar, others in _pairs(view, bars, along, extent * config.same):
             near = _level_with(view, bar, along, config.same * extent[bar])
             around, numbers = view.of_shells(near), {shell: k for k, shell in enumerate(near.tolist())}

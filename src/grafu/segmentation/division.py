@@ -154,7 +154,7 @@ def fronts_by_object(
     view: ShellsView, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig
 ) -> FoundFronts:
     """Returns the fronts of each object that hides some, and of each that is one with handles."""
-    view, members = merged(view, [*framed(view, config.frames), *halves(view, config)])
+    view, members = merged(view, [*framed(view, config), *halves(view, config)])
     may = may[[shells[0] for shells in members]]
     found: dict[int, list[FrontShells]] = {}
     for front in _with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config):

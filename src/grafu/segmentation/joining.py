@@ -192,7 +192,7 @@ def _front_objects(
     of = np.where(may, 0, np.arange(len(may)) + 1)
     first = np.unique(shell, return_index=True)[1]
     seen = faces.view(shell, of[owner[first]].astype(np.int64))
-    view, members = merged(seen, framed(seen, config.frames))
+    view, members = merged(seen, framed(seen, config))
     plates = candidates(view, view.owner == 0, replace(config.candidates, least=config.joining.least))
     found = [front.made_of(members) for front in fronts_among(view, plates, config)]
     objects: Final = _ObjectsOfShells(shell, owner)

@@ -1,0 +1,87 @@
+"""Which way a drawer can come out: towards the side from which it is seen, whatever was predicted.
+
+Rays are cast on the meshes. What is predicted stays where they do not tell: a drawer that is seen from both sides, or
+from none.
+"""
+
+from collections.abc import Set
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Asset
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.raycast import RayCaster, open_ratios
+from grafu.graph.completion import BY_RULE, Decision, GraphCompletion
+from grafu.graph.edges import Rail
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.motion import signed_axis
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class WayOutConfig:
+    """When rays tell which way a drawer comes out.
+
+    Raises:
+        ValueError: if a number is not between 0 and 1.
+    """
+
+    seen: float = 0.5
+    """How much more of one side of a drawer than of the opposite one must be seen from outside (fraction)."""
+    plate: float = 0.25
+    """Largest thickness of a drawer that is only a front (fraction of its shorter other side)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, "seen", "plate")
+
+
+def with_ways_out(completion: GraphCompletion, asset: Asset, config: WayOutConfig = WayOutConfig()) -> GraphCompletion:
+    """Returns the completion in which drawers slide to the side that they are seen from, where only one side is.
+
+    A drawer that is only a plate slides across that plate. Drawers on moving parts, and coupled ones, stay as they are.
+    """
+    graph = completion.completed
+    axes = {rail.child: rail.axis for rail in graph.edges if isinstance(rail, Rail) and _is_free(rail, graph)}
+    found = {part: _way_out(part, axis // 2, asset, graph, config) for part, axis in axes.items()}
+    new = {part: told for part, told in found.items() if told is not None and told[0] != axes[part]}
+    if not new:
+        return completion
+    edges = tuple(replace(e, axis=new[e.child][0]) if isinstance(e, Rail) and e.child in new else e for e in graph.edges)
+    kept = (d for d in completion.decisions if d.part not in new or d.question != "slide")
+    told = (Decision(p, "slide", str(axis), sure, str(axes[p]), 1.0 - sure, BY_RULE) for p, (axis, sure) in new.items())
+    return replace(completion, completed=replace(graph, edges=edges), decisions=(*kept, *told))
+
+
+def _is_free(rail: Rail, graph: FunctionalGraph) -> bool:
+    return rail.parent not in graph.moving and rail.coupling is None
+
+
+def _way_out(
+    part: str, predicted: int, asset: Asset, graph: FunctionalGraph, config: WayOutConfig
+) -> tuple[int, float] | None:
+    """Returns the signed axis that leads out, and how much more is seen of that side; None where rays do not tell."""
+    known = {p.id: p for p in asset.parts}
+    if part not in known or predicted == 2:
+        return None
+    axis = _across(known[part].box, predicted, config)
+    low, high = open_ratios(_others(asset, _riding(part, graph)), known[part].box, axis)
+    sure = abs(high - low)
+    return (signed_axis(axis, high > low), sure) if sure >= config.seen else None
+
+
+def _across(box: Box, predicted: int, config: WayOutConfig) -> int:
+    """Returns the level axis that a drawer slides along: a plate's thin one, else the predicted one."""
+    thin = int(np.argmin(box.size[:2]))
+    return thin if box.size[thin] <= config.plate * min(box.size[1 - thin], box.size[2]) else predicted
+
+
+def _riding(part: str, graph: FunctionalGraph) -> Set[str]:
+    return {part, *(edge.child for edge in graph.attachments if edge.parent == part)}
+
+
+def _others(asset: Asset, own: Set[str]) -> RayCaster:
+    return RayCaster(merge_meshes([part.mesh for part in asset.parts if part.id not in own]))
