@@ -146,6 +146,17 @@ def test_a_shaft_turns_in_the_hole_that_it_passes_through():
     assert report_of(made).verdict.colour == "green"
 
 
+def test_a_knob_that_is_sunk_into_a_panel_ends_on_it_and_looks_the_same():
+    dial = cylinder("handle_dial", ((0.5, 0.01, 0.3), (0.5, -0.02, 0.3)), 0.02)
+    made = made_of(*CASE, DOOR, PANEL, dial)
+    (record,) = [record for record in report_of(made).joints if record.small]
+    assert record.collision_share == 0
+    assert [(one.kind, round(one.amount, 3)) for one in record.clearances] == [("trimmed", 0.01)]
+    box = made.object.link("handle_dial").mesh.box
+    assert (box.low[1], box.high[1]) == (pytest.approx(-0.02), pytest.approx(0.0, abs=5e-4))
+    assert "handle_dial" not in {skip.request for skip in report_of(made).skipped}
+
+
 def test_a_knob_that_hangs_in_the_air_stays_a_piece():
     assert small_joints(made_of(*CASE, DOOR, knob(ends=(-0.035, -0.06)), mark(before=-0.06))) == {}
 

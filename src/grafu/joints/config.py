@@ -81,6 +81,8 @@ class SmallPartConfig:
     """Before a knob nothing stands as near as this (metres): fingers must get there."""
     press: float = 0.003
     """How far a button is pressed (metres)."""
+    sunk: float = 0.6
+    """Most of a knob that is pressed flat where it is sunk into what it stands on (fraction of its length)."""
     off_floor: float = 0.01
     """How high above the lowest point a wheel may end (metres)."""
     fork: float = 2.5
@@ -92,7 +94,7 @@ class SmallPartConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "round", "stout", "middle", "parallel", "stem")
+        require_ratios(self, "round", "stout", "middle", "parallel", "sunk", "stem")
 
 
 @final
