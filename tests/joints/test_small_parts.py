@@ -220,6 +220,26 @@ def test_a_wheel_in_a_leg_turns_and_the_leg_stands():
     assert set(small_joints(made)) == {"roll"}
 
 
+SHELF = box("shelf", (0.0, 0.03, 0.28), (0.4, 0.38, 0.3))
+RING = cylinder("ring", ((0.2, 0.2, 0.301), (0.2, 0.2, 0.31)), 0.1)
+
+
+def test_a_round_tray_turns_with_its_ring_and_does_not_slide():
+    tray = cylinder("drawer_tray", ((0.2, 0.2, 0.31), (0.2, 0.2, 0.32)), 0.15)
+    made = made_of(*CASE, DOOR, SHELF, RING, tray)
+    (joint,) = small_joints(made).values()
+    assert (joint.child, joint.type) == ("drawer_tray", JointType.CONTINUOUS)
+    assert np.allclose(joint.axis.direction, (0, 0, 1))
+    assert joint.axis.distance_to(np.array([0.2, 0.2, 0.0])) < 1e-6
+    assert {visual.name for visual in made.object.link("drawer_tray").visuals} == {"drawer_tray", "ring"}
+    assert {joint.child for joint in made.object.joints} == {"door", "drawer_tray"}
+
+
+def test_a_tray_with_corners_is_no_turntable():
+    tray = box("drawer_tray", (0.05, 0.05, 0.31), (0.35, 0.35, 0.32))
+    assert small_joints(made_of(*CASE, DOOR, SHELF, RING, tray)) == {}
+
+
 def test_a_button_is_pressed_and_made_shorter_so_that_it_cuts_into_nothing():
     made = made_of(*CASE, DOOR, box("start_button", (0.405, -0.01, 0.5), (0.415, 0.0, 0.51)))
     (joint,) = small_joints(made).values()

@@ -50,7 +50,9 @@ def with_ways_out(completion: GraphCompletion, asset: Asset, config: WayOutConfi
     new = {part: told for part, told in found.items() if told is not None and told[0] != axes[part]}
     if not new:
         return completion
-    edges = tuple(replace(e, axis=new[e.child][0]) if isinstance(e, Rail) and e.child in new else e for e in graph.edges)
+    edges = tuple(
+        replace(e, axis=new[e.child][0]) if isinstance(e, Rail) and e.child in new else e for e in graph.edges
+    )
     kept = (d for d in completion.decisions if d.part not in new or d.question != "slide")
     told = (Decision(p, "slide", str(axis), sure, str(axes[p]), 1.0 - sure, BY_RULE) for p, (axis, sure) in new.items())
     return replace(completion, completed=replace(graph, edges=edges), decisions=(*kept, *told))

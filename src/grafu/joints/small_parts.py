@@ -1,4 +1,4 @@
-"""Small parts that move by themselves: knobs and wheels turn without limits, buttons are pressed, casters swivel.
+"""Small parts that move by themselves: knobs, wheels and turntables turn, buttons are pressed, casters swivel.
 
 They are found by their shape, and by what they touch, on an object whose doors and drawers work already; only buttons
 go by their names. Knobs are in `small_knobs.py`.
@@ -10,7 +10,7 @@ from math import pi
 
 import numpy as np
 
-from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.articulated_object import ArticulatedObject, Visual
 from grafu.asset.names import words
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
@@ -18,12 +18,13 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.joints.config import SmallPartConfig
 from grafu.joints.make_plan import request_of_joint
-from grafu.joints.plan import JointRequest, PlanConfig
+from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.joints.small_knobs import SOURCE, Piece, Round, knobs, largest_side, round_about, standing
 from grafu.scene.border import part_axes
-from grafu.vocabulary import JointType
+from grafu.vocabulary import JointType, PartLabel
 
 _BUTTONS = frozenset({"button", "buttons", "pushbutton"})
+_TURNTABLES = frozenset({"turntable", "carousel"})
 _UP = vec3(0.0, 0.0, 1.0)
 
 
@@ -38,6 +39,14 @@ def stated_small_parts(asset: Asset, config: PlanConfig = PlanConfig()) -> tuple
     return tuple(found)
 
 
+def without_turntables(
+    plan: RealizationPlan, asset: Asset, config: SmallPartConfig = SmallPartConfig()
+) -> RealizationPlan:
+    """Returns the plan without the trays that are round: these turn and do not slide (`small_parts`)."""
+    trays = {p.id for p in asset.parts if _turntable(Piece("", Visual(p.id, p.surfaces, label=p.label)), config)}
+    return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in trays or not r.kind.slides))
+
+
 def small_parts(made: ArticulatedObject, config: SmallPartConfig = SmallPartConfig()) -> tuple[JointRequest, ...]:
     """Returns what turns or is pressed by itself on an object; lengths of `config` are in its scale (`at_scale`).
 
@@ -50,10 +59,13 @@ def small_parts(made: ArticulatedObject, config: SmallPartConfig = SmallPartConf
     casters = list(_casters(wheels, [p for p in others if p.link == made.root], config))
     taken = {name for request in casters for name in (request.moving, *request.attached)}
     rest = [piece for piece in others if piece.name not in taken]
+    tables = list(_turntables([piece for piece in rest if piece.link == made.root], config))
+    taken = {name for request in tables for name in (request.moving, *request.attached)}
+    rest = [piece for piece in rest if piece.name not in taken]
     turning = list(knobs(rest, pieces, made.joint_of, config))
     taken = {name for request in turning for name in (request.moving, *request.attached)}
     buttons = _buttons([piece for piece in rest if piece.name not in taken], pieces, config)
-    return (*casters, *(_wheel(wheel) for wheel in wheels), *turning, *buttons)
+    return (*casters, *(_wheel(wheel) for wheel in wheels), *tables, *turning, *buttons)
 
 
 def _wheels(pieces: Sequence[Piece], config: SmallPartConfig) -> list[Round]:
@@ -112,6 +124,25 @@ def _fork(wheel: Round, still: Sequence[Piece], config: SmallPartConfig) -> list
 
 def _is_in(inner: Box, outer: Box) -> bool:
     return bool(np.all(inner.low >= outer.low) and np.all(inner.high <= outer.high))
+
+
+def _turntables(still: Sequence[Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
+    """Yields the round trays, which turn with what lies beneath them and within their outline."""
+    for piece in still:
+        table = _turntable(piece, config)
+        if table is None:
+            continue
+        box = piece.mesh.box
+        below = Box(box.low - config.stout * np.array([0.0, 0.0, table.diameter]), box.high).grown(config.touching)
+        ring = tuple(p.name for p in still if p is not piece and p.is_part and _is_in(p.mesh.box, below))
+        yield JointRequest(piece.name, JointType.CONTINUOUS, Axis(table.axis.point, _UP), SOURCE, 2 * pi, attached=ring)
+
+
+def _turntable(piece: Piece, config: SmallPartConfig) -> Round | None:
+    """Returns a piece that is called a tray or a turntable, flat and round about the upright axis; else None."""
+    called = piece.visual.label is PartLabel.DRAWER or _TURNTABLES & set(words(piece.name))
+    table = round_about(piece, 2, config) if called and piece.is_part else None
+    return table if table is not None and table.length <= config.stout * table.diameter else None
 
 
 def _buttons(pieces: Sequence[Piece], every: Sequence[Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
