@@ -191,7 +191,7 @@ def _turns(
     joint_of: Mapping[str, Joint],
     config: SmallPartConfig,
 ) -> bool:
-    """Whether a knob turns: on what stands still it does, unless that is a front; on a door only if it has a mark."""
+    """Whether a knob turns: on what is static it does, unless that is a front; on a door only if it has a mark."""
     joint = joint_of.get(cluster[0].link)
     if joint is None:
         return not any(piece.visual.label.is_movable for piece in stand)
