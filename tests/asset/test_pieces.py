@@ -96,6 +96,19 @@ def test_a_pane_joins_the_door_frame_around_it_only_where_they_touch(y, count):
     assert "door_frame1" in {p.id for p in parts}
 
 
+def test_a_side_that_no_front_covers_is_no_drawer_where_fronts_are_named():
+    beside = part("drawer_side9", (1.1, 0.0, 0.0), (1.15, 0.5, 0.4))
+    parts, notes = with_joined_pieces((*drawer("A", 0.0, 0.3), beside), WHOLE)
+    assert {p.id: p.label for p in parts}["drawer_side9"] is PartLabel.MISC
+    assert notes[-1].startswith("drawer_side9: taken for no drawer")
+
+
+def test_a_drawer_at_the_bottom_is_a_drawer():
+    upper, lower = part("drawer1_top", (0, 0, 0.5), (1, 1, 0.9)), part("drawer1_bottom", (0, 0, 0), (1, 1, 0.4))
+    parts, _ = with_joined_pieces((upper, lower), WHOLE)
+    assert {p.label for p in parts} == {PartLabel.DRAWER}
+
+
 def test_neighbouring_doors_and_whole_drawers_are_left_alone():
     doors = tuple(part(f"door_panel{i}", (i * 0.5, 0, 0), (i * 0.5 + 0.5, 0.02, 1), PartLabel.DOOR) for i in range(2))
     wholes = (part("drawer_1", (0, 0, 0), (1, 0.5, 0.3)), part("drawer_2", (0, 0, 0.01), (1, 0.5, 0.29)))

@@ -1,9 +1,17 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from grafu.asset.labels import label_of
 from grafu.asset.part import Part, PartSource
-from grafu.asset.plausibility import BODY, with_bodies, with_control_panels, with_plausible_labels
+from grafu.asset.plausibility import (
+    BODY,
+    with_blind_fronts,
+    with_bodies,
+    with_control_panels,
+    with_plausible_labels,
+)
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -153,3 +161,42 @@ def test_what_holds_several_drawers_is_their_body_whatever_its_name():
     assert with_bodies((box, beside, fronts[0]))[0].label is PartLabel.UNKNOWN  # a drawer box behind its one front
     named = part("leg", *CASE)
     assert with_bodies((named, *fronts))[0].label is named.label
+
+
+def sink_base(*without):
+    """Two doors with handles, each under a front that is called a drawer."""
+    found = []
+    for k, x in enumerate((0.0, 0.5)):
+        found += [
+            part(f"door_{k}", (x, -0.02, 0.1), (x + 0.48, 0.0, 0.6)),
+            replace(part(f"handle_{k}", (x + 0.1, -0.05, 0.5), (x + 0.2, -0.02, 0.51)), carried_by=f"door_{k}"),
+            part(f"drawer_front_{k}", (x, -0.02, 0.61), (x + 0.48, 0.0, 0.78)),
+        ]
+    return tuple(p for p in found if p.id not in without)
+
+
+def drawers(parts):
+    return {p.id for p in with_blind_fronts(parts)[0] if p.label is PartLabel.DRAWER}
+
+
+def test_fronts_without_handles_above_doors_with_handles_are_blind():
+    found, notes = with_blind_fronts(sink_base())
+    assert {p.label for p in found if p.id.startswith("drawer_front")} == {PartLabel.FACE_FRAME}
+    assert len(notes) == 2
+    assert notes[0].startswith("drawer_front_0: taken for a blind front")
+
+
+def test_a_front_with_a_handle_or_a_box_is_a_drawer():
+    handle = replace(part("handle", (0.1, -0.05, 0.7), (0.2, -0.02, 0.71)), carried_by="drawer_front_0")
+    assert "drawer_front_0" in drawers((*sink_base(), handle))
+    boxed = part("drawer_front_0", (0.0, -0.02, 0.61), (0.48, 0.4, 0.78))
+    assert drawers((*sink_base("drawer_front_0"), boxed)) == {"drawer_front_0", "drawer_front_1"}
+
+
+def test_where_a_door_has_no_handle_either_fronts_are_drawers():
+    assert drawers(sink_base("handle_1")) == {"drawer_front_0", "drawer_front_1"}
+
+
+def test_a_plain_front_elsewhere_is_a_drawer():
+    beside = part("drawer_front_9", (1.1, -0.02, 0.1), (1.5, 0.0, 0.3))
+    assert drawers((*sink_base("drawer_front_0", "drawer_front_1"), beside)) == {"drawer_front_9"}

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from grafu.geometry.point_distance import point_triangle_distances
+from grafu.geometry.sampling import point_triangle_distances
 
 
 def test_distances_agree_with_those_of_trimesh() -> None:

@@ -1,10 +1,12 @@
 """Knobs, buttons, wheels and casters get joints of their own, and nothing else does."""
 
+from dataclasses import replace
 from math import pi
 
 import mujoco
 import numpy as np
 import pytest
+import trimesh
 import yourdfpy
 
 from grafu.articulation.sweep import cycle_tracks
@@ -15,6 +17,8 @@ from grafu.export.files import write_files
 from grafu.export.glb import export_glb
 from grafu.export.mjcf import export_mjcf
 from grafu.export.urdf import export_urdf
+from grafu.geometry.appearance import Surface
+from grafu.geometry.mesh import TriangleMesh
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
@@ -22,7 +26,7 @@ from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
 from judging import swept_collisions
-from small_scenes import DOOR, SIDE, box, cylinder, scene
+from small_scenes import DOOR, SIDE, box, cylinder, drawer, scene
 
 BACK = box("back", (-0.02, 0.38, 0.0), (0.4, 0.4, 0.6))
 OTHER_SIDE = box("other_side", (0.4, 0.0, 0.0), (0.42, 0.4, 0.6))
@@ -44,6 +48,23 @@ def knob(name="handle", x=0.36, ends=(-0.02, -0.05), radius=0.015):
     return cylinder(name, ((x, ends[0], 0.3), (x, ends[1], 0.3)), radius)
 
 
+def mark(name="handle_mark", x=0.36, before=-0.05):
+    """A line on the front of a knob, which shows how far it is turned."""
+    return box(name, (x - 0.002, before - 0.001, 0.3), (x + 0.002, before + 0.001, 0.312))
+
+
+def ball(name="handle_ball", x=0.36, y=-0.048, radius=0.02):
+    mesh = trimesh.creation.uv_sphere(radius, count=(24, 24))
+    mesh.apply_translation((x, y, 0.3))
+    return replace(
+        cylinder(name, ((x, y, 0.3), (x, y - 0.01, 0.3))), surfaces=(Surface(TriangleMesh.from_trimesh(mesh)),)
+    )
+
+
+DIAL = cylinder("dial", ((0.5, 0.0, 0.3), (0.5, -0.02, 0.3)), 0.02)
+PANEL = box("panel", (0.42, 0.0, 0.0), (0.58, 0.02, 0.6))
+
+
 def caster(name, x, y):
     """A wheel of 60 mm on an axle between two cheeks, under a plate at 0.1 m with a stem into the board above."""
     sides = ((x - 0.022, x - 0.02), (x + 0.02, x + 0.022))
@@ -59,8 +80,8 @@ def trolley(*more):
     return [*boards, *more]
 
 
-def test_a_round_knob_turns_on_its_door_and_the_door_keeps_its_handle():
-    made = made_of(*CASE, DOOR, knob())
+def test_a_knob_with_a_mark_turns_on_its_door_and_the_door_keeps_its_handle():
+    made = made_of(*CASE, DOOR, knob(), mark())
     (joint,) = small_joints(made).values()
 
     assert (joint.parent, joint.child, joint.type) == ("door", "handle", JointType.CONTINUOUS)
@@ -70,44 +91,82 @@ def test_a_round_knob_turns_on_its_door_and_the_door_keeps_its_handle():
     records = {record.part: record for record in report_of(made).joints}
     assert (records["handle"].small, records["handle"].grasp, records["handle"].collision_share) == (True, "itself", 0)
     assert (records["door"].small, records["door"].grasp) == (False, "handle")
+    assert {visual.name for visual in made.object.link("handle").visuals} == {"handle", "handle_mark"}
     assert not [addition for addition in made.additions if addition.part.label is PartLabel.HANDLE]
     assert "1 door and 1 small part" in report_of(made).verdict.sentence
     assert not swept_collisions(made.object, made.object.joint_of["door"], 20)
 
 
 def test_without_being_asked_for_nothing_small_moves():
-    made = made_of(*CASE, DOOR, knob(), small=False)
+    made = made_of(*CASE, DOOR, knob(), mark(), small=False)
     assert [joint.child for joint in made.object.joints] == ["door"]
 
 
 def test_the_pieces_of_one_knob_turn_together():
     stem, head = knob("handle_stem", ends=(-0.02, -0.035), radius=0.008), knob("handle_head", ends=(-0.035, -0.05))
-    made = made_of(*CASE, DOOR, stem, head)
+    made = made_of(*CASE, DOOR, stem, head, mark())
     (joint,) = small_joints(made).values()
-    assert {visual.name for visual in made.object.link(joint.child).visuals} == {"handle_stem", "handle_head"}
+    pieces = {visual.name for visual in made.object.link(joint.child).visuals}
+    assert pieces == {"handle_stem", "handle_head", "handle_mark"}
+
+
+def test_a_ball_on_a_stem_turns_about_the_stem():
+    stem = knob("handle_stem", ends=(-0.02, -0.03), radius=0.008)
+    made = made_of(*CASE, DOOR, stem, ball(), mark(before=-0.068))
+    (joint,) = small_joints(made).values()
+    assert np.allclose(joint.axis.direction, (0, -1, 0))
+    assert len(made.object.link(joint.child).visuals) == 3
+
+
+def test_a_dial_on_the_body_turns_without_a_mark():
+    (joint,) = small_joints(made_of(*CASE, DOOR, PANEL, DIAL)).values()
+    assert (joint.parent, joint.child) != ("door", "dial")
+    assert np.allclose(joint.axis.direction, (0, -1, 0))
+
+
+def test_a_knob_beside_the_door_stays_on_the_body():
+    high = replace(box("panel", (0.0, 0.0, 0.6), (0.4, 0.4, 0.7)), label=PartLabel.FACE_FRAME)
+    knobs = [cylinder(f"handle_knob_{k}", ((x, 0.0, 0.65), (x, -0.03, 0.65)), 0.02) for k, x in enumerate((0.1, 0.3))]
+    for source in (MotionSource.RULE, MotionSource.NETWORK):
+        made = made_of(*CASE, DOOR, high, *knobs, source=source)
+        assert {joint.parent for joint in small_joints(made).values()} == {made.object.root}
+        assert len(small_joints(made)) == 2
 
 
 def test_a_knob_on_a_turned_piece_turns_about_its_own_axis():
-    made = made_of(yawed(scene(*CASE, DOOR, knob()), 0.5))
+    made = made_of(yawed(scene(*CASE, DOOR, knob(), mark()), 0.5))
     (joint,) = small_joints(made).values()
     assert np.allclose(joint.axis.direction, (np.sin(0.5), -np.cos(0.5), 0), atol=1e-6)
 
 
 def test_a_shaft_turns_in_the_hole_that_it_passes_through():
-    made = made_of(*CASE, DOOR, knob(ends=(-0.005, -0.05)))
+    made = made_of(*CASE, DOOR, knob(ends=(-0.005, -0.05)), mark())
     (record,) = [record for record in report_of(made).joints if record.small]
     assert record.collision_share == 0
     assert report_of(made).verdict.colour == "green"
 
 
+def test_a_knob_that_is_sunk_into_a_panel_ends_on_it_and_looks_the_same():
+    dial = cylinder("handle_dial", ((0.5, 0.01, 0.3), (0.5, -0.02, 0.3)), 0.02)
+    made = made_of(*CASE, DOOR, PANEL, dial)
+    (record,) = [record for record in report_of(made).joints if record.small]
+    assert record.collision_share == 0
+    assert [(one.kind, round(one.amount, 3)) for one in record.clearances] == [("trimmed", 0.01)]
+    box = made.object.link("handle_dial").mesh.box
+    assert (box.low[1], box.high[1]) == (pytest.approx(-0.02), pytest.approx(0.0, abs=5e-4))
+    assert "handle_dial" not in {skip.request for skip in report_of(made).skipped}
+
+
 def test_a_knob_that_hangs_in_the_air_stays_a_piece():
-    assert small_joints(made_of(*CASE, DOOR, knob(ends=(-0.035, -0.06)))) == {}
+    assert small_joints(made_of(*CASE, DOOR, knob(ends=(-0.035, -0.06)), mark(before=-0.06))) == {}
 
 
 POSTS = [knob(f"post_{k}", x, (-0.02, -0.045), 0.006) for k, x in enumerate((0.2, 0.3))]
 BAR = cylinder("handle_bar", ((0.15, -0.05, 0.3), (0.35, -0.05, 0.3)), 0.006)
 CUP = knob("cup", 0.05, (0.0, 0.012), 0.0175)
 STILL = {
+    "the plain knob of a door": (knob(),),
+    "a ball on a door": (ball(y=-0.038), mark(before=-0.058)),
     "posts of a bar": (*POSTS, BAR),
     "a square knob": (box("handle", (0.34, -0.05, 0.28), (0.38, -0.02, 0.32)),),
     "a flat rosette": (knob("rosette", ends=(-0.02, -0.025), radius=0.02),),
@@ -117,6 +176,16 @@ STILL = {
     "a round foot": (cylinder("foot", ((-0.01, 0.2, -0.05), (-0.01, 0.2, 0.0)), 0.02),),
     "a ball as a foot": (cylinder("foot", ((0.0, 0.2, -0.04), (0.0, 0.2, 0.0)), 0.02),),
 }
+
+
+def test_the_knob_of_a_drawer_is_a_pull():
+    asset = drawer()
+    front = asset.part("drawer").box
+    middle, y = float(front.center[2]), float(front.low[1])
+    handle = cylinder("handle", ((0.0, y, middle), (0.0, y - 0.03, middle)), 0.015)
+    line = box("handle_mark", (-0.002, y - 0.031, middle), (0.002, y - 0.029, middle + 0.012))
+    made = made_of(replace(asset, parts=(*asset.parts, handle, line)))
+    assert [joint.child for joint in made.object.joints] == ["drawer"]
 
 
 @pytest.mark.parametrize("what", STILL)
@@ -151,6 +220,26 @@ def test_a_wheel_in_a_leg_turns_and_the_leg_stands():
     assert set(small_joints(made)) == {"roll"}
 
 
+SHELF = box("shelf", (0.0, 0.03, 0.28), (0.4, 0.38, 0.3))
+RING = cylinder("ring", ((0.2, 0.2, 0.301), (0.2, 0.2, 0.31)), 0.1)
+
+
+def test_a_round_tray_turns_with_its_ring_and_does_not_slide():
+    tray = cylinder("drawer_tray", ((0.2, 0.2, 0.31), (0.2, 0.2, 0.32)), 0.15)
+    made = made_of(*CASE, DOOR, SHELF, RING, tray)
+    (joint,) = small_joints(made).values()
+    assert (joint.child, joint.type) == ("drawer_tray", JointType.CONTINUOUS)
+    assert np.allclose(joint.axis.direction, (0, 0, 1))
+    assert joint.axis.distance_to(np.array([0.2, 0.2, 0.0])) < 1e-6
+    assert {visual.name for visual in made.object.link("drawer_tray").visuals} == {"drawer_tray", "ring"}
+    assert {joint.child for joint in made.object.joints} == {"door", "drawer_tray"}
+
+
+def test_a_tray_with_corners_is_no_turntable():
+    tray = box("drawer_tray", (0.05, 0.05, 0.31), (0.35, 0.35, 0.32))
+    assert small_joints(made_of(*CASE, DOOR, SHELF, RING, tray)) == {}
+
+
 def test_a_button_is_pressed_and_made_shorter_so_that_it_cuts_into_nothing():
     made = made_of(*CASE, DOOR, box("start_button", (0.405, -0.01, 0.5), (0.415, 0.0, 0.51)))
     (joint,) = small_joints(made).values()
@@ -173,7 +262,7 @@ def test_a_button_that_may_not_be_trimmed_stays_and_the_report_says_so():
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
-    made = made_of(*CASE, DOOR, knob()).object
+    made = made_of(*CASE, DOOR, knob(), mark()).object
     folder = tmp_path_factory.mktemp("knob")
     for export in (export_urdf, export_mjcf):
         write_files(export(made), folder / export.__name__)

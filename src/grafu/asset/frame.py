@@ -158,9 +158,7 @@ def _side(part: Part, whole: Box, votes: dict[str, float], config: FrontEvidence
     return spelled(thin, bool(offset > 0)) if abs(offset) > config.aside * whole.half[thin] else None
 
 
-def _seen_side(
-    part: Part, caster: RayCaster, votes: dict[str, float], config: FrontEvidenceConfig
-) -> str | None:
+def _seen_side(part: Part, caster: RayCaster, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
     """Returns the side to which a plate is open, while something stands behind it; None where that does not tell."""
     thin = part.box.thin_axis
     if not any("XYZ"[thin] == direction[1] for direction in votes):

@@ -17,7 +17,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
-from grafu.geometry.point_distance import point_triangle_distances
+from grafu.geometry.sampling import point_triangle_distances
 from grafu.vocabulary import PartLabel
 
 

@@ -2,8 +2,9 @@
 
 A drawer's sides, back, bottom and box belong to the `front` whose outline, seen from where it faces, covers them, or to
 the plate that is called the drawer; so does the box's own front behind it. A door's pane or panel belongs to the larger
-door piece around it. Pieces that no front covers stay parts of their own. A handle rides on the door or drawer that it
-touches, where the input does not say.
+door piece around it. Pieces that no front covers stay parts of their own; a drawer's side, back or bottom among them is
+no drawer where the input names fronts. A handle rides on the door or drawer that it touches, where the input does not
+say.
 """
 
 from collections.abc import Mapping, Sequence
@@ -57,6 +58,7 @@ class PieceConfig:
 
 
 _DEFAULT = PieceConfig()
+_BOARDS = frozenset({"side", "back", "bottom"})
 
 
 @final
@@ -99,7 +101,19 @@ def with_joined_pieces(
     held = _held(kept, whole.diagonal, config)
     kept = tuple(replace(p, label=PartLabel.HANDLE, carried_by=held[p.id]) if p.id in held else p for p in kept)
     notes = [f"{in_words(members)} joined to {host}" for host, members in hosts.items()]
-    return kept, notes
+    left = _left_over(kept, hosts)
+    if left:
+        notes.append(f"{in_words(left)}: taken for no drawer, as no front covers it")
+    return tuple(replace(p, label=PartLabel.MISC) if p in left else p for p in kept), notes
+
+
+def _left_over(parts: tuple[Part, ...], hosts: Mapping[str, Sequence[Part]]) -> list[Part]:
+    """Returns the sides, backs and bottoms of drawers that joined nothing, where other parts are called fronts."""
+    drawers = [p for p in parts if p.label is PartLabel.DRAWER]
+    held = {p.carried_by for p in parts} | set(hosts)
+    if not any(_is_front(p) for p in drawers):
+        return []
+    return [p for p in drawers if not _is_front(p) and p.id not in held and _BOARDS & set(spoken(p.source.name))]
 
 
 def _pairs(

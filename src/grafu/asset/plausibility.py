@@ -60,6 +60,10 @@ class PlausibilityConfig:
     """... is this far from it at most (fraction of the door's width) ..."""
     narrower: float = 0.6
     """... and at most this wide (fraction of the door's width)."""
+    flat: float = 0.15
+    """Largest thickness of a blind front (fraction of its next side): one with a grip on it is thicker."""
+    in_line: float = 0.05
+    """How far a blind front's sides may lie from those of the door below it (fraction of the door's largest side)."""
     thick: float = 0.35
     """Largest thickness of a top (fraction of its middle side)."""
 
@@ -255,3 +259,31 @@ def _is_front(box: Box, scene: _Scene) -> bool:
     config = scene.config
     is_plate = bool(sides[0] <= config.plate and sides[1] >= 2 * config.strip)
     return is_plate and (bool(gap <= config.outside) or (thin != 2 and scene.is_seen(box, thin)))
+
+
+def with_blind_fronts(
+    parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()
+) -> tuple[tuple[Part, ...], tuple[str, ...]]:
+    """Returns the parts (object frame, handles attached) with blind fronts static, and notes on that.
+
+    What is called a drawer but is a plate without box or handle, right above a door of its width, is a blind front, as
+    above a sink, where all other doors and drawers have handles.
+    """
+    held = {p.carried_by for p in parts}
+    plain = [p for p in parts if p.label is PartLabel.DRAWER and p.id not in held]
+    others = [p for p in parts if p.label.is_movable and p not in plain]
+    doors = [p.box for p in others if p.label is PartLabel.DOOR]
+    blind = [p for p in plain if any(_is_blind(p.box, door, config) for door in doors)]
+    if len(others) < 2 or len(blind) < len(plain) or not {p.id for p in others} <= held:
+        return parts, ()
+    notes = tuple(f"{p.source.name}: taken for a blind front, as it alone has no handle and no box" for p in blind)
+    static = {p.id: replace(p, label=PartLabel.FACE_FRAME, labelled_by="shape") for p in blind}
+    return tuple(static.get(p.id, p) for p in parts), notes
+
+
+def _is_blind(front: Box, door: Box, config: PlausibilityConfig) -> bool:
+    axis, most = front.thin_axis, config.in_line * float(door.size.max())
+    if axis == 2 or front.size[axis] > config.flat * np.delete(front.size, axis).min():
+        return False
+    apart = np.maximum(abs(front.low - door.low), abs(front.high - door.high))[:2]
+    return bool(apart.max() <= most and abs(front.low[2] - door.high[2]) <= most)

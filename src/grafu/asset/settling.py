@@ -15,7 +15,7 @@ from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
 from grafu.asset.pieces import with_joined_pieces
-from grafu.asset.plausibility import with_bodies, with_control_panels, with_plausible_labels
+from grafu.asset.plausibility import with_blind_fronts, with_bodies, with_control_panels, with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
@@ -57,9 +57,8 @@ def settled(
     frame = settle_frame(reading, options, file)
     place = Placing(frame)
     annotation = reading.annotation and place.annotation(reading.annotation)
-    return Asset(
-        name, str(path), reading.kind, place.parts(reading.parts), frame, notes=reading.notes, annotation=annotation
-    )
+    parts, told = with_blind_fronts(place.parts(reading.parts))
+    return Asset(name, str(path), reading.kind, parts, frame, notes=(*reading.notes, *told), annotation=annotation)
 
 
 def _check_parts(reading: Reading, path: Path, options: LoadOptions) -> None:

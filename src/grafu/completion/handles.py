@@ -16,6 +16,7 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
+_MOVES_WITH = frozenset({PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE})
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
@@ -39,14 +40,37 @@ def attach_handles(graph: FunctionalGraph, config: RuleConfig = RuleConfig()) ->
     for handle in graph.labelled(PartLabel.HANDLE):
         if handle.id in held:
             continue
-        misfits = _misfits(handle, movable, graph) if movable.nodes else []
-        ranked = sorted(zip(misfits, (n.id for n in movable.nodes), strict=True), key=lambda item: item[0])
+        nodes = () if sits_on_static(handle, graph) else movable.nodes
+        misfits = _misfits(handle, movable, graph) if nodes else []
+        ranked = sorted(zip(misfits, (n.id for n in nodes), strict=True), key=lambda item: item[0])
         if not ranked or ranked[0][0] > config.handle_reach:
             refused.append(Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT))
             continue
         edges.append(Attached(ranked[0][1], handle.id))
         decisions.append(_decision(handle, ranked))
     return Attachments(with_edges(graph, edges), tuple(decisions), tuple(refused))
+
+
+def sits_on_static(handle: PartNode, graph: FunctionalGraph) -> bool:
+    """Whether a handle touches what is larger and does not move, and no door, drawer or handle: a knob of an oven.
+
+    Smaller things that it touches are its own posts. What has a category of its own carries it only where the handle
+    stands beside all doors and drawers: a handle that hangs before one may touch a frame.
+    """
+    touched = [graph.node(other) for other in graph.neighbours[handle.id]]
+    if any(node.label in _MOVES_WITH for node in touched):
+        return False
+    largest = float(handle.box.size.max())
+    beside = all(_stands_beside(handle.box, part) for part in graph.labelled(PartLabel.DOOR, PartLabel.DRAWER))
+    larger = (node for node in touched if float(np.sort(node.box.size)[1]) > largest)
+    return any(beside or node.label is PartLabel.MISC for node in larger)
+
+
+def _stands_beside(handle: Box, part: PartNode) -> bool:
+    """Whether nothing of a handle lies before or behind a door or drawer, seen from where it may face."""
+    apart = (handle.low > part.box.high) | (part.box.low > handle.high)
+    faces = (part.box.thin_axis,) if part.label is PartLabel.DOOR else (0, 1)
+    return all(bool(np.delete(apart, axis).any()) for axis in faces)
 
 
 def _misfits(handle: PartNode, parts: NodeBoxes, graph: FunctionalGraph) -> list[float]:

@@ -18,6 +18,7 @@ import numpy as np
 from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_front, vote_mount
 from grafu.completion.drawers import run_drawer, vote_direction
+from grafu.completion.handles import sits_on_static
 from grafu.completion.probabilities import softmax
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.view import GraphView
@@ -29,7 +30,6 @@ from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, Hing
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import opening_face
 from grafu.refusal import Reason, Refusal
-from grafu.vocabulary import PartLabel
 
 _LEAST = 1e-3  # what the rule did not vote for stays possible
 
@@ -55,7 +55,6 @@ def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
 
 
 _NO_SUPPORT = "there is no static part that could carry it: label the static parts"
-_MOVES_WITH = frozenset({PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE})
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
@@ -64,7 +63,7 @@ def choose_parent(handle: PartNode, view: GraphView) -> tuple[Attached, Decision
     if not len(view.moving_bodies):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     slots = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.extent]
-    if not len(slots) or _sits_on_static(handle, view):
+    if not len(slots) or sits_on_static(handle, view.graph):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     ratios, none = parent_ratios(view.place[handle.id], slots, view)
     attached = view.probabilities.edge[view.place[handle.id], slots, ATTACHED]
@@ -74,18 +73,6 @@ def choose_parent(handle: PartNode, view: GraphView) -> tuple[Attached, Decision
         )
     ranking = ranking_of(view.ids(slots), ratios)
     return Attached(ranking.choice, handle.id), decision_of(handle.id, "parent", ranking)
-
-
-def _sits_on_static(handle: PartNode, view: GraphView) -> bool:
-    """Whether a handle touches what is larger and does not move, and no door, drawer or handle: a knob of an oven.
-
-    Smaller things that it touches are its own posts.
-    """
-    touched = [view.graph.node(other) for other in view.graph.neighbours[handle.id]]
-    if any(node.label in _MOVES_WITH for node in touched):
-        return False
-    largest = float(handle.box.size.max())
-    return any(node.label is PartLabel.MISC and float(np.sort(node.box.size)[1]) > largest for node in touched)
 
 
 def parent_ratios(slot: int, slots: Indices, view: GraphView) -> tuple[Scalars, float]:

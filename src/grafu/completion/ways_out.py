@@ -16,7 +16,7 @@ from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster, open_ratios
 from grafu.graph.completion import BY_RULE, Decision, GraphCompletion
-from grafu.graph.edges import Rail
+from grafu.graph.edges import Rail, SignedAxis
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import signed_axis
 
@@ -50,7 +50,9 @@ def with_ways_out(completion: GraphCompletion, asset: Asset, config: WayOutConfi
     new = {part: told for part, told in found.items() if told is not None and told[0] != axes[part]}
     if not new:
         return completion
-    edges = tuple(replace(e, axis=new[e.child][0]) if isinstance(e, Rail) and e.child in new else e for e in graph.edges)
+    edges = tuple(
+        replace(e, axis=new[e.child][0]) if isinstance(e, Rail) and e.child in new else e for e in graph.edges
+    )
     kept = (d for d in completion.decisions if d.part not in new or d.question != "slide")
     told = (Decision(p, "slide", str(axis), sure, str(axes[p]), 1.0 - sure, BY_RULE) for p, (axis, sure) in new.items())
     return replace(completion, completed=replace(graph, edges=edges), decisions=(*kept, *told))
@@ -62,7 +64,7 @@ def _is_free(rail: Rail, graph: FunctionalGraph) -> bool:
 
 def _way_out(
     part: str, predicted: int, asset: Asset, graph: FunctionalGraph, config: WayOutConfig
-) -> tuple[int, float] | None:
+) -> tuple[SignedAxis, float] | None:
     """Returns the signed axis that leads out, and how much more is seen of that side; None where rays do not tell."""
     known = {p.id: p for p in asset.parts}
     if part not in known or predicted == 2:

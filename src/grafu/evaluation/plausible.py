@@ -17,8 +17,7 @@ from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.point_distance import distances_up_to
-from grafu.geometry.sampling import sample_surface
+from grafu.geometry.sampling import distances_up_to, sample_surface
 from grafu.geometry.transform import transform_points
 from grafu.metrics.collision import TOLERANT
 from grafu.vocabulary import PartLabel

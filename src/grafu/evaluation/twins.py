@@ -16,8 +16,7 @@ from grafu.asset.part import Asset
 from grafu.evaluation.moving_parts import MovingPart, counted_parts
 from grafu.geometry.arrays import Points
 from grafu.geometry.mesh import merge_meshes
-from grafu.geometry.point_distance import distances_up_to
-from grafu.geometry.sampling import sample_surfaces
+from grafu.geometry.sampling import distances_up_to, sample_surfaces
 from grafu.metrics.motion import Motion
 
 ALIKE = 0.01  # relative: fingerprints that differ more are of other models

@@ -60,7 +60,9 @@ class SmallPartConfig:
 
     LENGTHS = ("knob", "wheel", "touching", "room", "press", "off_floor")
     knob: tuple[float, float] = (0.01, 0.09)
-    """Smallest and largest side of a knob or a button (metres)."""
+    """Smallest and largest side of a knob or a button (metres) ..."""
+    of_piece: tuple[float, float] = (0.1, 0.2)
+    """... and that of a knob, and of what is called a button, over the object's largest side, where that is more."""
     wheel: tuple[float, float] = (0.02, 0.25)
     """Smallest and largest diameter of a wheel (metres)."""
     round: float = 0.88
@@ -69,6 +71,8 @@ class SmallPartConfig:
     """Least ratio of a knob's length and diameter, either way round: a flat disc and a rod are no knobs."""
     middle: float = 0.5
     """Fraction of a knob's width within which it must be held at one end, and nothing may be before the other."""
+    pointer: float = 1.5
+    """How far a mark or a pointer may reach from the axis of a knob (in radii of its widest round piece)."""
     parallel: float = 0.999
     """Least cosine of the angle between the axes of two pieces of one knob."""
     touching: float = 0.002
@@ -77,6 +81,8 @@ class SmallPartConfig:
     """Before a knob nothing stands as near as this (metres): fingers must get there."""
     press: float = 0.003
     """How far a button is pressed (metres)."""
+    sunk: float = 0.6
+    """Most of a knob that is pressed flat where it is sunk into what it stands on (fraction of its length)."""
     off_floor: float = 0.01
     """How high above the lowest point a wheel may end (metres)."""
     fork: float = 2.5
@@ -88,7 +94,7 @@ class SmallPartConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "round", "stout", "middle", "parallel", "stem")
+        require_ratios(self, "round", "stout", "middle", "parallel", "sunk", "stem")
 
 
 @final

@@ -12,7 +12,7 @@ from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import MeshCollider, SweptBody
-from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import translation
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, sweep, swept_box, widest_free
@@ -21,7 +21,7 @@ from grafu.joints.no_hardware import DRAWN
 from grafu.joints.plan import JointRequest
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import Clearance, Installed, Outcome
-from grafu.joints.small_parts import SOURCE as FOUND
+from grafu.joints.small_knobs import SOURCE as FOUND
 from grafu.joints.small_parts import small_parts, stated_small_parts
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.border import part_axes
@@ -45,7 +45,9 @@ def with_small_parts(realized: Realized, asset: Asset, config: RealizationConfig
     made, scaled = realized.object, at_scale(config, metre_on(asset.extent))
     requests = stated_small_parts(asset, config.plan) or small_parts(made, scaled.small)
     changed, outcomes = with_small_joints(made, requests, scaled)
-    report = replace(realized.report, outcomes=(*realized.report.outcomes, *outcomes))
+    built = {outcome.moving for outcome in outcomes if isinstance(outcome, Installed)}
+    before = (o for o in realized.report.outcomes if not (isinstance(o, Refusal) and o.part in built))
+    report = replace(realized.report, outcomes=(*before, *outcomes))
     return replace(realized, object=changed, report=report)
 
 
@@ -128,7 +130,13 @@ def _built(
 def _free(
     taken: _Taken, wanted: float, made: ArticulatedObject, config: RealizationConfig
 ) -> tuple[float, _Taken, tuple[Clearance, ...]]:
-    """Returns how far a part moves freely; a button that meets what it stands on is made shorter by its travel."""
+    """Returns how far a part moves freely, and the part made to fit.
+
+    A button that meets what it stands on is made shorter by its travel; a knob that is sunk into it ends on it.
+    """
+    if config.trim and taken.request.source == FOUND and taken.request.kind.turns:
+        taken, notes = _seated(taken, made, config)
+        return _opening(taken, wanted, made, config), taken, notes
     opening = _opening(taken, wanted, made, config)
     if opening >= config.restricted * wanted or taken.request.kind.turns or not config.trim:
         return opening, taken, ()
@@ -139,6 +147,40 @@ def _free(
     length = _span(taken)
     note = Clearance(taken.request.moving, "trimmed", wanted, wanted / length, "it would cut in as it is pressed")
     return opening, shorter, (note,)
+
+
+def _seated(taken: _Taken, made: ArticulatedObject, config: RealizationConfig) -> tuple[_Taken, tuple[Clearance, ...]]:
+    """Returns a part whose inner end is pressed flat by the least depth at which it cuts into nothing at rest.
+
+    It stays as it is where it cuts into nothing, or still does with as much of it pressed as may be: it has a bearing.
+    """
+    length = _span(taken)
+    low, high = 0.0, config.small.sunk * length
+    if not _cuts(taken, made, config) or _cuts(_pressed(taken, high), made, config):
+        return taken, ()
+    while high - low > config.depth * _extent(made):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _cuts(_pressed(taken, middle), made, config) else (low, middle)
+    note = Clearance(taken.request.moving, "trimmed", high, high / length, "it was sunk into what it stands on")
+    return _pressed(taken, high), (note,)
+
+
+def _cuts(taken: _Taken, made: ArticulatedObject, config: RealizationConfig) -> bool:
+    body, near = _swept(taken, 0.0, made, config)
+    return bool(blockers_at(body, np.eye(4), near))
+
+
+def _pressed(taken: _Taken, depth: float) -> _Taken:
+    """Returns a part without what lies deeper than so far before its inner end, metres: pressed onto a plane."""
+    direction = taken.request.axis.direction
+    plane = depth + min(float((visual.mesh.vertices @ direction).min()) for visual in taken.visuals)
+
+    def pressed(mesh: TriangleMesh) -> TriangleMesh:
+        short = np.maximum(plane - mesh.vertices @ direction, 0.0)
+        return TriangleMesh(mesh.vertices + np.outer(short, direction), mesh.faces)
+
+    visuals = (replace(v, surfaces=tuple(replace(s, mesh=pressed(s.mesh)) for s in v.surfaces)) for v in taken.visuals)
+    return replace(taken, visuals=tuple(visuals))
 
 
 def _opening(taken: _Taken, wanted: float, made: ArticulatedObject, config: RealizationConfig) -> float:

@@ -1,78 +1,31 @@
-"""Small parts that move by themselves: knobs and wheels turn without limits, buttons are pressed, casters swivel.
+"""Small parts that move by themselves: knobs, wheels and turntables turn, buttons are pressed, casters swivel.
 
 They are found by their shape, and by what they touch, on an object whose doors and drawers work already; only buttons
-go by their names. A knob has a round outline, stands on something with one end, and has nothing before the other.
+go by their names. Knobs are in `small_knobs.py`.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import pi
-from typing import final
 
 import numpy as np
-import shapely
 
-from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
+from grafu.articulation.articulated_object import ArticulatedObject, Visual
 from grafu.asset.names import words
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import Vec3, vec3
+from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider
-from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.config import SmallPartConfig
 from grafu.joints.make_plan import request_of_joint
-from grafu.joints.plan import JointRequest, PlanConfig
+from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
+from grafu.joints.small_knobs import SOURCE, Piece, Round, knobs, largest_side, round_about, standing
 from grafu.scene.border import part_axes
 from grafu.vocabulary import JointType, PartLabel
 
-SOURCE = "rule"
-"""`JointRequest.source` of a small part that is found by its shape."""
-_KNOBS = (PartLabel.HANDLE, PartLabel.MISC, PartLabel.UNKNOWN)
 _BUTTONS = frozenset({"button", "buttons", "pushbutton"})
+_TURNTABLES = frozenset({"turntable", "carousel"})
 _UP = vec3(0.0, 0.0, 1.0)
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    """A visual of a link, with its colliding shape."""
-
-    link: str
-    visual: Visual
-
-    @cached_property
-    def collider(self) -> MeshCollider:
-        return MeshCollider(self.visual.mesh)
-
-    @property
-    def mesh(self) -> TriangleMesh:
-        return self.visual.mesh
-
-    @property
-    def largest(self) -> float:
-        return float(self.mesh.box.size.max())
-
-    def meets(self, box: Box) -> bool:
-        """Whether its surface passes through a box."""
-        return self.mesh.box.overlaps(box) and self.collider.intersects(MeshCollider(TriangleMesh.box_mesh(box)))
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class _Round:
-    """A piece whose outline along `axis` is a circle; what lies along the axis is from `low` to `high`."""
-
-    piece: _Piece
-    axis: Axis
-    diameter: float
-    low: float
-    high: float
-
-    @property
-    def length(self) -> float:
-        return self.high - self.low
 
 
 def stated_small_parts(asset: Asset, config: PlanConfig = PlanConfig()) -> tuple[JointRequest, ...]:
@@ -86,59 +39,58 @@ def stated_small_parts(asset: Asset, config: PlanConfig = PlanConfig()) -> tuple
     return tuple(found)
 
 
+def without_turntables(
+    plan: RealizationPlan, asset: Asset, config: SmallPartConfig = SmallPartConfig()
+) -> RealizationPlan:
+    """Returns the plan without the trays that are round: these turn and do not slide (`small_parts`)."""
+    trays = {p.id for p in asset.parts if _turntable(Piece("", Visual(p.id, p.surfaces, label=p.label)), config)}
+    return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in trays or not r.kind.slides))
+
+
 def small_parts(made: ArticulatedObject, config: SmallPartConfig = SmallPartConfig()) -> tuple[JointRequest, ...]:
     """Returns what turns or is pressed by itself on an object; lengths of `config` are in its scale (`at_scale`).
 
     What a request's part takes along is `attached` to it: other pieces of a knob, the wheels of a caster.
     """
-    pieces = [_Piece(link.id, visual) for link in made.links for visual in link.visuals]
+    pieces = [Piece(link.id, visual) for link in made.links for visual in link.visuals]
     wheels = _wheels([p for p in pieces if p.link == made.root], config)
     rolling = {id(wheel.piece) for wheel in wheels}
     others = [piece for piece in pieces if id(piece) not in rolling]
     casters = list(_casters(wheels, [p for p in others if p.link == made.root], config))
     taken = {name for request in casters for name in (request.moving, *request.attached)}
-    rest = [piece for piece in others if piece.visual.name not in taken]
-    knobs = list(_knobs(rest, pieces, config))
-    taken = {name for request in knobs for name in (request.moving, *request.attached)}
-    buttons = _buttons([piece for piece in rest if piece.visual.name not in taken], pieces, config)
-    return (*casters, *(_wheel(wheel) for wheel in wheels), *knobs, *buttons)
+    rest = [piece for piece in others if piece.name not in taken]
+    tables = list(_turntables([piece for piece in rest if piece.link == made.root], config))
+    taken = {name for request in tables for name in (request.moving, *request.attached)}
+    rest = [piece for piece in rest if piece.name not in taken]
+    turning = list(knobs(rest, pieces, made.joint_of, config))
+    taken = {name for request in turning for name in (request.moving, *request.attached)}
+    buttons = _buttons([piece for piece in rest if piece.name not in taken], pieces, config)
+    return (*casters, *(_wheel(wheel) for wheel in wheels), *tables, *turning, *buttons)
 
 
-def _round_about(piece: _Piece, k: int, config: SmallPartConfig) -> _Round | None:
-    """Returns a piece as a round one about its own axis `k`; None where its outline along it is no circle."""
-    axes = part_axes(piece.mesh)
-    local = piece.mesh.vertices @ axes
-    box, flat = Box.around(local), np.delete(local, k, axis=1)
-    radius = float(np.linalg.norm(flat - np.delete(box.center, k), axis=1).max())
-    area = shapely.convex_hull(shapely.multipoints(flat)).area
-    if area <= 0 or area < config.round * pi * radius**2:
-        return None
-    return _Round(piece, Axis(axes @ box.center, axes[:, k]), 2 * radius, float(box.low[k]), float(box.high[k]))
-
-
-def _wheels(pieces: Sequence[_Piece], config: SmallPartConfig) -> list[_Round]:
+def _wheels(pieces: Sequence[Piece], config: SmallPartConfig) -> list[Round]:
     """Returns the pieces that stand on the floor and are round about a level axis, and about no upright one."""
     floor = min((float(piece.mesh.box.low[2]) for piece in pieces), default=0.0)
     found = []
     for piece in pieces:
         low = float(piece.mesh.box.low[2])
-        if piece.visual.role is not VisualRole.PART or low > floor + config.off_floor:
+        if not piece.is_part or low > floor + config.off_floor:
             continue
-        if not config.wheel[0] <= piece.largest <= config.wheel[1] or _round_about(piece, 2, config):
+        if not config.wheel[0] <= piece.largest <= config.wheel[1] or round_about(piece, 2, config):
             continue
-        level = [_round_about(piece, k, config) for k in (0, 1)]
+        level = [round_about(piece, k, config) for k in (0, 1)]
         found += [one for one in level if one is not None and one.length <= one.diameter][:1]
     return found
 
 
-def _wheel(wheel: _Round) -> JointRequest:
-    return JointRequest(wheel.piece.visual.name, JointType.CONTINUOUS, wheel.axis, SOURCE, 2 * pi)
+def _wheel(wheel: Round) -> JointRequest:
+    return JointRequest(wheel.piece.name, JointType.CONTINUOUS, wheel.axis, SOURCE, 2 * pi)
 
 
-def _casters(wheels: Sequence[_Round], still: Sequence[_Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
+def _casters(wheels: Sequence[Round], still: Sequence[Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
     """Yields the forks of wheels, which swivel about their stem and take the wheels along."""
-    forks: dict[tuple[str, ...], list[_Round]] = {}
-    by_name = {piece.visual.name: piece for piece in still}
+    forks: dict[tuple[str, ...], list[Round]] = {}
+    by_name = {piece.name: piece for piece in still}
     for wheel in wheels:
         forks.setdefault(tuple(_fork(wheel, still, config)), []).append(wheel)
     for names, turned in forks.items():
@@ -149,123 +101,63 @@ def _casters(wheels: Sequence[_Round], still: Sequence[_Piece], config: SmallPar
         high = float(vertices[:, 2].max())
         stem = Box.around(vertices[vertices[:, 2] >= high - config.stem * float(np.ptp(vertices[:, 2]))])
         largest = max(parts, key=lambda piece: piece.largest).visual.name
-        attached = (*(name for name in names if name != largest), *(wheel.piece.visual.name for wheel in turned))
+        attached = (*(name for name in names if name != largest), *(wheel.piece.name for wheel in turned))
         axis = Axis(stem.center, _UP)
         yield JointRequest(largest, JointType.CONTINUOUS, axis, SOURCE, 2 * pi, attached=attached)
 
 
-def _fork(wheel: _Round, still: Sequence[_Piece], config: SmallPartConfig) -> list[str]:
+def _fork(wheel: Round, still: Sequence[Piece], config: SmallPartConfig) -> list[str]:
     """Returns the pieces that hold a wheel and are of its size, with what of that size these hold."""
     reach = config.fork * wheel.diameter
     middle = wheel.axis.point
     around = Box(middle - reach, middle + reach)
-    near = [p for p in still if p.largest <= reach and p.visual.role is VisualRole.PART and _is_in(p.mesh.box, around)]
-    found: list[_Piece] = []
+    near = [p for p in still if p.largest <= reach and p.is_part and _is_in(p.mesh.box, around)]
+    found: list[Piece] = []
     queue = [wheel.piece.mesh.box.grown(config.beside * wheel.diameter)]
     while queue:
         box = queue.pop()
         new = [piece for piece in near if piece not in found and piece.mesh.box.overlaps(box)]
         found += new
         queue += [piece.mesh.box.grown(config.touching) for piece in new]
-    return sorted(piece.visual.name for piece in found)
+    return sorted(piece.name for piece in found)
 
 
 def _is_in(inner: Box, outer: Box) -> bool:
     return bool(np.all(inner.low >= outer.low) and np.all(inner.high <= outer.high))
 
 
-def _knobs(pieces: Sequence[_Piece], every: Sequence[_Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
-    """Yields the knobs: one or more round pieces on one level axis, on something, with nothing before them."""
-    fits = [p for p in pieces if p.visual.role is VisualRole.PART and p.visual.label in _KNOBS]
-    small = [p for p in fits if p.largest <= config.knob[1]]
-    rounds = [r for p in small for k in (0, 1) if (r := _round_about(p, k, config)) is not None]
-    taken: set[str] = set()
-    for group in _coaxial(rounds, config):
-        names = sorted({one.piece.visual.name for one in group})
-        widest = max(group, key=lambda one: one.diameter)
-        low, high = min(one.low for one in group), max(one.high for one in group)
-        is_knob = (
-            config.knob[0] <= widest.diameter and config.stout <= (high - low) / widest.diameter <= 1 / config.stout
-        )
-        outwards = _outwards(widest.axis, (low, high), widest.diameter, names, every, config) if is_knob else None
-        if outwards is None or taken & set(names):
+def _turntables(still: Sequence[Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
+    """Yields the round trays, which turn with what lies beneath them and within their outline."""
+    for piece in still:
+        table = _turntable(piece, config)
+        if table is None:
             continue
-        taken |= set(names)
-        moving = widest.piece.visual.name
-        axis = Axis(widest.axis.point, outwards)
-        attached = tuple(name for name in names if name != moving)
-        yield JointRequest(moving, JointType.CONTINUOUS, axis, SOURCE, 2 * pi, attached=attached)
+        box = piece.mesh.box
+        below = Box(box.low - config.stout * np.array([0.0, 0.0, table.diameter]), box.high).grown(config.touching)
+        ring = tuple(p.name for p in still if p is not piece and p.is_part and _is_in(p.mesh.box, below))
+        yield JointRequest(piece.name, JointType.CONTINUOUS, Axis(table.axis.point, _UP), SOURCE, 2 * pi, attached=ring)
 
 
-def _coaxial(rounds: Sequence[_Round], config: SmallPartConfig) -> list[list[_Round]]:
-    """Returns the round pieces in groups that lie end to end on one axis and belong to one link."""
-    groups: list[list[_Round]] = []
-    for one in sorted(rounds, key=lambda r: r.low):
-        group = next((g for g in groups if any(_continues(other, one, config) for other in g)), None)
-        if group is None:
-            groups.append([one])
-        else:
-            group.append(one)
-    return groups
+def _turntable(piece: Piece, config: SmallPartConfig) -> Round | None:
+    """Returns a piece that is called a tray or a turntable, flat and round about the upright axis; else None."""
+    called = piece.visual.label is PartLabel.DRAWER or _TURNTABLES & set(words(piece.name))
+    table = round_about(piece, 2, config) if called and piece.is_part else None
+    return table if table is not None and table.length <= config.stout * table.diameter else None
 
 
-def _continues(a: _Round, b: _Round, config: SmallPartConfig) -> bool:
-    same = a.piece is not b.piece and a.piece.link == b.piece.link
-    parallel = abs(float(a.axis.direction @ b.axis.direction)) > config.parallel
-    if not (same and parallel):
-        return False
-    offset = np.linalg.norm(a.axis.closest_point(b.axis.point) - b.axis.point)
-    return bool(offset <= config.touching and b.low <= a.high + config.touching and a.low <= b.high + config.touching)
-
-
-def _outwards(
-    axis: Axis,
-    ends: tuple[float, float],
-    width: float,
-    names: Iterable[str],
-    every: Sequence[_Piece],
-    config: SmallPartConfig,
-) -> Vec3 | None:
-    """Returns the direction of the end that nothing stands on or before; None unless the other end alone is held.
-
-    Args:
-        axis: what lies along it.
-        ends: where it begins and ends along the axis, metres.
-        width: its width across the axis, metres.
-        names: its own pieces.
-        every: all pieces of the object.
-        config: how near is on, and how far before.
-    """
-    others = [piece for piece in every if piece.visual.name not in set(names)]
-    d, middle = axis.direction, 0.5 * (ends[0] + ends[1])
-    half = 0.5 * config.middle * width
-    for sign, end in ((1.0, ends[1]), (-1.0, ends[0])):
-        held = _along(axis, (middle, ends[0] + ends[1] - end - sign * config.touching), half)
-        free = _along(axis, (middle, end + sign * config.room), half)
-        if any(piece.meets(held) for piece in others) and not any(piece.meets(free) for piece in others):
-            return np.asarray(sign * d)
-    return None
-
-
-def _along(axis: Axis, span: tuple[float, float], half: float) -> Box:
-    """Returns the box around an axis between two places along it, metres, so wide to each side."""
-    at = [axis.point + (place - float(axis.point @ axis.direction)) * axis.direction for place in span]
-    box, aside = Box.around(np.array(at)), half * (1.0 - np.abs(axis.direction))
-    return Box(box.low - aside, box.high + aside)
-
-
-def _buttons(pieces: Sequence[_Piece], every: Sequence[_Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
+def _buttons(pieces: Sequence[Piece], every: Sequence[Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
     """Yields what is called a button: it is pressed towards what it stands on."""
+    largest = largest_side(config.of_piece[1], every, config)
     for piece in pieces:
-        is_button = piece.visual.role is VisualRole.PART and _BUTTONS & set(words(piece.visual.name))
-        if not is_button or piece.largest > config.knob[1]:
+        is_button = piece.is_part and _BUTTONS & set(words(piece.name))
+        if not is_button or piece.largest > largest:
             continue
-        box, names = piece.mesh.box, (piece.visual.name,)
+        box, names = piece.mesh.box, (piece.name,)
         for direction in sorted(part_axes(piece.mesh).T, key=lambda d: float(np.ptp(piece.mesh.vertices @ d))):
             along = piece.mesh.vertices @ direction
             ends, width = (float(along.min()), float(along.max())), 0.5 * float(box.size.min())
-            outwards = _outwards(Axis(box.center, direction), ends, width, names, every, config)
-            if outwards is not None:
+            stand = standing(Axis(box.center, direction), ends, width, names, every, config)
+            if stand is not None:
                 travel = min(config.press, 0.5 * (ends[1] - ends[0]))
-                yield JointRequest(piece.visual.name, JointType.PRISMATIC, Axis(box.center, -outwards), SOURCE, travel)
+                yield JointRequest(piece.name, JointType.PRISMATIC, Axis(box.center, -stand[0]), SOURCE, travel)
                 break

@@ -29,6 +29,7 @@ from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
 from grafu.joints.small_joints import with_small_parts
+from grafu.joints.small_parts import without_turntables
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
@@ -193,14 +194,14 @@ def functionalize(
     complete = partial(cache.value, source_name, motion.complete, asset, graph)  # who moves, and how
     completion = stages.timed("complete", complete, partial(without_network, graph))
     completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
-    requested = joints.plan
-    first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, requested)  # initial axes
+    first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
     if not motion.reads_annotation:
         lifting = at_scale(joints.lift, metre_on(asset.extent))
         plan = with_lifts(with_drawn_hinges(plan, asset, joints), completion.completed, lifting)
+        plan = without_turntables(plan, asset) if settings.small_parts else plan
     plan = with_choices(
-        plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, requested
+        plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
     )
     close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
     plan = stages.timed("close", close, lambda _: plan)

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.arrays import Points, Vec3
-from grafu.geometry.point_distance import point_triangle_distances
+from grafu.geometry.sampling import point_triangle_distances
 from grafu.graph.edges import Attached, Edge, Hinge, Rail, ends_of
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
