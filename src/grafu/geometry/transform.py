@@ -3,11 +3,13 @@
 Angles are radians, positive by the right-hand rule; quaternions are wxyz.
 """
 
-import warnings
+from collections.abc import Sequence
+from math import atan2, hypot, pi, remainder, sqrt
 
 import numpy as np
+from jaxtyping import Float
 
-from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
+from grafu.geometry.arrays import Mat3, Mat4, Points, Scalars, Vec3
 
 
 def transform_points(T: Mat4, points: Points) -> Points:
@@ -39,26 +41,67 @@ def from_rotation(R: Mat3, offset: Vec3 | None = None) -> Mat4:
 
 def rotation_matrix(direction: Vec3, angle: float) -> Mat3:
     """Returns the rotation by `angle` about the unit `direction`."""
-    from scipy.spatial.transform import Rotation  # local: scipy.spatial costs 0.1 s, and the command's help needs none
+    x, y, z, w = quaternions_about(direction, np.array([angle]))[0].tolist()
+    return quaternion_matrix(w, x, y, z)
 
-    return Rotation.from_rotvec(angle * np.asarray(direction)).as_matrix()
+
+def quaternions_about(direction: Vec3, angles: Scalars) -> Float[np.ndarray, "n 4"]:
+    """Returns the rotations by `angles` about the unit `direction` as quaternions, in the order xyzw."""
+    half = np.asarray(angles, dtype=np.float64) / 2
+    return np.column_stack([np.outer(np.sin(half), direction), np.cos(half)])
 
 
 def quaternion_matrix(w: float, x: float, y: float, z: float) -> Mat3:
     """Returns the rotation of a quaternion of any length but 0."""
-    from scipy.spatial.transform import Rotation  # local, as above
+    largest = max(abs(w), abs(x), abs(y), abs(z))  # no length over- or underflows
+    w, x, y, z = w / largest, x / largest, y / largest, z / largest
+    length = sqrt(x * x + y * y + z * z + w * w)
+    w, x, y, z = w / length, x / length, y / length, z / length
+    return np.array(
+        [
+            [x * x - y * y - z * z + w * w, 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), -x * x + y * y - z * z + w * w, 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), -x * x - y * y + z * z + w * w],
+        ]
+    )
 
-    quaternion = np.array([x, y, z, w])
-    return Rotation.from_quat(quaternion / np.abs(quaternion).max()).as_matrix()  # no length over- or underflows
+
+def euler_matrix(angles: Sequence[float], order: str = "xyz") -> Mat3:
+    """Returns the rotation about fixed axes, one after another: by the first angle about the first axis of `order`."""
+    R = np.eye(3)
+    for axis, angle in zip(order, angles, strict=True):
+        R = rotation_matrix(np.eye(3)["xyz".index(axis)], angle) @ R
+    return R
+
+
+_POLE = 1e-7  # radians: so near to a pitch of 90 degrees roll and yaw turn about one axis
 
 
 def roll_pitch_yaw(R: Mat3) -> Vec3:
     """Returns URDF's angles: about the fixed X, then Y, then Z axis. Where pitch is 90 degrees, yaw is 0."""
-    from scipy.spatial.transform import Rotation  # local, as above
+    x, y, z, w = _quaternion(R)
+    a, b, c, d = w - y, x + z, y + w, z - x  # twice the half angles of the sum and the difference of roll and yaw
+    tilt, total, difference = 2 * atan2(hypot(c, d), hypot(a, b)), atan2(b, a), atan2(d, c)
+    roll, yaw = total - difference, total + difference
+    if abs(tilt) <= _POLE:
+        roll, yaw = 2 * total, 0.0
+    elif abs(tilt - pi) <= _POLE:
+        roll, yaw = -2 * difference, 0.0
+    return np.array([remainder(roll, 2 * pi), tilt - pi / 2, remainder(yaw, 2 * pi)])
 
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # there roll and yaw turn about one axis, so one of them is free
-        return Rotation.from_matrix(R).as_euler("xyz")
+
+def _quaternion(R: Mat3) -> tuple[float, float, float, float]:
+    """Returns a rotation as a quaternion of any length, in the order xyzw, from where it is largest."""
+    (a, b, c), (d, e, f), (g, h, i) = R.tolist()
+    trace = a + e + i
+    largest = max(a, e, i, trace)
+    if largest == trace:
+        return h - f, c - g, d - b, 1 + trace
+    if largest == a:
+        return 1 - trace + 2 * a, d + b, g + c, h - f
+    if largest == e:
+        return d + b, 1 - trace + 2 * e, h + f, c - g
+    return g + c, h + f, 1 - trace + 2 * i, d - b
 
 
 def rotation_about(point: Vec3, direction: Vec3, angle: float) -> Mat4:

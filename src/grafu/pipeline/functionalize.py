@@ -4,12 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TypeVar, final
+from typing import TYPE_CHECKING, final
 
 from grafu.additions.step import Addition, StepResult
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.asset.foreign.attach import attach_motions
-from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import has_shipped_weights
@@ -29,7 +27,6 @@ from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
-from grafu.joints.small_joints import with_small_parts
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_weights
@@ -50,7 +47,8 @@ from grafu.templates.template import Gallery, HandleTemplate
 from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
 
-T = TypeVar("T")
+if TYPE_CHECKING:
+    from grafu.asset.foreign.motions import ForeignMotions
 
 
 @final
@@ -77,11 +75,11 @@ class Functionalized:
     """Everything that was made of one asset.
 
     `asset` is the input as the motion source saw it, `source` that source (never `auto`). `completion` is the graph as
-    it was built, additions included. `body` and `fittings` say what was missing and what was
-    added, before joints were built and after; `before_panels` is the scene before shelves and dividers. `timings` are
-    seconds per stage, in order. `notes` state what was done in a simpler way, or left out, because the budget did not
-    hold it. `stated_joints` counts the joints that the input states, whether they were read or not.
-    `decided` are the parts whose motion the user stated or rejected.
+    it was built, additions included. `body` and `fittings` say what was missing and what was added, before joints were
+    built and after; `before_panels` is the scene before shelves and dividers. `timings` are seconds per stage, in
+    order. `notes` state what was done in a simpler way, or left out, because the budget did not hold it.
+    `stated_joints` counts the joints that the input states, whether they were read or not. `decided` are the parts
+    whose motion the user stated or rejected.
     """
 
     asset: Asset
@@ -162,7 +160,7 @@ def _say_nothing(_: str) -> None:
 
 def functionalize(
     asset: Asset,
-    source: MotionSource | ForeignMotions,
+    source: "MotionSource | ForeignMotions",
     gallery: Gallery,
     config: PipelineConfig = PipelineConfig(),
     on_stage: Callable[[str], None] = _say_nothing,
@@ -190,18 +188,16 @@ def functionalize(
     motion = _motion(chosen, settings.weights)
     parse = partial(cache.value, "parse", parse_graph, asset)  # contacts only
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
-    source_name = f"complete by {chosen} of {settings.weights}"
-    complete = partial(cache.value, source_name, motion.complete, asset, graph)  # who moves, and how
+    complete = partial(cache.value, f"complete by {chosen} of {settings.weights}", motion.complete, asset, graph)
     completion = stages.timed("complete", complete, partial(without_network, graph))
     completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
-    requested = joints.plan
-    first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, requested)  # initial axes
+    first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
     if not motion.reads_annotation:
         lifting = at_scale(joints.lift, metre_on(asset.extent))
         plan = with_lifts(with_drawn_hinges(plan, asset, joints), completion.completed, lifting)
     plan = with_choices(
-        plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, requested
+        plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
     )
     close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
     plan = stages.timed("close", close, lambda _: plan)
@@ -215,6 +211,8 @@ def functionalize(
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     realized = replace(realized, object=fitted_object(realized.object, fittings))
     if settings.small_parts:
+        from grafu.joints.small_joints import with_small_parts  # local: most runs do without
+
         small = partial(with_small_parts, realized, asset, joints)
         realized = stages.timed("small parts", small, lambda _: realized)
     with budget.in_force():
@@ -237,12 +235,14 @@ def functionalize(
 
 
 def _with_source(
-    asset: Asset, source: MotionSource | ForeignMotions, settings: Settings, drawers: DrawerConfig, stages: Stages
+    asset: Asset, source: "MotionSource | ForeignMotions", settings: Settings, drawers: DrawerConfig, stages: Stages
 ) -> tuple[Asset, MotionSource]:
     """Returns the asset as the motion source is to see it, corrected by the user, and the source to use."""
     asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
     asset = with_moving(corrected(asset, settings.labels), settings.motions, settings.labels, drawers)
-    if isinstance(source, ForeignMotions):
+    if not isinstance(source, MotionSource):
+        from grafu.asset.foreign.attach import attach_motions  # local: most runs do without
+
         return stages.timed("match", lambda: attach_motions(asset, source)), MotionSource(source.source)
     chosen = choose_source(asset, source, settings.weights)
     _require_attached(asset, chosen)
