@@ -4,7 +4,7 @@ Angles are radians, positive by the right-hand rule; quaternions are wxyz.
 """
 
 from collections.abc import Sequence
-from math import atan2, hypot, pi, remainder, sqrt
+from math import atan2, cos, hypot, pi, remainder, sin, sqrt
 
 import numpy as np
 from jaxtyping import Float
@@ -41,14 +41,19 @@ def from_rotation(R: Mat3, offset: Vec3 | None = None) -> Mat4:
 
 def rotation_matrix(direction: Vec3, angle: float) -> Mat3:
     """Returns the rotation by `angle` about the unit `direction`."""
-    x, y, z, w = quaternions_about(direction, np.array([angle]))[0].tolist()
-    return quaternion_matrix(w, x, y, z)
+    return _of_unit(*quaternions_about(direction, np.array([angle]))[0].tolist())
+
+
+_SMALL = 1e-3  # radians: below, a series replaces the sine over the angle
 
 
 def quaternions_about(direction: Vec3, angles: Scalars) -> Float[np.ndarray, "n 4"]:
     """Returns the rotations by `angles` about the unit `direction` as quaternions, in the order xyzw."""
-    half = np.asarray(angles, dtype=np.float64) / 2
-    return np.column_stack([np.outer(np.sin(half), direction), np.cos(half)])
+    turns = np.outer(angles, direction)
+    angle = np.sqrt(turns[:, 0] ** 2 + turns[:, 1] ** 2 + turns[:, 2] ** 2)
+    series = 0.5 - angle**2 / 48 + angle**4 / 3840
+    ratio = np.where(angle <= _SMALL, series, np.sin(angle / 2) / np.maximum(angle, _SMALL))
+    return np.column_stack([ratio[:, None] * turns, np.cos(angle / 2)])
 
 
 def quaternion_matrix(w: float, x: float, y: float, z: float) -> Mat3:
@@ -56,7 +61,11 @@ def quaternion_matrix(w: float, x: float, y: float, z: float) -> Mat3:
     largest = max(abs(w), abs(x), abs(y), abs(z))  # no length over- or underflows
     w, x, y, z = w / largest, x / largest, y / largest, z / largest
     length = sqrt(x * x + y * y + z * z + w * w)
-    w, x, y, z = w / length, x / length, y / length, z / length
+    return _of_unit(x / length, y / length, z / length, w / length)
+
+
+def _of_unit(x: float, y: float, z: float, w: float) -> Mat3:
+    """Returns the rotation of a quaternion of length 1."""
     return np.array(
         [
             [x * x - y * y - z * z + w * w, 2 * (x * y - z * w), 2 * (x * z + y * w)],
@@ -68,10 +77,17 @@ def quaternion_matrix(w: float, x: float, y: float, z: float) -> Mat3:
 
 def euler_matrix(angles: Sequence[float], order: str = "xyz") -> Mat3:
     """Returns the rotation about fixed axes, one after another: by the first angle about the first axis of `order`."""
-    R = np.eye(3)
+    x, y, z, w = 0.0, 0.0, 0.0, 1.0
     for axis, angle in zip(order, angles, strict=True):
-        R = rotation_matrix(np.eye(3)["xyz".index(axis)], angle) @ R
-    return R
+        a, b, c = (sin(angle / 2) if axis == own else 0.0 for own in "xyz")
+        d = cos(angle / 2)
+        x, y, z, w = (
+            d * x + w * a + (b * z - c * y),
+            d * y + w * b + (c * x - a * z),
+            d * z + w * c + (a * y - b * x),
+            d * w - a * x - b * y - c * z,
+        )
+    return _of_unit(x, y, z, w)
 
 
 _POLE = 1e-7  # radians: so near to a pitch of 90 degrees roll and yaw turn about one axis
@@ -80,6 +96,8 @@ _POLE = 1e-7  # radians: so near to a pitch of 90 degrees roll and yaw turn abou
 def roll_pitch_yaw(R: Mat3) -> Vec3:
     """Returns URDF's angles: about the fixed X, then Y, then Z axis. Where pitch is 90 degrees, yaw is 0."""
     x, y, z, w = _quaternion(R)
+    length = sqrt(x * x + y * y + z * z + w * w)
+    x, y, z, w = x / length, y / length, z / length, w / length
     a, b, c, d = w - y, x + z, y + w, z - x  # twice the half angles of the sum and the difference of roll and yaw
     tilt, total, difference = 2 * atan2(hypot(c, d), hypot(a, b)), atan2(b, a), atan2(d, c)
     roll, yaw = total - difference, total + difference

@@ -176,13 +176,14 @@ def ball(radius: float) -> TriangleMesh:
     long = (1.0 + np.sqrt(5.0)) / 2.0
     pairs = [(x, y) for y in (long, -long) for x in (-1.0, 1.0)]
     corners = [(x, y, 0.0) for x, y in pairs] + [(0.0, x, y) for x, y in pairs] + [(y, 0.0, x) for x, y in pairs]
-    faces = np.array(_ICOSAHEDRON)
+    points, faces = np.array(corners) / np.linalg.norm(corners[0]), np.array(_ICOSAHEDRON)
     sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2)
     edges, number = np.unique(np.sort(sides.reshape(-1, 2))[:, ::-1], axis=0, return_inverse=True)
     (a, b, c), (ab, bc, ca) = faces.T, number.reshape(-1, 3).T + len(corners)
-    vertices = np.concatenate([corners, np.asarray(corners)[edges].mean(axis=1)])
+    vertices = np.concatenate([points, points[edges].mean(axis=1)])
     around = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3)
-    return TriangleMesh(vertices * (radius / np.linalg.norm(vertices, axis=1, keepdims=True)), around)
+    length = np.sqrt((vertices**2).sum(axis=1, keepdims=True))
+    return TriangleMesh(vertices + vertices / length * (radius - length), around)
 
 
 # Corners as `ball` makes them: four in the XY plane, four in YZ, four in ZX.
