@@ -186,7 +186,9 @@ class Exposure:
     def _shadow(self, through: np.ndarray) -> np.ndarray:
         """Returns how dark the floor is behind each ray, 0..1; found for one sample in four and smoothed."""
         width, height = self.size
-        open_blocks = through.reshape(height // 2, 2, width // 2, 2).max(axis=(1, 3)) > 0.01
+        grid = through.reshape(height, width)
+        open_blocks = np.maximum(grid[::2], grid[1::2]) > 0.01
+        open_blocks = open_blocks[:, ::2] | open_blocks[:, 1::2]
         first = np.arange(width * height).reshape(height, width)[::2, ::2]
         rays, points = self._floor_points(first[open_blocks])
         lifted = points + np.array([0, 0, 1e-4 * self.reach], np.float32)
