@@ -41,7 +41,10 @@ def from_rotation(R: Mat3, offset: Vec3 | None = None) -> Mat4:
 
 def rotation_matrix(direction: Vec3, angle: float) -> Mat3:
     """Returns the rotation by `angle` about the unit `direction`."""
-    return _of_unit(*quaternions_about(direction, np.array([angle]))[0].tolist())
+    x, y, z = (angle * float(part) for part in direction)
+    turn = sqrt(x * x + y * y + z * z)
+    ratio = 0.5 - turn**2 / 48 + turn**4 / 3840 if turn <= _SMALL else sin(turn / 2) / turn
+    return _of_unit(ratio * x, ratio * y, ratio * z, cos(turn / 2))
 
 
 _SMALL = 1e-3  # radians: below, a series replaces the sine over the angle
