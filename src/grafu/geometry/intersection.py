@@ -6,7 +6,6 @@ pass through one another cut surfaces, which is what is asked here.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from itertools import count
 from typing import final
 from weakref import finalize
@@ -26,7 +25,6 @@ from grafu.geometry.transform import transform_points
 _CORE = 0.2
 _MOST_CONTACTS = 5000
 _ANY_CONTACT = fcl.CollisionRequest()
-
 _numbers = count()
 _LARGE = 5_000  # faces
 _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
@@ -117,15 +115,14 @@ class MeshCollider:
         self._pose: tuple[Mat3, Vec3] | None = None
         self._made: fcl.CollisionObject | None = None
         self._start: Mat4 | None = None
+        self._number: int | None = None
         self._is_at_rest = True
-
-    @cached_property
-    def _number(self) -> int:
-        return _model(self._mesh).number
 
     @property
     def number(self) -> int | None:
         """The number of the mesh where it stands at rest; None of a posed one, which may stand anywhere."""
+        if self._number is None:
+            self._number = _model(self._mesh).number
         return self._number if self._is_at_rest else None
 
     @property
@@ -267,8 +264,7 @@ class SweptBody:
         if number is None:
             return own.hits(obstacle)
         key = (self._pose, step, number)
-        found = self._known.get(key)
-        if found is None:
+        if (found := self._known.get(key)) is None:
             found = self._known[key] = own.hits(obstacle)
         return found
 
