@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from grafu.geometry.arrays import Vec3, extremes
+from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.render.camera import Camera
 from grafu.render.ray_scene import Hits, Rays, RayScene, Values
@@ -116,7 +117,7 @@ class Exposure:
     def __init__(self, scene: RayScene, camera: Camera, size: tuple[int, int], style: PictureStyle) -> None:
         self.scene, self.style, self.size, self.toward = scene, style, size, key_direction(camera)
         width, height = size
-        self.origins = np.tile(camera.eye.astype(np.float32), (width * height, 1))
+        self.origins = np.broadcast_to(camera.eye.astype(np.float32), (width * height, 3))
         self.directions = camera.rays(width, height)
         self.color = np.zeros((width * height, 4), np.float32)
         self.through = np.ones(width * height, np.float32)  # how much of each ray goes on behind the glass so far
@@ -127,10 +128,11 @@ class Exposure:
         self.low: np.ndarray = low
         self.high: np.ndarray = high
         self.reach = float(0.35 * np.linalg.norm(high - low))
+        self.ahead = _rays_to(Box(low, high), camera, size)
 
     def samples(self) -> Samples:
         """Returns premultiplied linear RGBA per sample, (height, width, 4). To be called once."""
-        rays, start = np.arange(len(self.directions)), self.origins
+        rays, start = self.ahead, self.origins
         for layer in range(_LAYERS):
             require_time()
             hits = self.scene.cast(start[rays], self.directions[rays])
@@ -212,6 +214,19 @@ class Exposure:
         margin = 1.2 * (self.high[2] - self.low[2]) + self.reach
         near = np.all((points[:, :2] > self.low[:2] - margin) & (points[:, :2] < self.high[:2] + margin), axis=1)
         return rays[near], points[near].astype(np.float32)
+
+
+def _rays_to(box: Box, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """Returns the numbers of the rays that may meet a box, row by row; all, where some of it is not before the eye."""
+    width, height = size
+    right, down, forward = ((box.corners() - camera.eye) @ camera.rotation).T
+    if forward.min() < 1e-6:
+        return np.arange(width * height)
+    scale = height / (2 * np.tan(camera.fov / 2))
+    x, y = width / 2 + scale * right / forward, height / 2 + scale * down / forward
+    first, last = np.floor([x.min(), y.min()]) - 1, np.ceil([x.max(), y.max()]) + 1
+    (left, top), (end, bottom) = (np.clip(at, 0, size).astype(int) for at in (first, last))
+    return (np.arange(top, bottom)[:, None] * width + np.arange(left, end)).reshape(-1)
 
 
 @final
