@@ -74,9 +74,9 @@ def test_the_processors_time_is_asked_for_once_in_a_few_milliseconds(monkeypatch
             require_time()
         assert processor.asked < 100
         processor.now = 2.0
+        wall.now += 0.01
         with pytest.raises(TooComplex):
-            for _ in range(100):
-                require_time()
+            require_time()
 
 
 def test_what_exceeds_its_fraction_is_replaced_and_the_rest_has_its_time() -> None:
