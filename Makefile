@@ -28,6 +28,7 @@ help:
 
 .venv/installed: .venv/made pyproject.toml
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@$(BIN)/python -m compileall -q src/grafu  # else the first run does that, and each run where Python is told not to
 	@touch $@
 
 .venv/installed-dev: .venv/installed

@@ -158,6 +158,31 @@ def test_help_answers_at_once() -> None:
     assert min(seconds() for _ in range(4)) <= 0.5
 
 
+HEAVY = {"trimesh", "scipy", "networkx", "torch", "collada", "mujoco", "matplotlib"}
+READERS_OF_OTHERS = {f"grafu.asset.{name}" for name in (
+    "blend", "collada", "fbx", "foreign", "hssd", "mjcf", "partnet_mobility", "sdf", "threeds", "threemf", "urdf", "usd"
+)}  # fmt: skip
+NOT_ASKED_FOR = {"grafu.pipeline.foreign", "grafu.render", "grafu.templates.user", "grafu.viewer.run_page"}
+
+
+def imported_by_a_run(out: Path, *options: str) -> set[str]:
+    sample = str(ROOT / "samples" / "kitchen_base.glb")
+    arguments = ["functionalize", sample, "--out", str(out), *options]
+    code = f"import sys\nfrom grafu.cli.main import main\nmain({arguments!r})\nprint(*sys.modules)"
+    return set(python(code).splitlines()[-1].split())
+
+
+def test_a_plain_run_imports_nothing_heavy_that_it_does_without(tmp_path: Path) -> None:
+    imported = imported_by_a_run(tmp_path, "--formats", "glb", "--no-page")
+    assert {"grafu.asset.gltf", "grafu.export.glb"} <= imported
+    assert imported & (HEAVY | READERS_OF_OTHERS | NOT_ASKED_FOR) == set()
+
+
+def test_a_page_and_a_urdf_need_hulls_but_no_trimesh(tmp_path: Path) -> None:
+    imported = imported_by_a_run(tmp_path, "--formats", "glb,urdf")
+    assert imported & ((HEAVY - {"scipy"}) | READERS_OF_OTHERS) == set()
+
+
 def test_no_two_tests_or_tools_of_tests_share_a_name() -> None:
     # pytest imports them by their base names
     names = Counter(p.name for p in (ROOT / "tests").rglob("*.py") if p.name not in ("__init__.py", "conftest.py"))

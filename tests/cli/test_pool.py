@@ -171,7 +171,9 @@ def test_what_is_wrong_with_one_input_is_said_as_ever(tmp_path: Path, out: Path)
 
 
 def test_inspection_has_limits_too(tmp_path: Path) -> None:
-    run = begin(tmp_path, "inspect", *models(tmp_path, "good"), "--memory", "100M")
+    large, *_ = [*models(tmp_path, "large"), *models(tmp_path, "good")]
+    large.write_text(large.read_text() + "v 0.2 0.2 0.2\n" * 1_000_000)
+    run = begin(tmp_path, "inspect", large, "--memory", "100M")
     _, said = run.communicate(timeout=SOON)
     assert run.returncode == 2
     assert "--memory" in said

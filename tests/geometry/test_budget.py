@@ -58,11 +58,25 @@ def test_a_busy_machine_changes_no_result_until_the_clock_on_the_wall_ends_the_w
     wall.now = 39.0  # others had the processor
     assert ratio.left == pytest.approx(1.0)
     assert budget.left == pytest.approx(61.0)
-    processor.now = 10.0
+    processor.now, wall.now = 10.0, 40.0
     assert ratio.left == 0.0
-    assert budget.fraction(1.0).left == pytest.approx(0.9 * 61.0)  # something is left for what comes after
+    assert budget.fraction(1.0).left == pytest.approx(0.9 * 60.0)  # something is left for what comes after
     wall.now = 100.0
     assert budget.left == 0.0
+
+
+def test_the_processors_time_is_asked_for_once_in_a_few_milliseconds(monkeypatch: pytest.MonkeyPatch) -> None:
+    processor, wall = Clock(), Clock(step=0.0001)
+    monkeypatch.setattr("grafu.geometry.budget.process_time", processor)
+    monkeypatch.setattr("grafu.geometry.budget.monotonic", wall)
+    with Budget.lasting(1.0).in_force():
+        for _ in range(1000):
+            require_time()
+        assert processor.asked < 100
+        processor.now = 2.0
+        wall.now += 0.01
+        with pytest.raises(TooComplex):
+            require_time()
 
 
 def test_what_exceeds_its_fraction_is_replaced_and_the_rest_has_its_time() -> None:

@@ -181,8 +181,8 @@ def test_what_is_known_of_one_pose_or_obstacle_is_not_said_of_another():
 
 def test_an_obstacle_at_rest_is_asked_once_per_pose(monkeypatch):
     asked = []
-    intersects = MeshCollider.intersects
-    monkeypatch.setattr(MeshCollider, "intersects", lambda *pair: asked.append(pair) or intersects(*pair))
+    hits = MeshCollider.hits
+    monkeypatch.setattr(MeshCollider, "hits", lambda *pair: asked.append(pair) or hits(*pair))
     body = cube_body(0.2)
     first = body.penetrated([WALL])
     count = len(asked)

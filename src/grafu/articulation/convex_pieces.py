@@ -14,14 +14,13 @@ from typing import Any, final
 import manifold3d
 import numpy as np
 from jaxtyping import Float
-from scipy.spatial import ConvexHull, QhullError
-from trimesh.intersections import slice_faces_plane
 
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import tidy_parts, welded
 from grafu.geometry.config_checks import require_positive
+from grafu.geometry.face_cuts import half_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.solids import ConvexSolid
@@ -29,7 +28,6 @@ from grafu.geometry.solids import ConvexSolid
 _DIRECTIONS = np.array([[-1.0, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
 _HULL_CORNERS = 32
 _GRID = 10  # points per side at most: pits narrower than a tenth of the part are filled
-_slice: Any = slice_faces_plane  # trimesh states no types
 _TRIES = 4  # walls of one pit that are tried for a clean cut
 
 
@@ -127,7 +125,7 @@ class _Piece:
             beyond, rest = self.solid.split_by_plane(tuple(normal), sign * position)
             return self._of_solid(beyond), self._of_solid(rest)
         origin = np.abs(normal) * position
-        beyond, rest = _sliced(self.mesh, normal, origin), _sliced(self.mesh, -normal, origin)
+        beyond, rest = half_of(self.mesh, normal, origin), half_of(self.mesh, -normal, origin)
         return _Piece(beyond, self.config), _Piece(rest, self.config)
 
     def _of_solid(self, solid: Any) -> "_Piece":
@@ -182,6 +180,8 @@ def _grid(box: Box, spacing: float) -> Points:
 
 def _inside_hull(mesh: TriangleMesh, points: Points, thickness: float) -> Float[np.ndarray, "k 3"]:
     """Returns the points inside the hull of a mesh, flat ones thickened (metres); none where it has no hull."""
+    from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
+
     try:
         planes = ConvexHull(_thickened(few_corners(mesh.vertices, _HULL_CORNERS), thickness)).equations
     except (QhullError, ValueError):
@@ -228,11 +228,6 @@ def _walls(piece: _Piece, pit: Vec3) -> Iterator[tuple[int, float, float]]:
             yield k // 2, float(_DIRECTIONS[k, k // 2]), float(pit[k // 2] + _DIRECTIONS[k, k // 2] * seen[k])
     for axis in np.argsort(-size)[:2]:
         yield int(axis), 1.0, float(pit[axis])
-
-
-def _sliced(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
-    vertices, faces = _slice(np.array(mesh.vertices), np.array(mesh.faces), normal, origin)[:2]
-    return TriangleMesh(np.asarray(vertices).reshape(-1, 3), np.asarray(faces, dtype=np.int64).reshape(-1, 3))
 
 
 def _thickened(points: np.ndarray, least: float) -> Points:

@@ -10,7 +10,6 @@ from pathlib import Path, PureWindowsPath
 from typing import final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from grafu.asset.drafts import Chain, SceneNode, drafts_of_nodes, parts_of_drafts
 from grafu.asset.fbx_document import FbxArray, FbxRecord, damaged, read_records
@@ -21,7 +20,7 @@ from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Mat4
-from grafu.geometry.transform import from_rotation
+from grafu.geometry.transform import euler_matrix, from_rotation
 
 _ORDERS = ("xyz", "xzy", "yzx", "yxz", "zxy", "zyx")  # about fixed axes, the first turn first
 _LARGEST = 1e12  # of a number in a transform or a position: products of some of them stay finite
@@ -238,8 +237,8 @@ def _vector(properties: Properties, name: str, default: tuple[float, ...] = _NOT
 
 
 def _turn(degrees: np.ndarray, order: str = "xyz") -> Mat4:
-    turns = [degrees["xyz".index(axis)] for axis in order]
-    return from_rotation(Rotation.from_euler(order, turns, degrees=True).as_matrix(), np.zeros(3))
+    turns = np.radians([degrees["xyz".index(axis)] for axis in order])
+    return from_rotation(euler_matrix(turns.tolist(), order), np.zeros(3))
 
 
 def _shift(by: np.ndarray) -> Mat4:

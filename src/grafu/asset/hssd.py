@@ -14,7 +14,6 @@ from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.gltf import read_scene_meshes
 from grafu.asset.hssd_annotation import (
     MOTIONS,
-    PARTS,
     AnnotatedPart,
     Articulation,
     HssdAnnotation,
@@ -50,21 +49,6 @@ class _Mesh:
     @property
     def count(self) -> int:
         return sum(len(s.mesh.faces) for s in self.surfaces)
-
-
-def is_hssd(path: Path) -> bool:
-    """Whether the file is a GLB with annotated parts beside it."""
-    return path.suffix.lower() == ".glb" and path.with_name(path.stem + PARTS).is_file()
-
-
-def model_of_annotation(path: Path) -> Path | None:
-    """Returns the GLB that an annotation file belongs to, or None where the file is none or has no GLB beside it."""
-    ending = next((e for e in (PARTS, MOTIONS) if path.name.endswith(e)), None)
-    if ending is None:
-        return None
-    stem = path.name.removesuffix(ending)
-    stems = (stem, stem.rpartition(".")[2])  # articulations may be named after their data set, too
-    return next((m for s in stems if is_hssd(m := path.with_name(f"{s}.glb"))), None)
 
 
 def read_hssd(path: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:

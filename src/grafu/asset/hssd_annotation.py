@@ -103,6 +103,21 @@ def read_annotation(model: Path, files: ModelFiles) -> HssdAnnotation:
     return HssdAnnotation(parts, articulations, _neighbours(graph, known), up, front)
 
 
+def is_hssd(path: Path) -> bool:
+    """Whether the file is a GLB with annotated parts beside it."""
+    return path.suffix.lower() == ".glb" and path.with_name(path.stem + PARTS).is_file()
+
+
+def model_of_annotation(path: Path) -> Path | None:
+    """Returns the GLB that an annotation file belongs to, or None where the file is none or has no GLB beside it."""
+    ending = next((e for e in (PARTS, MOTIONS) if path.name.endswith(e)), None)
+    if ending is None:
+        return None
+    stem = path.name.removesuffix(ending)
+    stems = (stem, stem.rpartition(".")[2])  # articulations may be named after their data set, too
+    return next((m for s in stems if is_hssd(m := path.with_name(f"{s}.glb"))), None)
+
+
 def find_motions(model: Path) -> Path | None:
     """Returns the articulations beside a model: `<id>.articulations.json`, or with the data set's name before it."""
     named = model.with_name(model.stem + MOTIONS)

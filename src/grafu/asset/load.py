@@ -5,51 +5,42 @@ The kind of an input is detected from its content: PartNet-Mobility's files, a G
 """
 
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import Final
 
-from grafu.asset.blend import read_blend
-from grafu.asset.collada import read_collada
-from grafu.asset.fbx import read_fbx
-from grafu.asset.fbx_document import MAGIC
-from grafu.asset.folder import mesh_files_in, read_mesh, read_mesh_folder
+from grafu.asset.folder import mesh_files_in
 from grafu.asset.furniture_pieces import chosen_piece, endings_of
-from grafu.asset.gltf import read_gltf
-from grafu.asset.hssd import is_hssd, model_of_annotation, read_hssd
+from grafu.asset.hssd_annotation import is_hssd, model_of_annotation
 from grafu.asset.mesh_files import MESH_SUFFIXES
-from grafu.asset.mjcf import read_mjcf
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
-from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
 from grafu.asset.reading import Reading, cleaned
 from grafu.asset.regular_files import files_below, read_head
 from grafu.asset.resources import ModelFiles
-from grafu.asset.sdf import read_sdf
 from grafu.asset.settling import EXPECTED, pieces_in, settled
-from grafu.asset.threeds import read_threeds
-from grafu.asset.threemf import read_threemf
-from grafu.asset.urdf import read_urdf
-from grafu.asset.usd import USD_SUFFIXES, read_usd
 from grafu.errors import UnreadableAsset
 
 Reader = Callable[[Path, LoadOptions, ModelFiles], Reading]
 
-READERS: Final[dict[str, Reader]] = {
-    "partnet-mobility": read_partnet_mobility,
-    "hssd": read_hssd,
-    "urdf": read_urdf,
-    "sdf": read_sdf,
-    "mjcf": read_mjcf,
-    "gltf": read_gltf,
-    "collada": read_collada,
-    "usd": read_usd,
-    "fbx": read_fbx,
-    "3mf": read_threemf,
-    "3ds": read_threeds,
-    "blend": read_blend,
-    "mesh folder": read_mesh_folder,
-    "mesh file": read_mesh,
+READERS: Final = {
+    "partnet-mobility": "grafu.asset.partnet_mobility:read_partnet_mobility",
+    "hssd": "grafu.asset.hssd:read_hssd",
+    "urdf": "grafu.asset.urdf:read_urdf",
+    "sdf": "grafu.asset.sdf:read_sdf",
+    "mjcf": "grafu.asset.mjcf:read_mjcf",
+    "gltf": "grafu.asset.gltf:read_gltf",
+    "collada": "grafu.asset.collada:read_collada",
+    "usd": "grafu.asset.usd:read_usd",
+    "fbx": "grafu.asset.fbx:read_fbx",
+    "3mf": "grafu.asset.threemf:read_threemf",
+    "3ds": "grafu.asset.threeds:read_threeds",
+    "blend": "grafu.asset.blend:read_blend",
+    "mesh folder": "grafu.asset.folder:read_mesh_folder",
+    "mesh file": "grafu.asset.folder:read_mesh",
 }
+"""The reader of each kind, as module and function: it is imported when such an input is read."""
+USD_SUFFIXES: Final = (".usd", ".usda", ".usdc", ".usdz")
 SCENES: Final = {
     "urdf": (".urdf",),
     "sdf": (".sdf",),
@@ -126,7 +117,9 @@ def _read(path: Path, options: LoadOptions) -> tuple[Reading, str]:
     # named as a file of its folder, a model of the data set is that folder
     files = ModelFiles(place if kind == "partnet-mobility" else path, options.limits)
     name = _name(place if kind == "partnet-mobility" else path)  # its folder names the model, never `mobility.urdf`
-    return READERS[kind](place, options, files), name
+    module, function = READERS[kind].split(":")
+    read: Reader = getattr(import_module(module), function)
+    return read(place, options, files), name
 
 
 def _name(path: Path) -> str:
@@ -146,6 +139,12 @@ def detect(path: Path) -> tuple[str, Path]:
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or "no file can have this name"
         raise UnreadableAsset(f"{path} cannot be read ({why}): expected {EXPECTED}") from None
+
+
+def is_partnet_mobility(folder: Path) -> bool:
+    """Whether the folder is a model of the data set, by the files that it holds."""
+    has_json = (folder / "mobility_v2.json").is_file() and (folder / "result.json").is_file()
+    return has_json or (folder / "mobility.urdf").is_file()
 
 
 def _detect_file(path: Path) -> tuple[str, Path]:
@@ -168,7 +167,7 @@ def _detect_file(path: Path) -> tuple[str, Path]:
         return "collada", path
     if suffix in USD_SUFFIXES or head[:8] == b"PXR-USDC" or head[:5] == b"#usda":
         return "usd", path
-    if suffix == ".fbx" or head.startswith(MAGIC):
+    if suffix == ".fbx" or head.startswith(b"Kaydara FBX Binary"):
         return "fbx", path
     if suffix in (".3mf", ".3ds", ".blend"):
         return suffix[1:], path

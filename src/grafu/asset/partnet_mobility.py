@@ -196,12 +196,6 @@ class StandingConfig:
         require_ratios(self, *self.__dataclass_fields__)
 
 
-def is_partnet_mobility(folder: Path) -> bool:
-    """Whether the folder is a model of the data set, by the files that it holds."""
-    has_json = (folder / "mobility_v2.json").is_file() and (folder / "result.json").is_file()
-    return has_json or (folder / "mobility.urdf").is_file()
-
-
 def read_partnet_mobility(folder: Path, options: LoadOptions, files: ModelFiles | None = None) -> Reading:
     """Returns the model in the coordinates of its OBJ files.
 

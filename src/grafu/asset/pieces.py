@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
-import trimesh
 
 from grafu.asset.labels import is_piece
 from grafu.asset.names import spoken
@@ -20,6 +19,7 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+from grafu.geometry.point_distance import point_triangle_distances
 from grafu.vocabulary import PartLabel
 
 
@@ -265,7 +265,5 @@ def surface_gap(points: np.ndarray, mesh: TriangleMesh, region: Box, most: int =
         return float("inf")
     least = np.inf
     for chunk in np.array_split(points, max(1, len(points) * len(faces) // 200_000)):
-        pairs = np.repeat(faces, len(chunk), axis=0), np.tile(chunk, (len(faces), 1))
-        found = trimesh.triangles.closest_point(*pairs)  # type: ignore[no-untyped-call]
-        least = min(least, float(np.linalg.norm(found - pairs[1], axis=1).min()))
+        least = min(least, float(point_triangle_distances(chunk, faces).min()))
     return least

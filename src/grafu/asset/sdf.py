@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from grafu.articulation.motion_kind import kind_named
 from grafu.asset.options import LoadOptions, check_parts
@@ -20,7 +19,7 @@ from grafu.asset.scan_files import parse_xml
 from grafu.asset.urdf_shapes import numbers
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Mat4
-from grafu.geometry.transform import from_rotation
+from grafu.geometry.transform import euler_matrix, from_rotation, quaternion_matrix
 
 CONVENTION = Convention("the format (SDF: metres, Z up)", up="+Z", unit=1.0, usual_up="+Z")
 _WORLD = "world"
@@ -130,10 +129,10 @@ class _Model:
             *xyz, x, y, z, w = numbers(pose.text, (0.0,) * 7, self.path)
             if not any((x, y, z, w)):
                 raise UnreadableAsset(f"{self.path}: a quaternion is all zeros; mend the SDF")
-            return from_rotation(Rotation.from_quat([x, y, z, w]).as_matrix(), np.array(xyz))
+            return from_rotation(quaternion_matrix(w, x, y, z), np.array(xyz))
         values = numbers(pose.text, (0.0,) * 6, self.path)
-        R = Rotation.from_euler("xyz", values[3:], degrees=pose.get("degrees", "") in ("true", "1"))
-        return from_rotation(R.as_matrix(), np.array(values[:3]))
+        angles = np.radians(values[3:]) if pose.get("degrees", "") in ("true", "1") else np.array(values[3:])
+        return from_rotation(euler_matrix(angles.tolist()), np.array(values[:3]))
 
     def _shape(self, visual: Any) -> tuple[str, dict[str, str]] | None:
         geometry = visual.find("geometry")

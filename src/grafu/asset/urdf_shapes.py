@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any, final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from grafu.asset.collada import read_collada_surfaces
 from grafu.asset.gltf import read_surfaces
@@ -25,7 +24,7 @@ from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.transform import from_rotation
+from grafu.geometry.transform import euler_matrix, from_rotation
 
 
 def numbers(text: str | None, default: tuple[float, ...], path: Path) -> tuple[float, ...]:
@@ -50,8 +49,8 @@ def origin_of(element: Any, path: Path) -> Mat4:
     origin = element.find("origin")
     if origin is None:
         return np.eye(4)
-    R = Rotation.from_euler("xyz", numbers(origin.get("rpy"), (0.0, 0.0, 0.0), path))
-    return from_rotation(R.as_matrix(), np.array(numbers(origin.get("xyz"), (0.0, 0.0, 0.0), path)))
+    R = euler_matrix(numbers(origin.get("rpy"), (0.0, 0.0, 0.0), path))
+    return from_rotation(R, np.array(numbers(origin.get("xyz"), (0.0, 0.0, 0.0), path)))
 
 
 def read_xml(path: Path, files: ModelFiles) -> Any:

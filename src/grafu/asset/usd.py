@@ -23,7 +23,6 @@ from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.mesh import TriangleMesh
 
-USD_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _LARGEST = 1e12  # of a number in a transform or a position: products of some of them stay finite
 _LAYERS = 200  # that one scene may be made of
 

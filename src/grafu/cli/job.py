@@ -232,19 +232,22 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
 
 
 def _motions(job: Job) -> "MotionSource | ForeignMotions":
-    from grafu.pipeline.foreign import prediction_for
-
     options, settings = job.options, job.options.settings
     if options.prediction is None:
         return settings.motion
+    from grafu.pipeline.foreign import prediction_for
+
     return prediction_for(options.prediction, job.name, options.alone, settings.reading.limits)
 
 
 def _config(options: JobOptions) -> "PipelineConfig":
     from grafu.pipeline.functionalize import PipelineConfig
+
+    if options.templates is None:
+        return PipelineConfig(options.settings)
     from grafu.templates.user import load_handles
 
-    return PipelineConfig(options.settings, load_handles(options.templates) if options.templates else {})
+    return PipelineConfig(options.settings, load_handles(options.templates))
 
 
 def _require_free(job: Job) -> None:

@@ -23,14 +23,14 @@ def write_index(results: Sequence[JobResult], out: Path) -> Path | None:
     Raises:
         ExportError: if it cannot be written.
     """
-    from grafu.export.whole_file import write_whole
-    from grafu.viewer.run_page import run_page
-    from grafu.viewer.run_table import functionalized_run
-
     path = out / RUN_PAGE
     is_due = path.exists() or len(results) > 1
     if not is_due or not any(isinstance(result, Succeeded) for result in results) or not is_free_for_page(path):
         return None
+    from grafu.export.whole_file import write_whole
+    from grafu.viewer.run_page import run_page
+    from grafu.viewer.run_table import functionalized_run
+
     run = functionalized_run(out.resolve().name or "Run", _entries(results, out))
     write_whole(writable(run_page(run)), path)
     return path

@@ -87,7 +87,7 @@ EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED, EXIT_TERMINATED = 0, 1
 def prepare_verb() -> None:
     """Imports what every verb needs, and what would take an interruption for a missing library of its own."""
     with interruption_held():
-        import_module("trimesh")
+        import_module("numpy")
 
 
 def run_verb(options: argparse.Namespace) -> int:

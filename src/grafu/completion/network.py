@@ -11,8 +11,6 @@ Labels that the input states are kept, whatever the network states.
 """
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from grafu.completion.answers import decision_of
 from grafu.completion.config import DecodeConfig
@@ -24,6 +22,7 @@ from grafu.completion.slots import NewPart, new_parts, with_parts
 from grafu.completion.votes import ranking_of
 from grafu.geometry.arrays import Indices
 from grafu.geometry.budget import fits, present_budget, require_room, require_time
+from grafu.geometry.components import linked
 from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, LABELS, RAIL, UNKNOWN
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Contact, ends_of
@@ -97,8 +96,8 @@ def _columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) 
     between = np.maximum(low[:, None, 2] - high[None, :, 2], low[None, :, 2] - high[:, None, 2])
     near = (aside <= _ALIGNED * size[:, None, 0]) & (np.abs(between) <= _BETWEEN * size[:, None, 2])
     near &= np.abs(size[:, None, 2] - size[None, :, 2]) <= _BETWEEN * size[:, None, 2]
-    count, number = connected_components(coo_matrix(near | near.T), directed=False)
-    groups = (fronts[number == k] for k in range(count))
+    number = linked(len(fronts), *np.nonzero(near))
+    groups = (fronts[number == k] for k in range(int(number.max()) + 1))
     return [group for group in groups if len(group) > 1]
 
 

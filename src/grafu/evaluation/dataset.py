@@ -11,12 +11,11 @@ from itertools import count
 from pathlib import Path
 from typing import Final, final, get_args
 
-from grafu.asset.hssd import is_hssd
+from grafu.asset.hssd_annotation import is_hssd
 from grafu.asset.json_files import read_json
-from grafu.asset.load import AFTER_MESHES, READERS, SCENES, detect, load_asset, scene_kind
+from grafu.asset.load import AFTER_MESHES, READERS, SCENES, detect, is_partnet_mobility, load_asset, scene_kind
 from grafu.asset.mesh_files import MESH_SUFFIXES
 from grafu.asset.part import ROBOTS, Asset, Part
-from grafu.asset.partnet_mobility import is_partnet_mobility
 from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.layout import LayoutKind
 from grafu.errors import AssetError, OptionError, UnreadableAsset

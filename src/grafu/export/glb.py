@@ -13,7 +13,6 @@ from dataclasses import asdict, dataclass
 from typing import Any, final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
 from grafu.articulation.kinematics import link_origins
@@ -24,6 +23,7 @@ from grafu.export.gltf_mesh import GltfBuffer, GltfMaterialWriter, mesh_of, to_y
 from grafu.export.names import NameBook
 from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Scalars, Vec3
+from grafu.geometry.transform import quaternions_about
 from grafu.version import __version__
 from grafu.visible import writable
 
@@ -151,7 +151,8 @@ class _GlbWriter:
         """Yields the properties of a joint's node that follow its values, with what they pass through."""
         axis, kind = to_y_up(joint.axis.direction[None])[0], joint.kind
         if kind.turn:
-            yield "rotation", _quaternions(axis, kind.turn * values)
+            # neighbours lie on one side, so that interpolation never flips
+            yield "rotation", quaternions_about(axis, kind.turn * values)
         if kind.shift:
             yield "translation", np.array(self._offset(joint)) + np.outer(kind.shift * values, axis)
 
@@ -180,11 +181,6 @@ def _described_joint(joint: Joint) -> dict[str, Any]:
         "upper": joint.limits.upper,
         "after": list(joint.after),
     } | ({} if joint.coupling is None else {"coupling": asdict(joint.coupling)})
-
-
-def _quaternions(axis: Vec3, angles: np.ndarray) -> np.ndarray:
-    """Returns rotations about `axis` in glTF's order xyzw; neighbours lie on one side, so interpolation never flips."""
-    return Rotation.from_rotvec(np.outer(angles, axis)).as_quat()
 
 
 def _plain(vector: Vec3) -> list[float]:

@@ -4,12 +4,10 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, Scalars
-from grafu.geometry.components import welded
+from grafu.geometry.components import linked, welded
 from grafu.geometry.mesh import TriangleMesh
 
 CREASE_ANGLE = float(np.radians(30.0))  # Blender's "shade auto smooth" default: panels stay flat, round knobs smooth
@@ -74,9 +72,8 @@ def _smooth_groups(mesh: TriangleMesh, crease_angle: float) -> tuple[int, Indice
     # a corner belongs to one position only: the two ends of an edge are joined each with its own partner
     first, second = _partners(a, b, start)
     count = 3 * len(mesh.faces)
-    graph = coo_matrix((np.ones(len(first), np.int8), (first, second)), (count, count))
-    groups, group = connected_components(graph, directed=False)
-    return int(groups), group.astype(np.int64)
+    group = linked(count, first, second)
+    return int(group.max(initial=-1)) + 1, group
 
 
 def _joined_corners(

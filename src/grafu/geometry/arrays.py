@@ -55,6 +55,12 @@ def extremes(rows: Float[np.ndarray, "n k"]) -> tuple[Float[np.ndarray, " k"], F
     return columns.min(axis=1), columns.max(axis=1)
 
 
+def row_keys(triples: np.ndarray) -> Indices:
+    """Returns one 64-bit key for each row of three integers."""
+    # odd multipliers of no pattern make two rows of one key practically impossible
+    return triples @ np.array([0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.int64)
+
+
 class ArrayValue:
     """Abstract base of frozen dataclasses with array fields: equality, hash and pickling by content, a short repr."""
 

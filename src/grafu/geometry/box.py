@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import isfinite
+from math import hypot, isfinite
 from typing import final
 
 import numpy as np
@@ -165,14 +165,11 @@ def yaw_of(points: Points) -> float:
 
     A part that already fills its axis-aligned box as well as any other (within 1 %) has yaw 0.
     """
-    from scipy.spatial import ConvexHull, QhullError  # local: scipy.spatial costs 0.1 s and most parts need no hull
-
     flat = points[:, :2]
     if _has_all_corners(flat):
         return 0.0
-    try:
-        hull = flat[ConvexHull(flat).vertices]
-    except (QhullError, ValueError):  # an upright sheet: seen from above it is a line, or a point
+    hull = convex_outline(flat)
+    if len(hull) < 3:  # an upright sheet: seen from above it is a line, or a point
         return _yaw_of_line(flat)
     edges = np.roll(hull, -1, axis=0) - hull
     angles = np.unique(np.round(np.mod(np.arctan2(edges[:, 1], edges[:, 0]) + np.pi / 4, np.pi / 2) - np.pi / 4, 6))
@@ -184,6 +181,42 @@ def yaw_of(points: Points) -> float:
     low, high = extremes(flat)
     straight = float(np.prod(high - low))
     return 0.0 if areas[best] >= 0.99 * straight else float(angles[best])
+
+
+_AHEAD = np.stack([np.cos(np.arange(16) * np.pi / 8), np.sin(np.arange(16) * np.pi / 8)])
+_STRAIGHT = 4e-15  # of the largest coordinate: what bends less is rounding
+
+
+def convex_outline(flat: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "k 2"]:
+    """Returns the corners around points, counter-clockwise; fewer than three where all lie on one line."""
+    if not len(flat):
+        return flat
+    points = sorted(set(map(tuple, _outer(flat).tolist())))
+    nothing = _STRAIGHT * float(np.abs(flat).max())
+    return np.array(_bending(points, nothing)[:-1] + _bending(points[::-1], nothing)[:-1] or points)
+
+
+def _outer(flat: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "m 2"]:
+    """Returns the points without what lies within those that are outermost in 16 directions."""
+    corners = flat[np.argmax(flat @ _AHEAD, axis=0)]
+    sides, outside = np.roll(corners, -1, axis=0) - corners, np.zeros(len(flat), dtype=bool)
+    for (x, y), (u, v) in zip(corners, sides, strict=True):
+        outside |= u * (flat[:, 1] - y) < v * (flat[:, 0] - x)
+    return np.concatenate([corners, flat[outside]])
+
+
+def _bending(points: list[tuple[float, ...]], nothing: float) -> list[tuple[float, ...]]:
+    """Returns the sorted points at which a thread bends that is drawn taut below them."""
+    thread: list[tuple[float, ...]] = []
+    for x, y in points:
+        while len(thread) > 1:
+            (x0, y0), (x1, y1) = thread[-2:]
+            u, v = x - x0, y - y0
+            if v * (x1 - x0) - u * (y1 - y0) > nothing * hypot(u, v):
+                break
+            thread.pop()
+        thread.append((x, y))
+    return thread
 
 
 def _has_all_corners(flat: Float[np.ndarray, "n 2"]) -> bool:

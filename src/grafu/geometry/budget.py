@@ -27,6 +27,19 @@ DEFAULT_ROOM = 400 * 2**20
 """Bytes of one step: with what stays beside it, a process keeps below some 1.5 GB."""
 
 
+_OLD = 0.005  # seconds on the wall after which the processor's time is asked for again: in containers that is slow
+_asked = (-inf, 0.0)  # when it was asked for on the wall, and the answer
+
+
+def _processor_time() -> float:
+    """Returns the processor's time of this process, seconds; it may be a few milliseconds old."""
+    global _asked
+    now = monotonic()
+    if not 0 <= now - _asked[0] < _OLD:
+        _asked = (now, process_time())
+    return _asked[1]
+
+
 @final
 @dataclass(frozen=True, slots=True)
 class Budget:
@@ -42,7 +55,7 @@ class Budget:
 
     deadline: float = inf
     room: int = DEFAULT_ROOM
-    clock: Callable[[], float] = process_time
+    clock: Callable[[], float] = _processor_time
     latest: float = inf
 
     def __post_init__(self) -> None:
@@ -62,7 +75,7 @@ class Budget:
             raise ValueError(f"a budget must last more than 0 seconds: got {seconds}")
         if clock is not None:
             return cls(clock() + seconds, room, clock)
-        return cls(process_time() + seconds, room, process_time, monotonic() + seconds)
+        return cls(process_time() + seconds, room, _processor_time, monotonic() + seconds)
 
     @property
     def left(self) -> float:

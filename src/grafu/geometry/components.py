@@ -11,13 +11,11 @@ from typing import final
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, Scalars, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, Scalars, freeze_arrays, row_keys
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 
-_OF_PIECE = 0x7F4A7C159E3779B9  # an odd multiplier of no pattern, as in `_keys`
+_OF_PIECE = 0x7F4A7C159E3779B9  # an odd multiplier of no pattern, as in `row_keys`
 BoxEnds = Float[np.ndarray, "n 2 3"]  # lowest and highest corner of each of n boxes
 
 
@@ -47,6 +45,24 @@ def welded(points: Points, tolerance: float = 1e-6) -> Indices:
     return np.unique(_cells(points, tolerance), return_inverse=True)[1].reshape(-1)
 
 
+def linked(count: int, first: np.ndarray, second: np.ndarray) -> Indices:
+    """Returns for each of `count` things the number of its group: each `first` is in one with its `second`.
+
+    Groups are numbered in the order of their first members.
+    """
+    root = np.arange(count)
+    low, high = np.minimum(first, second), np.maximum(first, second)
+    root[high] = low  # each thing hangs below another; the first of its group, in the end, below none
+    while len(low):
+        while not np.array_equal(root, upper := root[root]):
+            root = upper
+        first, second = root[low], root[high]
+        apart = first != second
+        low, high = np.minimum(first, second)[apart], np.maximum(first, second)[apart]
+        np.minimum.at(root, high, low)
+    return (np.cumsum(root == np.arange(count)) - 1)[root]
+
+
 def patches_of(mesh: TriangleMesh) -> Patches:
     """Returns the distinct faces of a mesh, sorted into patches.
 
@@ -73,8 +89,7 @@ def part_numbers(mesh: TriangleMesh) -> Indices:
     position = welded(mesh.vertices)[mesh.faces]
     count = int(position.max()) + 1
     ends = (np.concatenate([position[:, 0], position[:, 1]]), np.concatenate([position[:, 1], position[:, 2]]))
-    graph = coo_matrix((np.ones(len(ends[0]), np.int8), ends), (count, count))
-    label = connected_components(graph, directed=False)[1][position[:, 0]]
+    label = linked(count, *ends)[position[:, 0]]
     _, first, number = np.unique(label, return_index=True, return_inverse=True)
     return np.argsort(np.argsort(first))[number.reshape(-1)].astype(np.int64)
 
@@ -94,7 +109,7 @@ def repeated_faces(mesh: TriangleMesh) -> Indices:
 
 def _first_alike(position: Faces) -> Indices:
     corners = np.sort(position, axis=1)
-    _, first, number = np.unique(_keys(corners), return_index=True, return_inverse=True)
+    _, first, number = np.unique(row_keys(corners), return_index=True, return_inverse=True)
     return first[number.reshape(-1)]
 
 
@@ -148,20 +163,14 @@ def clustered(mesh: TriangleMesh, cell: float) -> TriangleMesh:
 
 def _cells(points: Points, size: float) -> Int[np.ndarray, " n"]:
     """Returns one key for each point's cell of a grid."""
-    return _keys(np.round(points / size).astype(np.int64))
-
-
-def _keys(triples: np.ndarray) -> Int[np.ndarray, " n"]:
-    """Returns one 64-bit key for each row of three integers."""
-    # odd multipliers of no pattern make two rows of one key practically impossible
-    return triples @ np.array([0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.int64)
+    return row_keys(np.round(points / size).astype(np.int64))
 
 
 def _distinct(position: Faces) -> Indices:
     """Returns the indices of faces with three different corners, one for each set of corners, in order."""
     corners = np.sort(position, axis=1)
     whole = np.flatnonzero((corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]))
-    first = np.unique(_keys(corners[whole]), return_index=True)[1]
+    first = np.unique(row_keys(corners[whole]), return_index=True)[1]
     return whole[np.sort(first)]
 
 
@@ -187,8 +196,7 @@ def _oriented_patches(position: Faces, edges: np.ndarray) -> tuple[np.ndarray, n
     f, g = first // 3, second // 3
     crossed = np.where(agree, 0, count)
     rows, columns = np.concatenate([f, f + count]), np.concatenate([g + crossed, g + count - crossed])
-    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, columns)), (2 * count, 2 * count))
-    label = connected_components(graph, directed=False)[1].reshape(2, count)
+    label = linked(2 * count, rows, columns).reshape(2, count)
     patch = np.unique(label.min(axis=0), return_inverse=True)[1].reshape(-1)
     orientable = np.ones(int(patch.max()) + 1, dtype=bool)
     orientable[patch[label[0] == label[1]]] = False
@@ -251,8 +259,7 @@ def _connected(edges: _Edges, first: Indices, distinct: _Mask, count: _OfEdges) 
     order = np.argsort(edge, kind="stable")
     pairs = owner[order][count[edge[order]] == 2].reshape(-1, 2)
     ends = np.concatenate([pairs, np.column_stack([np.arange(len(first)), first])])
-    graph = coo_matrix((np.ones(len(ends), np.int8), (ends[:, 0], ends[:, 1])), (len(first), len(first)))
-    return connected_components(graph, directed=False)[1].astype(np.int64)
+    return linked(len(first), ends[:, 0], ends[:, 1])
 
 
 def _with_caps(

@@ -16,10 +16,10 @@ from typing import final
 import manifold3d
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.spatial import ConvexHull, QhullError
 
-from grafu.geometry.arrays import Points, vec3
+from grafu.geometry.arrays import Points, Vec3, vec3
 from grafu.geometry.budget import require_room, require_time
+from grafu.geometry.mesh import TriangleMesh
 
 _ROUNDED = 1e-7  # outlines come with corners rounded to 1e-8: triangles thinner than that may be turned over
 
@@ -98,6 +98,43 @@ def _cut_corner(triangles: np.ndarray, side: np.ndarray, lone: np.ndarray) -> tu
     single = np.stack([t[:, 0], ab, ac], axis=1)
     pair = np.concatenate([np.stack([ab, t[:, 1], t[:, 2]], axis=1), np.stack([ab, t[:, 2], ac], axis=1)])
     return single, pair
+
+
+_ON_PLANE = 1e-8  # metres
+
+
+def half_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
+    """Returns what lies beyond the plane through `origin`, on the side of the unit `normal`; the cut is left open.
+
+    Faces that lie on the plane are kept where they look back across it.
+    """
+    height = (mesh.vertices - origin) @ normal
+    side = np.where(height > _ON_PLANE, 1, np.where(height < -_ON_PLANE, -1, 0))[mesh.faces]
+    beyond, before = (side > 0).sum(axis=1), (side < 0).sum(axis=1)
+    whole = (before == 0) & ((beyond > 0) | (mesh.face_normals @ normal < 0))
+    lone_before, lone_beyond = (before == 1) & (beyond == 2), (beyond == 1) & (before > 0)
+    quads, quad_ends = _cut_around(mesh, lone_before, side < 0, normal, origin)
+    tips, tip_ends = _cut_around(mesh, lone_beyond, side > 0, normal, origin)
+    ends = len(mesh.vertices) + np.arange(2 * (len(quads) + len(tips))).reshape(-1, 2)
+    (into, out), (a, b) = ends[: len(quads)].T, ends[len(quads) :].T
+    lower = np.stack([quads[:, 1], quads[:, 2], into], axis=1)
+    upper = np.stack([into, out, quads[:, 1]], axis=1)
+    faces = np.concatenate([mesh.faces[whole], lower, upper, np.stack([tips[:, 0], a, b], axis=1)])
+    used, index = np.unique(faces, return_inverse=True)
+    points = np.concatenate([mesh.vertices, quad_ends[:, ::-1].reshape(-1, 3), tip_ends.reshape(-1, 3)])
+    return TriangleMesh(points[used], index.reshape(-1, 3))
+
+
+def _cut_around(
+    mesh: TriangleMesh, cut: np.ndarray, is_lone: np.ndarray, normal: Vec3, origin: Vec3
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the corners of the cut faces, the lone one first, and where a plane cuts the edges from and to it."""
+    order = (np.argmax(is_lone[cut], axis=1)[:, None] + np.arange(3)) % 3
+    corners = np.take_along_axis(mesh.faces[cut], order, axis=1)
+    start, end = mesh.vertices[corners[:, [0, 2]]], mesh.vertices[corners[:, [1, 0]]]
+    along = end - start
+    ratio = ((origin - start) @ normal) / (along @ normal)
+    return corners, ratio[..., None] * along + start
 
 
 _MOST_PAIRS = 5_000  # of a face and a solid at once
@@ -210,6 +247,8 @@ def _merged(inside: np.ndarray, owner: np.ndarray, count: int) -> tuple[np.ndarr
 
 def _fan(pieces: np.ndarray) -> np.ndarray:
     """Returns the triangles of the convex polygon that pieces make up, turned like them."""
+    from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
+
     corners = pieces.reshape(-1, pieces.shape[2])
     normal = np.cross(pieces[:, 1, :3] - pieces[:, 0, :3], pieces[:, 2, :3] - pieces[:, 0, :3]).sum(axis=0)
     axis = int(np.argmax(np.abs(normal)))

@@ -14,7 +14,7 @@ import fcl
 import numpy as np
 from jaxtyping import Int
 
-from grafu.geometry.arrays import Indices, Mat3, Mat4, Points, Vec3, extremes
+from grafu.geometry.arrays import Indices, Mat3, Mat4, Points, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import repeated_faces
@@ -25,7 +25,6 @@ from grafu.geometry.transform import transform_points
 _CORE = 0.2
 _MOST_CONTACTS = 5000
 _ANY_CONTACT = fcl.CollisionRequest()
-
 _numbers = count()
 _LARGE = 5_000  # faces
 _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
@@ -116,12 +115,15 @@ class MeshCollider:
         self._pose: tuple[Mat3, Vec3] | None = None
         self._made: fcl.CollisionObject | None = None
         self._start: Mat4 | None = None
+        self._number: int | None = None
         self._is_at_rest = True
 
     @property
     def number(self) -> int | None:
         """The number of the mesh where it stands at rest; None of a posed one, which may stand anywhere."""
-        return _model(self._mesh).number if self._is_at_rest else None
+        if self._number is None:
+            self._number = _model(self._mesh).number
+        return self._number if self._is_at_rest else None
 
     @property
     def _object(self) -> fcl.CollisionObject:
@@ -146,8 +148,8 @@ class MeshCollider:
         if self._corners is None:  # most colliders never leave their place
             self._corners = self.box.corners()
         corners = self._corners @ T[:3, :3].T + offset
-        low, high = extremes(corners)
-        self._low, self._high = low.tolist(), high.tolist()
+        x, y, z = zip(*corners.tolist(), strict=True)  # plain numbers, as in `is_apart`
+        self._low, self._high = [min(x), min(y), min(z)], [max(x), max(y), max(z)]
 
     def posed(self, T: Mat4) -> "MeshCollider":
         """Returns another collider of the same mesh, posed at T."""
@@ -157,8 +159,10 @@ class MeshCollider:
 
     def intersects(self, other: "MeshCollider") -> bool:
         """Whether the two, as posed, share a point."""
-        if self.is_apart(other):
-            return False
+        return not self.is_apart(other) and self.hits(other)
+
+    def hits(self, other: "MeshCollider") -> bool:
+        """Whether the two, whose boxes meet, share a point."""
         require_time()
         return bool(fcl.collide(self._object, other._object, _ANY_CONTACT, fcl.CollisionResult()) > 0)
 
@@ -258,11 +262,11 @@ class SweptBody:
             return False
         number = obstacle.number
         if number is None:
-            return own.intersects(obstacle)
+            return own.hits(obstacle)
         key = (self._pose, step, number)
-        if key not in self._known:
-            self._known[key] = own.intersects(obstacle)
-        return self._known[key]
+        if (found := self._known.get(key)) is None:
+            found = self._known[key] = own.hits(obstacle)
+        return found
 
     def penetrates(self, obstacle: MeshCollider) -> bool:
         """Whether the body, as posed, cuts into the obstacle by more than the depth."""

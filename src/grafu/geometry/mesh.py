@@ -6,18 +6,21 @@ Heavy queries live in `raycast`, `intersection` and `solids`.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
-import trimesh
 
-from grafu.geometry.arrays import ArrayValue, Faces, Mat4, Points, Scalars, Vec3, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Mat4, Points, Scalars, Vec3, frozen_array, row_keys
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.transform import is_mirror, transform_points
+
+if TYPE_CHECKING:
+    import trimesh
 
 _UPRIGHT = 0.1  # most of a unit normal that may point up or down in an upright face
 _BINS = 90  # of one degree each
 _AS_WELL = 0.6  # of the largest area must lie along the axes for those to serve: a room's corner has two such pairs
+_PLACES = 1e8  # of one metre: vertices that round to the same of them are one
 _CACHED_FACES = 20_000  # meshes of up to so many faces cache what is computed from the faces
 
 
@@ -100,9 +103,10 @@ class TriangleMesh(ArrayValue):
         """Whether every edge, vertices merged by position, is shared by two oppositely directed faces."""
         if not len(self.faces):
             return False
-        merged = self.to_trimesh()
-        merged.merge_vertices()
-        return bool(merged.is_watertight and merged.is_winding_consistent)
+        place = np.unique(row_keys(np.round(self.vertices * _PLACES).astype(np.int64)), return_inverse=True)[1]
+        start = place.reshape(-1)[self.faces]
+        end = np.roll(start, -1, axis=1).ravel()
+        return _meet_in_pairs(start.ravel(), end)
 
     def transformed(self, T: Mat4) -> "TriangleMesh":
         """Returns the mesh mapped by T; a mirror image keeps its faces' outward sides outward."""
@@ -119,12 +123,14 @@ class TriangleMesh(ArrayValue):
         used, index = np.unique(faces, return_inverse=True)
         return TriangleMesh(self.vertices[used], index.reshape(faces.shape))
 
-    def to_trimesh(self) -> trimesh.Trimesh:
+    def to_trimesh(self) -> "trimesh.Trimesh":
         """Returns a new, unprocessed trimesh copy."""
+        import trimesh  # local: it takes half a second, and furniture is read and written without it
+
         return trimesh.Trimesh(self.vertices.copy(), self.faces.copy(), process=False, validate=False)
 
     @classmethod
-    def from_trimesh(cls, mesh: trimesh.Trimesh) -> "TriangleMesh":
+    def from_trimesh(cls, mesh: "trimesh.Trimesh") -> "TriangleMesh":
         """Returns the value of a trimesh."""
         return cls(np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.faces, dtype=np.int64))
 
@@ -197,6 +203,18 @@ _BOX_FACES = [
 
 def _cross(t: np.ndarray) -> np.ndarray:
     return np.asarray(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]))
+
+
+def _meet_in_pairs(start: np.ndarray, end: np.ndarray) -> bool:
+    """Whether directed edges come in twos that run along the same line, there and back."""
+    if len(start) % 2:
+        return False
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    order = np.argsort(low * (int(high.max()) + 1) + high)
+    first, second = order[::2], order[1::2]
+    are_two = (low[first] == low[second]) & (high[first] == high[second])
+    are_more = (low[second[:-1]] == low[first[1:]]) & (high[second[:-1]] == high[first[1:]])
+    return bool(are_two.all() and not are_more.any() and (end[first] == start[second]).all())
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

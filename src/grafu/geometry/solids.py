@@ -13,7 +13,6 @@ from typing import final
 import manifold3d
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.spatial import ConvexHull, QhullError
 
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, frozen_array
@@ -35,6 +34,8 @@ class ConvexSolid(ArrayValue):
     @classmethod
     def around(cls, points: Points) -> "ConvexSolid | None":
         """Returns the convex hull of the points; None where they are flat beyond repair."""
+        from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
+
         try:
             hull = ConvexHull(points)
         except (QhullError, ValueError):

@@ -13,9 +13,10 @@ from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPar
 from grafu.asset.foreign.particulate import read_particulate
 from grafu.asset.foreign.singapo import TREES, read_singapo
 from grafu.asset.json_files import parse_json
+from grafu.asset.load import is_partnet_mobility
 from grafu.asset.options import Limits, LoadOptions, check_parts
 from grafu.asset.part import AnnotatedJoint, Annotation
-from grafu.asset.partnet_mobility import is_partnet_mobility, read_partnet_mobility
+from grafu.asset.partnet_mobility import read_partnet_mobility
 from grafu.asset.regular_files import files_below, is_within
 from grafu.asset.resources import ModelFiles, read_bytes
 from grafu.asset.urdf import read_urdf

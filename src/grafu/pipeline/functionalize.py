@@ -4,12 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TypeVar, final
+from typing import TYPE_CHECKING, final
 
 from grafu.additions.step import Addition, StepResult
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.asset.foreign.attach import attach_motions
-from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
@@ -28,12 +26,10 @@ from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
-from grafu.joints.small_joints import with_small_parts
-from grafu.joints.small_parts import without_turntables
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
-from grafu.pipeline.motion_choices import plan_with_motions, with_motions, with_mounts, with_moving
+from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.stages import (
@@ -50,7 +46,8 @@ from grafu.templates.template import Gallery, HandleTemplate
 from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
 
-T = TypeVar("T")
+if TYPE_CHECKING:
+    from grafu.asset.foreign.motions import ForeignMotions
 
 
 @final
@@ -77,11 +74,11 @@ class Functionalized:
     """Everything that was made of one asset.
 
     `asset` is the input as the motion source saw it, `source` that source (never `auto`). `completion` is the graph as
-    it was built, additions included. `body` and `fittings` say what was missing and what was
-    added, before joints were built and after; `before_panels` is the scene before shelves and dividers. `timings` are
-    seconds per stage, in order. `notes` state what was done in a simpler way, or left out, because the budget did not
-    hold it. `stated_joints` counts the joints that the input states, whether they were read or not.
-    `decided` are the parts whose motion the user stated or rejected.
+    it was built, additions included. `body` and `fittings` say what was missing and what was added, before joints were
+    built and after; `before_panels` is the scene before shelves and dividers. `timings` are seconds per stage, in
+    order. `notes` state what was done in a simpler way, or left out, because the budget did not hold it.
+    `stated_joints` counts the joints that the input states, whether they were read or not. `decided` are the parts
+    whose motion the user stated or rejected.
     """
 
     asset: Asset
@@ -162,7 +159,7 @@ def _say_nothing(_: str) -> None:
 
 def functionalize(
     asset: Asset,
-    source: MotionSource | ForeignMotions,
+    source: "MotionSource | ForeignMotions",
     gallery: Gallery,
     config: PipelineConfig = PipelineConfig(),
     on_stage: Callable[[str], None] = _say_nothing,
@@ -190,12 +187,14 @@ def functionalize(
     motion = _motion(chosen, settings.weights)
     parse = partial(cache.value, "parse", parse_graph, asset)  # contacts only
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
-    source_name = f"complete by {chosen} of {settings.weights}"
-    complete = partial(cache.value, source_name, motion.complete, asset, graph)  # who moves, and how
+    complete = partial(cache.value, f"complete by {chosen} of {settings.weights}", motion.complete, asset, graph)
     completion = stages.timed("complete", complete, partial(without_network, graph))
     completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
+    if settings.small_parts:  # most runs do without
+        from grafu.joints.small_joints import with_small_parts
+        from grafu.joints.small_parts import without_turntables
     if not motion.reads_annotation:
         lifting = at_scale(joints.lift, metre_on(asset.extent))
         plan = with_lifts(with_drawn_hinges(plan, asset, joints), completion.completed, lifting)
@@ -237,12 +236,14 @@ def functionalize(
 
 
 def _with_source(
-    asset: Asset, source: MotionSource | ForeignMotions, settings: Settings, drawers: DrawerConfig, stages: Stages
+    asset: Asset, source: "MotionSource | ForeignMotions", settings: Settings, drawers: DrawerConfig, stages: Stages
 ) -> tuple[Asset, MotionSource]:
     """Returns the asset as the motion source is to see it, corrected by the user, and the source to use."""
     asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
     asset = with_moving(corrected(asset, settings.labels), settings.motions, settings.labels, drawers)
-    if isinstance(source, ForeignMotions):
+    if not isinstance(source, MotionSource):
+        from grafu.asset.foreign.attach import attach_motions  # local: most runs do without
+
         return stages.timed("match", lambda: attach_motions(asset, source)), MotionSource(source.source)
     chosen = choose_source(asset, source, settings.weights)
     _require_attached(asset, chosen)
@@ -256,19 +257,6 @@ def _as_built(
     tops = [addition.part.id for addition in made.additions if addition.part.label is PartLabel.TOP_PANEL]
     built = without_removed(as_built(completion, asset, made.additions, parsing), made.changes.removed, tops)
     return with_joints(built, realized.object, {done.moving: done.mount for done in realized.report.installed})
-
-
-def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:
-    """Returns the asset with the user's categories.
-
-    Raises:
-        OptionError: if a part does not exist.
-    """
-    unknown = sorted(set(labels) - {part.id for part in asset.parts})
-    if unknown:
-        raise OptionError(f"categories must be of parts: {asset.name} has no {', '.join(unknown)}")
-    parts = (replace(p, label=labels[p.id], labelled_by="user") if p.id in labels else p for p in asset.parts)
-    return replace(asset, parts=tuple(parts)) if labels else asset
 
 
 def choose_source(asset: Asset, source: MotionSource, weights: Path | None = None) -> MotionSource:

@@ -41,6 +41,19 @@ def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
     return {part: choice for part, choice in found.items() if choice is not None}
 
 
+def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:
+    """Returns the asset with the user's categories.
+
+    Raises:
+        OptionError: if a part does not exist.
+    """
+    unknown = sorted(set(labels) - {part.id for part in asset.parts})
+    if unknown:
+        raise OptionError(f"categories must be of parts: {asset.name} has no {', '.join(unknown)}")
+    parts = (replace(p, label=labels[p.id], labelled_by="user") if p.id in labels else p for p in asset.parts)
+    return replace(asset, parts=tuple(parts)) if labels else asset
+
+
 def with_moving(
     asset: Asset, motions: Motions, labels: Mapping[str, PartLabel], drawers: DrawerConfig = DrawerConfig()
 ) -> Asset:

@@ -5,7 +5,9 @@ light is a studio's: a soft key light by the camera, a bright sky, ambient occlu
 linear RGB. Random directions come from one fixed table in a 4x4 pattern: a picture is the same each time.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from math import radians
 from typing import Literal, final
 
@@ -13,6 +15,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from grafu.geometry.arrays import Vec3, extremes
+from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.render.camera import Camera
 from grafu.render.ray_scene import Hits, Rays, RayScene, Values
@@ -114,7 +117,7 @@ class Exposure:
     def __init__(self, scene: RayScene, camera: Camera, size: tuple[int, int], style: PictureStyle) -> None:
         self.scene, self.style, self.size, self.toward = scene, style, size, key_direction(camera)
         width, height = size
-        self.origins = np.tile(camera.eye.astype(np.float32), (width * height, 1))
+        self.origins = np.broadcast_to(camera.eye.astype(np.float32), (width * height, 3))
         self.directions = camera.rays(width, height)
         self.color = np.zeros((width * height, 4), np.float32)
         self.through = np.ones(width * height, np.float32)  # how much of each ray goes on behind the glass so far
@@ -125,10 +128,11 @@ class Exposure:
         self.low: np.ndarray = low
         self.high: np.ndarray = high
         self.reach = float(0.35 * np.linalg.norm(high - low))
+        self.ahead = _rays_to(Box(low, high), camera, size)
 
     def samples(self) -> Samples:
         """Returns premultiplied linear RGBA per sample, (height, width, 4). To be called once."""
-        rays, start = np.arange(len(self.directions)), self.origins
+        rays, start = self.ahead, self.origins
         for layer in range(_LAYERS):
             require_time()
             hits = self.scene.cast(start[rays], self.directions[rays])
@@ -151,39 +155,23 @@ class Exposure:
         sky = sky_ratio(self.scene, lifted, hits.normal, self.pattern[rays], self.reach)
         key = key_ratio(self.scene, lifted, self.pattern[rays], self.toward)
         near = replace(hits, ray=rays)
+        window = _Window.around(rays, self.size)
         if outlined:
-            sky, key = (self._smoothed(values, near) for values in (sky, key))
+            sky, key = _smoothed((sky, key), near, window)
         light = shade(near, self.directions[rays], sky, key, self.toward)
         if outlined and self.style.outlines:
-            light *= self._ink(near, points)[:, None]
+            light *= self._ink(near, points, window)[:, None]
         weight = self.through[rays] * hits.alpha
         self.color[rays, :3] += light * weight[:, None]
         self.color[rays, 3] += weight
         self.through[rays] -= weight
 
-    def _grid(self, rays: np.ndarray, values: np.ndarray, empty: float | int) -> np.ndarray:
-        grid = np.full((self.size[0] * self.size[1], *values.shape[1:]), empty, values.dtype)
-        grid[rays] = values
-        return grid.reshape(self.size[1], self.size[0], *values.shape[1:])
-
-    def _smoothed(self, values: np.ndarray, hits: Hits) -> np.ndarray:
-        """Returns the mean over the 4x4 samples around each, of those of one visual and one direction."""
-        facing = np.argmax(np.abs(hits.flat_normal), axis=1) * 2 + (hits.flat_normal.sum(axis=1) > 0)
-        surface = self._grid(hits.ray, hits.visual * 8 + facing, -1)
-        grid = self._grid(hits.ray, values, 0.0)
-        total, count = grid.copy(), np.ones_like(grid)
-        for dy in range(-2, 2):
-            for dx in range(-2, 2):
-                if dx or dy:
-                    _accumulate((total, count), grid, surface, (dy, dx))
-        return (total / count).reshape(-1)[hits.ray]
-
-    def _ink(self, hits: Hits, points: np.ndarray) -> np.ndarray:
+    def _ink(self, hits: Hits, points: np.ndarray, window: "_Window") -> np.ndarray:
         """Returns a factor per hit that darkens borders of parts, creases and silhouettes."""
-        visual = self._grid(hits.ray, hits.visual, -1)
-        normal = self._grid(hits.ray, hits.normal, 0.0)
-        point = self._grid(hits.ray, points, 0.0)
-        ink = np.ones((self.size[1], self.size[0]), np.float32)
+        visual = window.grid(hits.visual, -1)
+        normal = window.grid(hits.normal, 0.0)
+        point = window.grid(points, 0.0)
+        ink = np.ones(window.shape, np.float32)
         for axis in (0, 1):
             a, b = (slice(None, -1), slice(None)), (slice(1, None), slice(None))
             if axis:
@@ -195,12 +183,14 @@ class Exposure:
             strength = np.where((step > 0.02 * self.reach) | border, 0.42, strength)
             for side in (a, b):
                 ink[side] = np.minimum(ink[side], strength)
-        return ink.reshape(-1)[hits.ray]
+        return ink.reshape(-1)[window.place]
 
     def _shadow(self, through: np.ndarray) -> np.ndarray:
         """Returns how dark the floor is behind each ray, 0..1; found for one sample in four and smoothed."""
         width, height = self.size
-        open_blocks = through.reshape(height // 2, 2, width // 2, 2).max(axis=(1, 3)) > 0.01
+        grid = through.reshape(height, width)
+        open_blocks = np.maximum(grid[::2], grid[1::2]) > 0.01
+        open_blocks = open_blocks[:, ::2] | open_blocks[:, 1::2]
         first = np.arange(width * height).reshape(height, width)[::2, ::2]
         rays, points = self._floor_points(first[open_blocks])
         lifted = points + np.array([0, 0, 1e-4 * self.reach], np.float32)
@@ -226,17 +216,62 @@ class Exposure:
         return rays[near], points[near].astype(np.float32)
 
 
-def _accumulate(
-    sums: tuple[np.ndarray, np.ndarray], grid: np.ndarray, surface: np.ndarray, step: tuple[int, int]
-) -> None:
-    """Adds to each sample its neighbour at a step (rows, columns), where both are on the same surface."""
-    (total, count), (dy, dx) = sums, step
-    h, w = grid.shape
-    here = (slice(max(0, -dy), h - max(0, dy)), slice(max(0, -dx), w - max(0, dx)))
-    there = (slice(max(0, dy), h - max(0, -dy)), slice(max(0, dx), w - max(0, -dx)))
-    same = surface[here] == surface[there]
-    total[here] += np.where(same, grid[there], 0.0)
-    count[here] += same
+def _rays_to(box: Box, camera: Camera, size: tuple[int, int]) -> np.ndarray:
+    """Returns the numbers of the rays that may meet a box, row by row; all, where some of it is not before the eye."""
+    width, height = size
+    right, down, forward = ((box.corners() - camera.eye) @ camera.rotation).T
+    if forward.min() < 1e-6:
+        return np.arange(width * height)
+    scale = height / (2 * np.tan(camera.fov / 2))
+    x, y = width / 2 + scale * right / forward, height / 2 + scale * down / forward
+    first, last = np.floor([x.min(), y.min()]) - 1, np.ceil([x.max(), y.max()]) + 1
+    (left, top), (end, bottom) = (np.clip(at, 0, size).astype(int) for at in (first, last))
+    return (np.arange(top, bottom)[:, None] * width + np.arange(left, end)).reshape(-1)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class _Window:
+    """The samples of a picture around those rays that hit something: `place` is where each of them stands in it."""
+
+    shape: tuple[int, int]
+    place: np.ndarray
+
+    @classmethod
+    def around(cls, rays: np.ndarray, size: tuple[int, int]) -> "_Window":
+        """Returns the window of the rays with one sample more at each side, as far as the picture goes."""
+        rows, columns = np.divmod(rays, size[0])
+        top, left = (max(int(at.min()) - 1, 0) if len(at) else 0 for at in (rows, columns))
+        bottom, right = min(int(rows.max(initial=0)) + 2, size[1]), min(int(columns.max(initial=0)) + 2, size[0])
+        return cls((bottom - top, right - left), (rows - top) * (right - left) + columns - left)
+
+    def grid(self, values: np.ndarray, empty: float | int) -> np.ndarray:
+        """Returns the values of the rays as samples in rows and columns."""
+        grid = np.full((self.shape[0] * self.shape[1], *values.shape[1:]), empty, values.dtype)
+        grid[self.place] = values
+        return grid.reshape(*self.shape, *values.shape[1:])
+
+
+def _smoothed(values: Sequence[Values], hits: Hits, window: _Window) -> list[Values]:
+    """Returns the means over the 4x4 samples around each, of those of one visual and one direction."""
+    facing = np.argmax(np.abs(hits.flat_normal), axis=1) * 2 + (hits.flat_normal.sum(axis=1) > 0)
+    surface = window.grid(hits.visual * 8 + facing, -1)
+    grids = [window.grid(each, 0.0) for each in values]
+    totals, count = [grid.copy() for grid in grids], np.ones(window.shape, np.float32)
+    for here, there in _neighbours(*window.shape):
+        same = surface[here] == surface[there]
+        count[here] += same
+        for total, grid in zip(totals, grids, strict=True):
+            total[here] += grid[there] * same
+    return [(total / count).reshape(-1)[window.place] for total in totals]
+
+
+def _neighbours(height: int, width: int) -> Iterator[tuple[tuple[slice, slice], tuple[slice, slice]]]:
+    """Yields for each other step of a 4x4 pattern the samples that have a neighbour there, and these neighbours."""
+    for dy, dx in product(range(-2, 2), repeat=2):
+        if dx or dy:
+            here = (slice(max(0, -dy), height - max(0, dy)), slice(max(0, -dx), width - max(0, dx)))
+            yield here, (slice(max(0, dy), height - max(0, -dy)), slice(max(0, dx), width - max(0, -dx)))
 
 
 def _box_mean(grid: np.ndarray) -> np.ndarray:

@@ -61,8 +61,9 @@ def render(
         raise ValueError(f"`size` must be a positive width and height: got {size}")
     shown = [_in_category_color(v) for v in visuals] if style.by_category else visuals
     exposure = Exposure(RayScene(shown), camera, (width * _SIDE, height * _SIDE), style)
-    samples = exposure.samples().reshape(height, _SIDE, width, _SIDE, 4).mean(axis=(1, 3))
-    return _developed(samples, style)
+    samples = exposure.samples()
+    each = [samples[row::_SIDE, column::_SIDE] for row in range(_SIDE) for column in range(_SIDE)]
+    return _developed(sum(each[1:], each[0]) / len(each), style)  # quicker than a mean along two short axes
 
 
 def posed_visuals(articulated: ArticulatedObject, values: Mapping[str, float] | None = None) -> list[Visual]:

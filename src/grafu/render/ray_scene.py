@@ -5,6 +5,7 @@ Everything is 32-bit: pictures need no more and twice as much would be slow.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from io import BytesIO
 from typing import Any, final
 
@@ -148,6 +149,11 @@ def _material_table(materials: list[Material]) -> np.ndarray:
     return np.array(rows, dtype=np.float32).reshape(-1, 7)
 
 
+_RATIO = np.arange(256, dtype=np.float32) / np.float32(255.0)
+_LINEAR = _RATIO**2.2
+
+
+@lru_cache(maxsize=8)  # the pictures of a page show the same images
 def _decode(texture: Texture) -> np.ndarray:
     """Returns an image as linear RGBA in 0..1, at most `_TEXTURE_LIMIT` pixels a side; one that is broken is grey.
 
@@ -159,8 +165,8 @@ def _decode(texture: Texture) -> np.ndarray:
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError):
         return np.array([[[_GREY, _GREY, _GREY, 1.0]]], dtype=np.float32)
     rgba.thumbnail((_TEXTURE_LIMIT, _TEXTURE_LIMIT))
-    values = np.asarray(rgba, dtype=np.float32) / 255.0
-    return np.concatenate([values[..., :3] ** 2.2, values[..., 3:]], axis=-1).astype(np.float32)
+    values = np.asarray(rgba)
+    return np.concatenate([_LINEAR[values[..., :3]], _RATIO[values[..., 3:]]], axis=-1)
 
 
 def _sample(image: np.ndarray, uv: np.ndarray) -> np.ndarray:

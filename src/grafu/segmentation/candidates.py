@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Indices
+from grafu.geometry.components import linked
 from grafu.segmentation.config import CandidateConfig, FrameConfig, SegmentationConfig
 from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
 
@@ -174,10 +173,9 @@ def merged(view: ShellsView, groups: list[tuple[int, ...]]) -> tuple[ShellsView,
     """Returns the view with the shells of each group as one, and for each new shell those that it is made of."""
     count = len(view.owner)
     ends = np.array([(group[0], shell) for group in groups for shell in group], dtype=np.int64).reshape(-1, 2)
-    graph = coo_matrix((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), (count, count))
-    total, number = connected_components(graph, directed=False)
+    number = linked(count, ends[:, 0], ends[:, 1])
     order = np.argsort(number, kind="stable")
-    starts = np.searchsorted(number[order], np.arange(total))
+    starts = np.searchsorted(number[order], np.arange(int(number.max(initial=-1)) + 1))
     members = [tuple(shells.tolist()) for shells in np.split(order, starts[1:])]
     seen = np.where(view.seen >= 0, number[view.seen], -1).astype(np.int64)
     return ShellsView(

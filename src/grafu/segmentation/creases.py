@@ -13,11 +13,9 @@ from typing import final
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Faces, Indices, Vec3
-from grafu.geometry.components import welded
+from grafu.geometry.components import linked, welded
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.candidates import within
@@ -141,8 +139,7 @@ def _part(
 
 
 def _numbers(count: int, first: Edges, second: Edges, kept: MaskOfEdges) -> OfFaces:
-    graph = coo_matrix((np.ones(int(kept.sum()), np.int8), (first[kept], second[kept])), (count, count))
-    return connected_components(graph, directed=False)[1].astype(np.int64)
+    return linked(count, first[kept], second[kept])
 
 
 def _edges(mesh: TriangleMesh, config: CreaseConfig) -> tuple[Edges, Edges, MaskOfEdges]:

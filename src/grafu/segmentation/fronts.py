@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Indices
+from grafu.geometry.components import linked
 from grafu.segmentation.candidates import Scale, overlaps, within
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.view import MaskOfShells, ShellsView
@@ -211,9 +210,8 @@ class _FrontFinder:
         low, high = self._view.low[shells], self._view.high[shells]
         near = self._config.handle_touch * self._near[shells].max()
         gaps = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
-        touching = coo_matrix(gaps <= near)
-        count, label = connected_components(touching, directed=False)
-        groups = [label == k for k in range(count)]
+        label = linked(len(shells), *np.nonzero(gaps <= near))
+        groups = [label == k for k in range(int(label.max()) + 1)]
         sizes = [high[group].max(axis=0) - low[group].min(axis=0) for group in groups]
         least = np.array([_SHEET, _SHEET, self._config.thick_handle]) * near
         thick = [bool((size >= least).all()) for size in sizes]

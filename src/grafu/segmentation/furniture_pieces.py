@@ -10,12 +10,10 @@ from functools import cached_property
 from typing import Final, final
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from grafu.geometry.arrays import Indices, Mask
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
+from grafu.geometry.components import linked, shell_numbers
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.touching import near_pairs, touching_pairs
 from grafu.segmentation.config import FurnitureConfig
@@ -102,8 +100,7 @@ def _without_room(shells: SceneShells, config: FurnitureConfig) -> Groups:
 
 def _groups(touching: np.ndarray, among: Mask) -> Groups:
     kept = touching[among[touching].all(axis=1)]
-    graph = coo_matrix((np.ones(len(kept), np.int8), (kept[:, 0], kept[:, 1])), (len(among), len(among)))
-    label = connected_components(graph, directed=False)[1]
+    label = linked(len(among), kept[:, 0], kept[:, 1])
     return [np.flatnonzero(among & (label == k)) for k in np.unique(label[among])]
 
 

@@ -105,7 +105,10 @@ def open_handles(folder: Path | None) -> dict[str, HandleTemplate]:
     Raises:
         TemplateError: if a handle in the folder is at fault.
     """
+    built_in = {template.id: template for template in HANDLES}
+    if folder is None:
+        return built_in
     from grafu.templates.user import load_handles
 
-    own = load_handles(folder) if folder is not None else {}
-    return {**own, **{template.id: template for template in HANDLES if template.id not in own}}
+    own = load_handles(folder)
+    return {**own, **{name: template for name, template in built_in.items() if name not in own}}

@@ -16,7 +16,6 @@ from functools import lru_cache
 from typing import final
 
 import numpy as np
-import trimesh
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
@@ -25,7 +24,7 @@ from grafu.errors import TemplateError
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.templates.solids import COATED, NYLON, SCREW, STEEL, ZINC, disc, extrude, finished, placed, tube
+from grafu.templates.solids import COATED, NYLON, SCREW, STEEL, ZINC, ball, disc, extrude, finished, placed, tube
 from grafu.templates.template import RailModel, RailSize, RailTemplate, SnapPlane, TemplateEnd
 from grafu.vocabulary import MechanismClass
 
@@ -178,14 +177,14 @@ def _balls(size: RailSize, c: _Section) -> TriangleMesh:
     """Returns a short cage of balls in both lanes near the rail's front; it stays with the channel."""
     radius = min(c.lane / 2 - c.g, (c.bar_x[1] - c.bar_x[0]) / 2)
     middle = (c.bar_x[0] + c.bar_x[1]) / 2
-    ball = TriangleMesh.from_trimesh(trimesh.creation.icosphere(subdivisions=1, radius=radius))
+    one = ball(radius)
     pitch = max(2.6 * radius, 0.02 * size.length)
     count = max(1, min(4, int(0.3 * size.length / pitch)))
     rows = []
     for side in (-1.0, 1.0):
         z = side * (c.half - c.wall - 0.9 * radius)  # pressed a little into the flange that carries it
         front = -size.length / 2 + 1.5 * radius
-        rows += [ball.translated(vec3(middle, front + k * pitch, z)) for k in range(count)]
+        rows += [one.translated(vec3(middle, front + k * pitch, z)) for k in range(count)]
     return merge_meshes(rows)
 
 

@@ -171,6 +171,29 @@ def tube(
     return turned(profile, segments)
 
 
+def ball(radius: float) -> TriangleMesh:
+    """Returns a ball of 80 faces around the origin: an icosahedron, each face in four, its corners on the sphere."""
+    long = (1.0 + np.sqrt(5.0)) / 2.0
+    pairs = [(x, y) for y in (long, -long) for x in (-1.0, 1.0)]
+    corners = [(x, y, 0.0) for x, y in pairs] + [(0.0, x, y) for x, y in pairs] + [(y, 0.0, x) for x, y in pairs]
+    points, faces = np.array(corners) / np.linalg.norm(corners[0]), np.array(_ICOSAHEDRON)
+    sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2)
+    edges, number = np.unique(np.sort(sides.reshape(-1, 2))[:, ::-1], axis=0, return_inverse=True)
+    (a, b, c), (ab, bc, ca) = faces.T, number.reshape(-1, 3).T + len(corners)
+    vertices = np.concatenate([points, points[edges].mean(axis=1)])
+    around = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3)
+    length = np.sqrt((vertices**2).sum(axis=1, keepdims=True))
+    return TriangleMesh(vertices + vertices / length * (radius - length), around)
+
+
+# Corners as `ball` makes them: four in the XY plane, four in YZ, four in ZX.
+_ICOSAHEDRON = [
+    [0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11], [1, 5, 9], [5, 11, 4], [11, 10, 2], [10, 7, 6],
+    [7, 1, 8], [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9], [4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7],
+    [9, 8, 1],
+]  # fmt: skip
+
+
 def disc(center: tuple[float, float], radius: float, segments: int = 10) -> Polygon:
     """Returns a regular polygon around a centre as a plane shape."""
     angles = np.arange(segments) * (2 * np.pi / segments)

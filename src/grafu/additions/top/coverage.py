@@ -11,10 +11,9 @@ from typing import final
 
 import numpy as np
 from jaxtyping import Float
-from scipy import ndimage
 
 from grafu.additions.top.config import OpeningConfig, TopConfig
-from grafu.additions.top.height_map import CellMask, Grid, Heights
+from grafu.additions.top.height_map import CellMask, Grid, Heights, islands, without_narrow
 from grafu.additions.top.supports import levels_of, spanned_at
 from grafu.additions.top.views import Views
 from grafu.geometry.arrays import ArrayValue, frozen_array
@@ -68,7 +67,7 @@ def coverage_of(views: Views, config: TopConfig, metre: float, spared: CellMask 
     deep = min(depth[0], most[0]), min(depth[1], most[1])
     rim, opened = _openings(views, *deep, narrow, openings)
     free = np.ones(views.grid.shape, dtype=bool) if spared is None else ~spared
-    opened = free & ndimage.binary_opening(opened, iterations=max(1, views.grid.cells(openings.crack * metre) // 2))
+    opened = free & without_narrow(opened, max(1, views.grid.cells(openings.crack * metre) // 2))
     groups = _by_level(opened, rim, openings.rim_step * metre)
     least = openings.least * float(views.region.sum())
     spans = [(level, spanned_at(views, level, hole, config, metre) & free) for level, hole in groups]
@@ -97,7 +96,7 @@ def _openings(
     hidden = np.where(_closed_in_front(views.wall, around[1] - recess), recess, gallery)
     enclosed, niche = around[0] - covered > recess, around[1] - covered > hidden
     niche &= around[1] - views.floor >= config.niche * _height(views)
-    niche &= ndimage.binary_opening(niche | enclosed, iterations=max(1, views.grid.cells(narrow) // 2))
+    niche &= without_narrow(niche | enclosed, max(1, views.grid.cells(narrow) // 2))
     rim = np.where(niche, around[1], around[0])
     held = fixed[2] >= rim - recess  # by two sides at least: the four walls of an open drawer are no rim
     return rim, views.region & (enclosed | niche) & held & ~_slants(rim, views.grid, config)
@@ -132,7 +131,7 @@ def _around(heights: Heights, floor: float) -> Float[np.ndarray, "4 x y"]:
 
 def _by_level(opened: CellMask, rim: Heights, step: float) -> list[Opening]:
     """Returns the openings, those whose rims are about equally high as one, each with the height of its rim."""
-    labels, count = ndimage.label(opened)
+    labels, count = islands(opened)
     groups: list[Opening] = []
     levels = [float(np.median(rim[labels == k])) for k in range(1, count + 1)]
     for k in np.argsort(levels)[::-1]:
@@ -170,5 +169,5 @@ def _higher(opening: Opening | None, bare: Opening | None, ratio: float) -> Open
 
 def _touching(cells: CellMask, seed: CellMask) -> CellMask:
     """Returns those connected cells that hold a seed."""
-    labels, _ = ndimage.label(cells, structure=np.ones((3, 3)))
+    labels, _ = islands(cells, corners=True)
     return np.isin(labels, np.unique(labels[seed & (labels > 0)]))

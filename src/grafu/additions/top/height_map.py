@@ -8,6 +8,7 @@ from jaxtyping import Bool, Float, Int
 
 from grafu.geometry.arrays import ArrayValue, Indices, Scalars, Vec2, frozen_array
 from grafu.geometry.box import Box
+from grafu.geometry.components import linked
 
 Heights = Float[np.ndarray, "x y"]
 """The highest surface above each cell, metres; minus infinity where there is none."""
@@ -69,6 +70,53 @@ class Grid(ArrayValue):
     def cells(self, length: float) -> int:
         """Returns how many cells a length covers, at least one."""
         return max(1, round(length / self.cell))
+
+
+def grown(mask: CellMask, times: int, *, corners: bool = False) -> CellMask:
+    """Returns the marked cells with their neighbours (`corners`: the eight around, else four), so many times over."""
+    for _ in range(times):
+        found = mask.copy()
+        found[1:] |= mask[:-1]
+        found[:-1] |= mask[1:]
+        beside = found.copy() if corners else mask
+        found[:, 1:] |= beside[:, :-1]
+        found[:, :-1] |= beside[:, 1:]
+        mask = found
+    return mask
+
+
+def without_narrow(mask: CellMask, times: int, *, corners: bool = False) -> CellMask:
+    """Returns the marked cells without what is narrower than twice as many cells; the outside counts as unmarked."""
+    outside = grown(np.pad(~mask, times, constant_values=True), times, corners=corners)
+    return grown(~outside[times:-times, times:-times], times, corners=corners)
+
+
+def islands(mask: CellMask, *, corners: bool = False) -> tuple[Int[np.ndarray, "x y"], int]:
+    """Returns for each cell the number, from 1, of the marked cells that it is connected with (0: none), and the last.
+
+    Cells are connected across sides, or across `corners`, too. Numbers rise with the first cell, row by row.
+    """
+    number = np.arange(mask.size).reshape(mask.shape)
+    first, second = [], []
+    for here, there in _NEIGHBOURS if corners else _NEIGHBOURS[:2]:
+        both = mask[here] & mask[there]
+        first.append(number[here][both])
+        second.append(number[there][both])
+    group = linked(mask.size, np.concatenate(first), np.concatenate(second)).reshape(mask.shape)
+    found, label = np.unique(group[mask], return_inverse=True)
+    labels = np.zeros(mask.shape, np.int64)
+    labels[mask] = label.reshape(-1) + 1
+    return labels, len(found)
+
+
+# A cell and the next along X, along Y, and along both diagonals.
+_ALL, _FIRST, _LAST = slice(None), slice(None, -1), slice(1, None)
+_NEIGHBOURS = (
+    ((_FIRST, _ALL), (_LAST, _ALL)),
+    ((_ALL, _FIRST), (_ALL, _LAST)),
+    ((_FIRST, _FIRST), (_LAST, _LAST)),
+    ((_FIRST, _LAST), (_LAST, _FIRST)),
+)
 
 
 def heights_of(triangles: Float[np.ndarray, "n 3 3"], grid: Grid) -> Heights:

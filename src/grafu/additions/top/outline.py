@@ -10,13 +10,12 @@ from typing import final
 import numpy as np
 import shapely
 from jaxtyping import Float
-from scipy import ndimage
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
 from grafu.additions.top.config import OutlineConfig, TopConfig
 from grafu.additions.top.coverage import Coverage
-from grafu.additions.top.height_map import CellMask, heights_of
+from grafu.additions.top.height_map import CellMask, grown, heights_of
 from grafu.additions.top.roles import Closed, Roles, triangles_of
 from grafu.additions.top.section import (
     EMPTY,
@@ -197,7 +196,7 @@ def _seat(roles: Roles, views: Views, coverage: Coverage, config: OutlineConfig,
     carriers = [p for p in roles.still if p.box.low[2] < coverage.level + config.slot * metre]
     if len(carriers) < len(roles.still):
         views = replace(views, still=heights_of(triangles_of(p.mesh for p in carriers), views.grid))
-    around = ndimage.binary_dilation(coverage.opened, iterations=coverage.grid.cells(config.rim * metre))
+    around = grown(coverage.opened, coverage.grid.cells(config.rim * metre))
     low, high = coverage.level - config.below_rim * metre, coverage.level + config.above_rim * metre
     rim = around & (views.still >= low) & (views.still <= high)
     heights = np.sort(views.still[rim])

@@ -10,12 +10,11 @@ from typing import final
 
 import numpy as np
 import shapely
-from scipy import ndimage
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
 from grafu.additions.top.config import SupportConfig, TopConfig
-from grafu.additions.top.height_map import CellMask, Grid
+from grafu.additions.top.height_map import CellMask, Grid, grown, islands, without_narrow
 from grafu.additions.top.views import Views
 
 ALONG_AXES = 1.05
@@ -76,17 +75,17 @@ def spanned_at(views: Views, level: float, opened: CellMask, config: TopConfig, 
 
 def _ends_at(views: Views, level: float, even: float) -> CellMask:
     """Returns the cells in which something ends at a level: splayed legs and slopes that go on beside them do not."""
-    higher = ndimage.binary_dilation(views.still > level + even, structure=np.ones((3, 3)))
+    higher = grown(views.still > level + even, 1, corners=True)
     return (np.abs(views.still - level) <= even) & ~higher
 
 
 def _stand_apart(supports: _Supports) -> bool:
     """Whether some support is a wall, a post or an open pedestal, and there is more than one opening's own rim."""
-    labels, count = ndimage.label(supports.held, structure=np.ones((3, 3)))
+    labels, count = islands(supports.held, corners=True)
     if count == 0 or (count == 1 and supports.opened.any()):
         return False
     wide = max(1, round(0.5 * supports.config.supports.widest * supports.metre / supports.views.grid.cell))
-    surfaces = ndimage.binary_opening(supports.ends, structure=np.ones((3, 3)), iterations=wide)
+    surfaces = without_narrow(supports.ends, wide, corners=True)
     covered = set(np.unique(labels[surfaces & ~supports.opened]).tolist())
     covered -= set(np.unique(labels[supports.opened]).tolist())
     return bool(set(range(1, count + 1)) - covered)
@@ -173,7 +172,7 @@ def _is_parted(around: CellMask, supports: _Supports) -> bool:
         along = np.flatnonzero(around.any(axis=1 - axis))
         full = walls.sum(axis=1 - axis) >= config.supports.divider_depth * len(deep)
         inner = full[along[0] + inset : along[-1] + 1 - inset] if len(along) else full[:0]
-        _, count = ndimage.label(inner)
+        _, count = islands(inner[None])
         if count and inner.sum() <= count * width:
             return True
     return False

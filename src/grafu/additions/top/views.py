@@ -12,10 +12,9 @@ from typing import final
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy import ndimage
 
 from grafu.additions.top.config import TopConfig
-from grafu.additions.top.height_map import CellMask, Grid, Heights, heights_of
+from grafu.additions.top.height_map import CellMask, Grid, Heights, grown, heights_of
 from grafu.additions.top.roles import Roles, triangles_of
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
@@ -132,7 +131,7 @@ def views_of(roles: Roles, front: float) -> Views:
     cover = np.maximum(still, turning)
     wall = np.maximum(cover, sliding)
     stands = np.isfinite(still if roles.still else wall)
-    near = ndimage.binary_dilation(_between(stands), iterations=grid.cells(front))
+    near = grown(_between(stands), grid.cells(front))
     return Views(grid, still, cover, wall, _between(stands) | (near & np.isfinite(wall)), roles.floor)
 
 
