@@ -19,7 +19,7 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
-from grafu.geometry.point_distance import point_triangle_distances
+from grafu.geometry.sampling import point_triangle_distances
 from grafu.vocabulary import PartLabel
 
 
