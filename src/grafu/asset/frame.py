@@ -1,183 +1,26 @@
 """The one door between input coordinates and the object frame: decides up, front, scale and place, and states why.
 
-Object frame: metres, Z up, front -Y, standing on z = 0, centred in x and y. Up and front are found from labelled boxes;
-no joint is asked.
+Object frame: metres, Z up, front -Y, standing on z = 0, centred in x and y. Up and front are found from labelled boxes
+(`standing`); no joint is asked. A piece that stands askew in its file is turned about its vertical.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 
-from grafu.asset.options import DIRECTIONS, LoadOptions
+from grafu.asset.options import LoadOptions
 from grafu.asset.part import ROBOTS, Frame, Part
-from grafu.asset.reading import Reading
+from grafu.asset.reading import Placing, Reading
 from grafu.asset.scale import Estimate, ScaleConfig, estimate_scale, is_normalised, likely_unit
+from grafu.asset.standing import decide_front, front_votes, up_votes, vector
 from grafu.errors import AssetError
-from grafu.geometry.arrays import Mat4, Vec3
+from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
-from grafu.geometry.config_checks import require_positive
-from grafu.geometry.mesh import merge_meshes
-from grafu.geometry.raycast import RayCaster, open_ratios
-from grafu.geometry.transform import from_rotation
-from grafu.vocabulary import PartLabel
+from grafu.geometry.mesh import heading_of
+from grafu.geometry.transform import from_rotation, rotation_matrix
 
-_LYING = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)
-_STANDING = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.DOOR, PartLabel.DIVIDER)
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class FrontEvidenceConfig:
-    """Which parts show where the front is, and when they overrule what the format or data set states.
-
-    Raises:
-        ValueError: if a number is not above 0.
-    """
-
-    telling: float = 0.2
-    """Largest side of a door or drawer that shows it, over that of the object: a tap or a lever is smaller."""
-    reaches: float = 0.05
-    """How far inside the object a bulky part may end and still show it (fraction of the object's largest side) ..."""
-    clearly: float = 0.01
-    """... where it is farther by this from every other side (fraction of the object's largest side)."""
-    bulky: float = 0.4
-    """Thinner level side over the longer one from which on a part is bulky (ratio)."""
-    aside: float = 0.1
-    """How far from the object's middle a thin part lies at least to show it (fraction of the object's half side)."""
-    handle: float = 0.5
-    """Vote of a handle; that of a door or drawer is 1."""
-    back: float = 0.75
-    """Vote of a back panel, for the opposite side."""
-    least: float = 0.9
-    """Sum of votes below which they overrule nothing."""
-    unanimous: float = 0.7
-    """Fraction of the votes that one side must have to overrule what is stated ..."""
-    negligible: float = 0.1
-    """... and that the stated side may have at most."""
-    small: float = 0.08
-    """Largest side of a door or drawer that shows it where one of its faces is seen, over that of the object."""
-    seen: float = 0.5
-    """How much more of one face of a door or drawer than of the other must be seen from outside (fraction)."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-
-
-def vector(direction: str) -> Vec3:
-    """Returns the unit vector that a direction like `-Y` means."""
-    unit = np.zeros(3)
-    unit["XYZ".index(direction[1])] = 1.0 if direction[0] == "+" else -1.0
-    return unit
-
-
-def spelled(axis: int, positive: bool) -> str:
-    """Returns the direction along an axis, like `-Y`."""
-    return f"{'+' if positive else '-'}{'XYZ'[axis]}"
-
-
-def up_from_parts(parts: tuple[Part, ...], whole: Box) -> str | None:
-    """Returns the upward direction that labelled parts agree on, or None where they say nothing."""
-    axis_votes, sense = np.zeros(3), np.zeros(3)
-    for part in parts:
-        thin = part.box.thin_axis
-        if part.label in _LYING:
-            axis_votes[thin] += 1.0
-        elif part.label in _STANDING:
-            axis_votes[thin] -= 1.0
-        offset = (part.box.center - whole.center) / np.maximum(whole.half, 1e-12)
-        weight = {PartLabel.TOP_PANEL: 1.0, PartLabel.BOTTOM_PANEL: -1.0, PartLabel.LEG: -1.0}.get(part.label, 0.0)
-        sense += weight * offset
-    if not axis_votes.any() and not sense.any():
-        return None
-    score = axis_votes + np.abs(sense)
-    axis = int(np.argmax(score))
-    if score[axis] <= 0 or (score >= score[axis] - 1e-9).sum() > 1:
-        return None
-    return spelled(axis, bool(sense[axis] >= 0))
-
-
-def front_votes(
-    parts: tuple[Part, ...], whole: Box, up: str, config: FrontEvidenceConfig = FrontEvidenceConfig()
-) -> dict[str, float]:
-    """Returns how much speaks for each horizontal direction as the front.
-
-    Doors and drawers vote for the side that they face, handles for the side that they stick out of, back panels for
-    the opposite side. Where these disagree, or say nothing, doors and drawers vote for the side that is seen.
-    """
-    votes = _votes(parts, whole, up, config)
-    if max(votes.values()) > config.unanimous * sum(votes.values()) or not any(p.label.is_movable for p in parts):
-        return votes
-    return _votes(parts, whole, up, config, RayCaster(merge_meshes([part.mesh for part in parts])))
-
-
-def _votes(
-    parts: tuple[Part, ...], whole: Box, up: str, config: FrontEvidenceConfig, caster: RayCaster | None = None
-) -> dict[str, float]:
-    votes = {d: 0.0 for d in DIRECTIONS if d[1] != up[1]}
-    for part in parts:
-        if part.label.is_movable:
-            ratio = float(part.box.size.max() / whole.size.max())
-            seen = _seen_side(part, caster, votes, config) if caster is not None and ratio >= config.small else None
-            _add(votes, seen or (_side(part, whole, votes, config) if ratio >= config.telling else None), 1.0)
-        elif part.label is PartLabel.HANDLE:
-            _add(votes, _nearest_side(part.box, whole, votes, config), config.handle)
-        elif part.label is PartLabel.BACK_PANEL:
-            side = _side(part, whole, votes, config)
-            _add(votes, side and spelled("XYZ".index(side[1]), side[0] == "-"), config.back)
-    return votes
-
-
-def decide_front(
-    votes: dict[str, float], stated: str | None, usual: str, config: FrontEvidenceConfig = FrontEvidenceConfig()
-) -> tuple[str, str]:
-    """Returns the front and, in words, what it rests on: the convention unless nearly everything speaks against it."""
-    total = sum(votes.values())
-    best = max(votes, key=lambda d: (votes[d], d == usual))
-    if stated is not None:
-        for_another = votes[best] >= config.unanimous * total
-        against = total > config.least and for_another and votes.get(stated, 0.0) <= config.negligible * total
-        return (best, "geometry") if against else (stated, "convention")
-    clear = total > 0 and sum(v >= votes[best] - 1e-9 for v in votes.values()) == 1
-    return (best, "geometry") if clear else (usual, "habit")
-
-
-def _add(votes: dict[str, float], direction: str | None, weight: float) -> None:
-    if direction is not None:
-        votes[direction] += weight
-
-
-def _side(part: Part, whole: Box, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
-    """Returns the side of the object that a part's thin axis faces, or for a bulky part the side nearest to it."""
-    horizontal = sorted({"XYZ".index(d[1]) for d in votes})
-    size = part.box.size[horizontal]
-    thin = horizontal[int(np.argmin(size))]
-    if size.min() > config.bulky * size.max():
-        return _nearest_side(part.box, whole, votes, config)
-    offset = part.box.center[thin] - whole.center[thin]
-    return spelled(thin, bool(offset > 0)) if abs(offset) > config.aside * whole.half[thin] else None
-
-
-def _seen_side(part: Part, caster: RayCaster, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
-    """Returns the side to which a plate is open, while something stands behind it; None where that does not tell."""
-    thin = part.box.thin_axis
-    if not any("XYZ"[thin] == direction[1] for direction in votes):
-        return None
-    low, high = open_ratios(caster, part.box, thin)
-    return spelled(thin, high > low) if abs(high - low) >= config.seen else None
-
-
-def _nearest_side(box: Box, whole: Box, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
-    """Returns the side of the object that a part reaches most nearly, or None where it reaches two or none."""
-    gaps = {}
-    for direction in votes:
-        axis = "XYZ".index(direction[1])
-        outward = whole.high[axis] - box.high[axis] if direction[0] == "+" else box.low[axis] - whole.low[axis]
-        gaps[direction] = float(outward) / max(float(whole.size.max()), 1e-12)
-    first, second = sorted(gaps.values())[:2]
-    return min(gaps, key=lambda d: gaps[d]) if second - first > config.clearly and first <= config.reaches else None
-
-
+_MOST = 0.5  # of the upright area: what stands along one direction for a piece to be turned
 _USUAL_FRONT = {"+Y": "+Z", "-Y": "+Z", "+Z": "-Y", "-Z": "-Y", "+X": "+Z", "-X": "+Z"}
 
 
@@ -211,6 +54,35 @@ def settle_frame(reading: Reading, options: LoadOptions, file: Frame | None = No
     return Frame(T, up.value, front.value, scale, said)
 
 
+def straightened(reading: Reading, options: LoadOptions) -> tuple[Reading, Mat4]:
+    """Returns the reading turned about its vertical so that its walls lie along the axes, and the turn (4x4).
+
+    Walls that are askew by less than a degree stay so, and so does what has no common direction: a round table.
+    """
+    whole = whole_box(reading.parts)
+    up = vector(_up(reading, options, whole).value)
+    level = np.eye(3)[int(np.argmin(np.abs(up)))]
+    upright = np.stack([level, np.cross(up, level), up])
+    static = [part.mesh for part in reading.parts if not part.label.is_movable]  # a door may be drawn ajar
+    angle = heading_of(static or (part.mesh for part in reading.parts), upright, _MOST)
+    if not angle:
+        return reading, np.eye(4)
+    T = from_rotation(rotation_matrix(up, -angle))
+    place = Placing(Frame(T, "+Z", "-Y", 1.0))
+    annotation = reading.annotation and place.annotation(reading.annotation)
+    return replace(reading, parts=place.moved(reading.parts), annotation=annotation), T
+
+
+def turned_before(frame: Frame, T: Mat4) -> Frame:
+    """Returns the frame of what was turned by T before it; the words state by how much."""
+    if np.array_equal(T, np.eye(4)):
+        return frame
+    degrees = np.degrees(np.arccos(np.clip((np.trace(T[:3, :3]) - 1.0) / 2.0, -1.0, 1.0)))
+    words = f"the piece stands askew by {degrees:.0f} degrees in its file: from most of its upright area"
+    up, front, *rest = frame.assumed
+    return replace(frame, input_to_output=frame.input_to_output @ T, assumed=(up, f"{front}; {words}", *rest))
+
+
 def whole_box(parts: tuple[Part, ...]) -> Box:
     """Returns the box around all parts."""
     return Box.enclosing(part.box for part in parts)
@@ -227,14 +99,17 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
     convention = reading.convention
     if options.up is not None:
         return _Choice(options.up, "stated by the user")
+    votes = up_votes(reading.parts, whole)
     if convention.up is not None:
+        other = votes.against(convention.up)
+        if other is not None:
+            return _Choice(other, f"panels, doors and legs stand so, against {convention.up} of {convention.origin}")
         return _Choice(convention.up, f"stated by {convention.origin}")
     if options.front is not None and options.front[1] == convention.usual_up[1]:
         other = "+Z" if convention.usual_up == "+Y" else "+Y"
-        return _Choice(up_from_parts(reading.parts, whole) or other, "left over by the user's front")
-    found = up_from_parts(reading.parts, whole)
-    if found is not None:
-        return _Choice(found, "from the places and thin sides of labelled panels and legs")
+        return _Choice(votes.best or other, "left over by the user's front")
+    if votes.best is not None:
+        return _Choice(votes.best, "from the places and thin sides of labelled panels and legs")
     return _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it")
 
 
@@ -269,7 +144,7 @@ def _scale(reading: Reading, options: LoadOptions, whole: Box, up: int) -> tuple
     estimate = estimate_scale(reading.parts, whole, up, reading.furniture)
     unit = reading.convention.unit
     size, believed = float(whole.size.max()), ScaleConfig()
-    if unit is not None and believed.smallest <= size * unit <= believed.largest_stated:
+    if unit is not None and believed.is_believed(unit, size, estimate.scale):
         return unit, f"scale {unit:g} m per unit: stated by {reading.convention.origin}"
     if not reading.convention.normalised and not is_normalised(reading.parts, whole):
         common = likely_unit(size, estimate)

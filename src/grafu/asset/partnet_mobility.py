@@ -15,13 +15,13 @@ import numpy as np
 from grafu.articulation.motion_kind import kind_named
 from grafu.asset.bodies import Body, BodyVisual, StatedMotion, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
-from grafu.asset.frame import spelled
 from grafu.asset.json_files import JsonObject, finite, object_of, read_json
 from grafu.asset.mesh_files import read_mesh_file
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Part
 from grafu.asset.reading import Convention, Furniture, Reading
 from grafu.asset.resources import ModelFiles
+from grafu.asset.standing import spelled
 from grafu.asset.urdf import CONVENTION as URDF_CONVENTION
 from grafu.asset.urdf import UrdfBodies, read_bodies
 from grafu.errors import UnreadableAsset

@@ -49,8 +49,11 @@ class Placing:
 
     def parts(self, parts: tuple[Part, ...]) -> tuple[Part, ...]:
         """Returns parts in the object frame, handles riding on what they touch where nothing states on what."""
-        placed = (replace(part, surfaces=tuple(map(self._surface, part.surfaces))) for part in parts)
-        return with_attached(tuple(placed))
+        return with_attached(self.moved(parts))
+
+    def moved(self, parts: tuple[Part, ...]) -> tuple[Part, ...]:
+        """Returns parts in the object frame, and no more."""
+        return tuple(replace(part, surfaces=tuple(map(self._surface, part.surfaces))) for part in parts)
 
     def annotation(self, annotation: Annotation) -> Annotation:
         """Returns an annotation in the object frame, slides in metres."""

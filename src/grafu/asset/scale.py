@@ -48,7 +48,8 @@ TABLE: Final[dict[str, UsualSize]] = {
     "panel thickness": UsualSize(0.025, 0.5),
 }
 # A unit in common use, in metres.
-UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001}
+UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "inches": 0.0254}
+_RARE: Final = {"inches": 1.35}  # by how much farther from the estimate a more usual unit may be
 _PANELS = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF, PartLabel.DIVIDER)
 
 
@@ -69,6 +70,8 @@ class ScaleConfig:
     """... its greatest, where the unit is one in common use (metres) ..."""
     largest_stated: float = 8.0
     """... and where the format states the unit (metres)."""
+    contradicted: float = 4.0
+    """Factor between the stated unit and the estimate from which on the estimate is believed (ratio)."""
     sides: tuple[float, ...] = (1.0, 2.0)
     """Largest side or diagonal of what was scaled by a data set (in units) ..."""
     exact: float = 1e-3
@@ -80,6 +83,11 @@ class ScaleConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
+
+    def is_believed(self, unit: float, size: float, estimate: float) -> bool:
+        """Whether a stated unit makes furniture of a largest side that size, and does not belie the estimate."""
+        near = abs(math.log(unit / estimate)) < math.log(self.contradicted)
+        return near and self.smallest <= size * unit <= self.largest_stated
 
 
 @final
@@ -118,7 +126,7 @@ def likely_unit(size: float, estimate: Estimate, config: ScaleConfig = ScaleConf
         estimate: the scale that shape and labels suggest.
         config: the sizes that are believed.
     """
-    best = min(UNITS, key=lambda name: abs(math.log(UNITS[name] / estimate.scale)))
+    best = min(UNITS, key=lambda name: abs(math.log(UNITS[name] / estimate.scale)) + math.log(_RARE.get(name, 1.0)))
     unit = UNITS[best]
     is_near = abs(math.log(unit / estimate.scale)) < math.log(config.spread)
     return (best, unit) if is_near and config.smallest <= size * unit <= config.largest else None

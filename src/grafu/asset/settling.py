@@ -7,9 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
+import numpy as np
+
 from grafu.asset.cutting import cut_where_fronts_appear, joined_where_nameless
 from grafu.asset.folder import divide, looked_for_fronts
-from grafu.asset.frame import settle_frame, whole_box
+from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
 from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.options import LoadOptions, check_parts
@@ -41,6 +43,9 @@ def settled(
         AssetError: if an option contradicts it.
     """
     reading = cleaned(reading)
+    askew = np.eye(4)
+    if reading.parts:
+        reading, askew = straightened(reading, options)
     if options.parts == "loose":
         reading = _taken_apart(reading, path, options)
     elif not reading.grouped and reading.parts:
@@ -55,7 +60,7 @@ def settled(
     _check_parts(reading, path, options)
     reading = _without_labels(reading) if options.labels == "none" else reading
     frame = settle_frame(reading, options, file)
-    place = Placing(frame)
+    place, frame = Placing(frame), turned_before(frame, askew)
     annotation = reading.annotation and place.annotation(reading.annotation)
     parts, told = with_blind_fronts(place.parts(reading.parts))
     return Asset(name, str(path), reading.kind, parts, frame, notes=(*reading.notes, *told), annotation=annotation)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from grafu.geometry.arrays import ArrayValue, Faces, Mat4, Points, Scalars, Vec3, frozen_array, row_keys
+from grafu.geometry.arrays import ArrayValue, Faces, Mat3, Mat4, Points, Scalars, Vec3, frozen_array, row_keys
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.transform import is_mirror, transform_points
 
@@ -170,13 +170,16 @@ def mesh_near(meshes: Iterable[TriangleMesh], box: Box) -> TriangleMesh:
     return merge_meshes(near)
 
 
-def heading_of(meshes: Iterable[TriangleMesh]) -> float:
+def heading_of(meshes: Iterable[TriangleMesh], upright: Mat3 | None = None, least: float = 0.0) -> float:
     """Returns the rotation about Z, radians in (-pi/4, pi/4], that lays an axis along most of the upright area.
 
-    It is 0 where the axes serve nearly as well, and for angles below one degree: walls that are a little askew.
+    It is 0 where the axes serve nearly as well, and for angles below one degree: walls that are a little askew; and
+    where less than the fraction `least` of the upright area lies along one direction or across it. The rows of
+    `upright` are the axes, Z last, where they are not those of the meshes.
     """
     crosses = [_cross(mesh.triangles) for mesh in meshes if len(mesh.faces)]
     cross = np.concatenate(crosses) if crosses else np.zeros((0, 3))
+    cross = cross if upright is None else cross @ upright.T
     area = np.linalg.norm(cross, axis=1)
     upright = (area > 0) & (np.abs(cross[:, 2]) <= _UPRIGHT * area)
     if not upright.any():
@@ -186,7 +189,7 @@ def heading_of(meshes: Iterable[TriangleMesh]) -> float:
     bins = np.bincount((angles / (np.pi / 2) * _BINS).round().astype(int) % _BINS, area, _BINS)
     near = bins + np.roll(bins, 1) + np.roll(bins, -1)
     best = int(np.argmax(near))
-    if near[0] >= _AS_WELL * near[best]:
+    if near[0] >= _AS_WELL * near[best] or near[best] < least * area.sum():
         return 0.0
     apart = np.mod(angles - best * np.pi / 2 / _BINS + np.pi / 4, np.pi / 2) - np.pi / 4
     close = np.abs(apart) <= 1.5 * np.pi / 2 / _BINS
