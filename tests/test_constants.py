@@ -16,13 +16,14 @@ from grafu.asset.cutting import CutConfig
 from grafu.asset.drafts import GroupConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
-from grafu.asset.frame import FrontEvidenceConfig
 from grafu.asset.loose import LooseConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
 from grafu.asset.plausibility import PlausibilityConfig
 from grafu.asset.scale import ScaleConfig
+from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
+from grafu.completion.ways_out import WayOutConfig
 from grafu.metrics.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
 from grafu.segmentation.config import (
@@ -89,6 +90,7 @@ OF_MODULES = {
         "plausibility.py": {},
         "reading.py": {"_FLATNESS": TOLERANCE},
         "scale.py": {"STORAGE": SOLD, "TABLE": SOLD, "UNITS": SOLD},
+        "standing.py": {"_PLACES": NUMBERING},
     },
     "metrics": {"panels.py": {"POSES": SAMPLES}},
     "scene": {
@@ -98,6 +100,7 @@ OF_MODULES = {
     },
     "segmentation": {
         "candidates.py": {"_NO_AREA": TOLERANCE},
+        "creases.py": {"_SAME_UV": TOLERANCE},
         "division.py": {"_Z": NUMBERING},
         "fronts.py": {"_RING_CELLS": SAMPLES, "_SHEET": TOLERANCE},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
@@ -140,6 +143,7 @@ IN_FUNCTIONS = {
         "plausibility.py": {},
         "reading.py": {},
         "scale.py": {},
+        "standing.py": {},
     },
     "metrics": {
         "panels.py": {0.01: TOLERANCE, 0.1: TOLERANCE, 0.99: TOLERANCE, 3: NUMBERING, 5: NUMBERING, 6: NUMBERING}
@@ -168,9 +172,9 @@ IN_FUNCTIONS = {
 }
 CONFIGS = (
     AgreementConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig,
-    FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, LooseConfig, MassConfig, MatchConfig, MemberConfig,
-    PieceConfig, PlausibilityConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig, SegmentationConfig,
-    SlidingDoorConfig, StandingConfig, VerdictConfig,
+    FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LooseConfig, MassConfig, MatchConfig,
+    MemberConfig, PieceConfig, PlausibilityConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
+    SegmentationConfig, SlidingDoorConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
 )  # fmt: skip
 NUMBERS = [
     (kind, f.name)

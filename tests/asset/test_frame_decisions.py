@@ -7,13 +7,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from grafu.asset.edit import as_static_object, yawed
-from grafu.asset.frame import decide_front, front_votes, settle_frame, up_from_parts, vector, whole_box
+from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.load import load_asset
 from grafu.asset.options import DIRECTIONS, LoadOptions
 from grafu.asset.part import Asset
 from grafu.asset.pieces import with_attached
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.scale import estimate_scale, is_normalised, likely_unit
+from grafu.asset.standing import decide_front, front_votes, up_votes, vector
 from grafu.errors import AssetError
 from grafu.export.files import write_files
 from grafu.export.glb import export_glb
@@ -108,7 +109,7 @@ def test_a_convention_holds_unless_nearly_all_speaks_against_it():
 
 def test_without_labels_nothing_is_claimed():
     asset = cabinet().with_labels({p.id: PartLabel.UNKNOWN for p in cabinet().parts})
-    assert up_from_parts(asset.parts, asset.box) is None
+    assert up_votes(asset.parts, asset.box).best is None
     assert not any(front_votes(asset.parts, asset.box, "+Z").values())
     frame = settle_frame(reading_of(asset, np.eye(4)), LoadOptions())
     assert (frame.up, frame.front) == ("+Y", "+Z")

@@ -13,14 +13,13 @@ from grafu.asset.options import LoadOptions
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Placing, Reading
 from grafu.asset.scale import Estimate, ScaleConfig, estimate_scale, is_normalised, likely_unit
-from grafu.asset.standing import decide_front, front_votes, up_votes, vector
+from grafu.asset.standing import HeadingConfig, decide_front, front_votes, up_votes, vector
 from grafu.errors import AssetError
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import heading_of
 from grafu.geometry.transform import from_rotation, rotation_matrix
 
-_MOST = 0.5  # of the upright area: what stands along one direction for a piece to be turned
 _USUAL_FRONT = {"+Y": "+Z", "-Y": "+Z", "+Z": "-Y", "-Z": "-Y", "+X": "+Z", "-X": "+Z"}
 
 
@@ -54,7 +53,9 @@ def settle_frame(reading: Reading, options: LoadOptions, file: Frame | None = No
     return Frame(T, up.value, front.value, scale, said)
 
 
-def straightened(reading: Reading, options: LoadOptions) -> tuple[Reading, Mat4]:
+def straightened(
+    reading: Reading, options: LoadOptions, config: HeadingConfig = HeadingConfig()
+) -> tuple[Reading, Mat4]:
     """Returns the reading turned about its vertical so that its walls lie along the axes, and the turn (4x4).
 
     Walls that are askew by less than a degree stay so, and so does what has no common direction: a round table.
@@ -63,9 +64,10 @@ def straightened(reading: Reading, options: LoadOptions) -> tuple[Reading, Mat4]
     up = vector(_up(reading, options, whole).value)
     level = np.eye(3)[int(np.argmin(np.abs(up)))]
     upright = np.stack([level, np.cross(up, level), up])
-    static = [part.mesh for part in reading.parts if not part.label.is_movable]  # a door may be drawn ajar
-    angle = heading_of(static or (part.mesh for part in reading.parts), upright, _MOST)
-    if not angle:
+    meshes = sorted((part.mesh for part in reading.parts), key=lambda mesh: -mesh.area)
+    angle = heading_of(meshes, upright, config.most)
+    is_one = len(meshes) > 1 and abs(heading_of(meshes[1:], upright, config.most) - angle) > config.alike
+    if not angle or is_one:
         return reading, np.eye(4)
     T = from_rotation(rotation_matrix(up, -angle))
     place = Placing(Frame(T, "+Z", "-Y", 1.0))

@@ -49,7 +49,7 @@ TABLE: Final[dict[str, UsualSize]] = {
 }
 # A unit in common use, in metres.
 UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "inches": 0.0254}
-_RARE: Final = {"inches": 1.35}  # by how much farther from the estimate a more usual unit may be
+_RARE: Final = ("inches",)
 _PANELS = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF, PartLabel.DIVIDER)
 
 
@@ -64,6 +64,8 @@ class ScaleConfig:
 
     spread: float = 2.5
     """Largest factor between a unit in common use and the estimate (ratio)."""
+    rare: float = 1.35
+    """By how much farther from the estimate a usual unit may be than a rare one, inches (ratio)."""
     smallest: float = 0.1
     """Least largest side of furniture (metres) ..."""
     largest: float = 6.0
@@ -83,6 +85,10 @@ class ScaleConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
+
+    def distance(self, unit: str, estimate: float) -> float:
+        """Returns how far a unit in common use lies from the estimate, on a logarithmic scale."""
+        return abs(math.log(UNITS[unit] / estimate)) + (math.log(self.rare) if unit in _RARE else 0.0)
 
     def is_believed(self, unit: float, size: float, estimate: float) -> bool:
         """Whether a stated unit makes furniture of a largest side that size, and does not belie the estimate."""
@@ -126,7 +132,7 @@ def likely_unit(size: float, estimate: Estimate, config: ScaleConfig = ScaleConf
         estimate: the scale that shape and labels suggest.
         config: the sizes that are believed.
     """
-    best = min(UNITS, key=lambda name: abs(math.log(UNITS[name] / estimate.scale)) + math.log(_RARE.get(name, 1.0)))
+    best = min(UNITS, key=lambda name: config.distance(name, estimate.scale))
     unit = UNITS[best]
     is_near = abs(math.log(unit / estimate.scale)) < math.log(config.spread)
     return (best, unit) if is_near and config.smallest <= size * unit <= config.largest else None

@@ -4,6 +4,7 @@ No joint is asked. Coordinates are the input's; directions are spelled like `-Y`
 """
 
 from dataclasses import dataclass
+from math import radians
 from typing import final
 
 import numpy as np
@@ -88,6 +89,25 @@ class UpEvidenceConfig:
     """... of so many votes at least: two standing plates whose thin sides differ, and one that lies."""
     turned: float = 1.0
     """Sum of the places of tops, bottoms and legs (each -1..1) from which on a piece stands upside down."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class HeadingConfig:
+    """When a piece stands askew in its file, and is turned about its vertical.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    most: float = 0.5
+    """Fraction of the upright area that stands along one direction or across it at least."""
+    alike: float = radians(2.0)
+    """How far this direction may differ from that of all parts but the largest (radians): a single part that is askew
+    is a door drawn ajar."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -207,12 +227,17 @@ def _side(part: Part, whole: Box, votes: dict[str, float], config: FrontEvidence
 
 
 def _seen_side(part: Part, caster: RayCaster, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
-    """Returns the side to which a plate is open, while something stands behind it; None where that does not tell."""
-    thin = part.box.thin_axis
-    if not any("XYZ"[thin] == direction[1] for direction in votes):
-        return None
-    low, high = open_ratios(caster, part.box, thin)
-    return spelled(thin, high > low) if abs(high - low) >= config.seen else None
+    """Returns the side from which a part is seen, others standing at the opposite one; None where that does not tell.
+
+    Of a plate that is a side of its thin axis, of a bulky part any.
+    """
+    level = sorted({"XYZ".index(d[1]) for d in votes}, key=lambda axis: float(part.box.size[axis]))
+    thin, long = part.box.size[level]
+    axes = level if thin > config.bulky * long else level[:1]
+    ratios = {axis: open_ratios(caster, part.box, axis) for axis in axes}
+    seen = {spelled(axis, high): ratios[axis][high] for axis in axes for high in (False, True)}
+    best, second = sorted(seen, key=lambda side: -seen[side])[:2]
+    return best if seen[best] - seen[second] >= config.seen else None
 
 
 def _nearest_side(box: Box, whole: Box, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
