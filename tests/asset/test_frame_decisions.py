@@ -7,20 +7,21 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from grafu.asset.edit import as_static_object, yawed
-from grafu.asset.frame import settle_frame, whole_box
+from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
 from grafu.asset.load import load_asset
 from grafu.asset.options import DIRECTIONS, LoadOptions
 from grafu.asset.part import Asset
 from grafu.asset.pieces import with_attached
-from grafu.asset.reading import Convention, Reading
+from grafu.asset.reading import Convention, Placing, Reading
 from grafu.asset.scale import estimate_scale, is_normalised, likely_unit
 from grafu.asset.standing import decide_front, front_votes, up_votes, vector
 from grafu.errors import AssetError
 from grafu.export.files import write_files
 from grafu.export.glb import export_glb
+from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.vocabulary import PartLabel
-from small_scenes import box
+from small_scenes import box, cylinder
 from strategies import cabinet_specs
 
 UNKNOWN = Convention("nothing")
@@ -149,3 +150,66 @@ def test_fronts_in_the_middle_of_the_whole_show_the_front_by_what_is_seen_of_the
     asset = Asset("bed", "", "made", (bed, case, *fronts))
     found = settle_frame(reading_of(asset, turned("+Z", front)), LoadOptions(up="+Z"))
     assert found.front == front
+
+
+QUARTERS = [turned(up, front) for up in DIRECTIONS for front in DIRECTIONS if up[1] != front[1]]
+
+
+@pytest.mark.parametrize("T", QUARTERS, ids=range(len(QUARTERS)))
+def test_panels_doors_and_legs_overrule_a_format_that_states_another_direction(T):
+    reading = replace(reading_of(cabinet(), T), convention=Convention("glTF", up="+Y", front="+Z"))
+    frame = settle_frame(reading, LoadOptions())
+    upright = (frame.input_to_output @ T)[:3, :3] / frame.scale
+    np.testing.assert_allclose(upright[2], [0, 0, 1], atol=1e-9)
+    np.testing.assert_allclose(upright[1], [0, 1, 0], atol=1e-9)
+
+
+def test_a_format_is_believed_where_few_labels_speak_against_it():
+    asset = cabinet()
+    few = tuple(p for p in asset.parts if p.label in (PartLabel.DOOR, PartLabel.BACK_PANEL))
+    lying = reading_of(replace(asset, parts=few), turned("+Z", "-Y"))
+    reading = replace(lying, convention=Convention("glTF", "+Y"))
+    assert settle_frame(reading, LoadOptions()).up == "+Y"
+
+
+@settings(max_examples=12, deadline=None)
+@given(degrees=st.floats(-44.0, 44.0).filter(lambda angle: abs(angle) > 1.5), up=st.sampled_from(DIRECTIONS))
+def test_a_piece_that_stands_askew_comes_out_along_the_axes_whatever_is_up(degrees, up):
+    front = next(d for d in DIRECTIONS if d[1] != up[1])
+    asset = cabinet()
+    askew = from_rotation(rotation_matrix(vector(up), math.radians(degrees))) @ turned(up, front)
+    reading = replace(reading_of(asset, askew), annotation=None)
+    straight, T = straightened(reading, LoadOptions(up=up))
+    frame = turned_before(settle_frame(straight, LoadOptions(up=up)), T)
+    sizes = sorted(whole_box(place(reading, frame)).size)
+    np.testing.assert_allclose(sizes, sorted(asset.box.size * frame.scale), rtol=0.01)
+    assert f"askew by {abs(round(degrees)):.0f} degrees" in frame.assumed[1]
+
+
+def place(reading: Reading, frame) -> tuple:
+    return Placing(frame).moved(reading.parts)
+
+
+def test_one_part_that_is_askew_turns_nothing_and_neither_does_a_round_table():
+    asset = cabinet()
+    upright = reading_of(asset, np.eye(4))
+    door = next(p for p in upright.parts if p.label is PartLabel.DOOR)
+    T = from_rotation(rotation_matrix(np.array([0.0, 0.0, 1.0]), math.radians(24)))
+    ajar = replace(door, surfaces=tuple(s.transformed(T) for s in door.surfaces))
+    post = box("post", (0.0, 0.0, 0.0), (0.02, 0.02, 1.0))
+    table = cylinder("table", ((0.0, 0.0, 0.0), (0.0, 0.0, 0.7)), 0.5)
+    for parts in ((ajar, post), (table,)):
+        straight, turn = straightened(replace(upright, parts=parts), LoadOptions(up="+Z"))
+        assert np.array_equal(turn, np.eye(4))
+        assert straight.parts == parts
+
+
+@pytest.mark.parametrize(
+    ("factor", "unit"), [(39.37, 0.0254), (1000.0, 0.001), (100.0, 0.01), (8.0, None), (0.11, None)]
+)
+def test_units_that_nobody_states_and_sizes_that_belie_the_stated_unit(factor, unit):
+    asset = cabinet()
+    reading = replace(reading_of(asset, np.diag([factor] * 3 + [1.0])), convention=Convention("glTF", "+Z", "-Y", 1.0))
+    frame = settle_frame(reading, LoadOptions())
+    assert unit is None or frame.scale == pytest.approx(unit)
+    assert 0.5 < frame.scale * factor < 2.0
