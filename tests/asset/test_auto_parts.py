@@ -251,3 +251,22 @@ def test_what_is_called_a_chest_gets_the_lid_that_covers_it(model, objects, has_
         assert lids[0].id.endswith("_lid")
         assert lids[0].box.low[2] == pytest.approx(COVER[0][2])
         assert (lids[0].box.low[1] == pytest.approx(GRIP[0][1])) == (GRIP in objects[0])
+
+
+@pytest.mark.parametrize(
+    ("model", "beside", "height", "fronts"),
+    [
+        ("captains-bed", "Cube.002", 1.0, 0),  # as wide as the bed and high: its footboard
+        ("model_7", "mattress", 1.0, 0),
+        ("model_7", "Cube.002", 1.0, 2),
+        ("captains-bed", "Cube.002", 0.5, 2),  # low: drawers below a bed
+    ],
+)
+def test_the_boards_at_the_ends_of_a_bed_are_no_fronts(model, beside, height, fronts):
+    low = np.diag([1.0, 1.0, height, 1.0])
+    body = replace(welded(), surfaces=tuple(surface.transformed(low) for surface in welded().surfaces))
+    other = replace(welded((CASE[0],)), id="beside", source=PartSource(beside))
+    found = cut_where_fronts_appear(Reading("mesh file", (body, other), Convention("test")), IDENTITY_FRAME, model)
+    assert sum("_front" in part.id for part in found.parts) == fronts
+    faces = sum(len(part.mesh.faces) for part in found.parts)
+    assert faces == len(body.mesh.faces) + len(other.mesh.faces)

@@ -10,7 +10,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.labels import is_appliance, is_chest, sense_of
+from grafu.asset.labels import is_appliance, is_bed, is_chest, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
 from grafu.asset.part import ROBOTS, Frame, Part
@@ -20,7 +20,7 @@ from grafu.asset.reading import Reading
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_positive, require_ratios
-from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.config import CreaseConfig
 from grafu.segmentation.creases import back_of, drawn_fronts, lid_of_chest, uv_islands
 from grafu.segmentation.division import FacePiece, divided
@@ -46,9 +46,13 @@ class CutConfig:
     """Fronts drawn on a surface are looked for where an input has no others, and so many objects at most."""
     thick: float = 0.35
     """What is thicker than this is no board (fraction of its middle side)."""
+    bed_width: float = 0.8
+    """What takes this much of a bed's side (fraction) ..."""
+    bed_height: float = 0.4
+    """... and is as high as this (fraction of its width) is a headboard or footboard, and no front."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "door_height", "thick")
+        require_ratios(self, "door_height", "thick", "bed_width", "bed_height")
         require_positive(self, "few")
 
 
@@ -78,6 +82,10 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     if not cuts:
         return reading
     model = "" if any(part.label is PartLabel.DOOR for part in reading.parts) else name
+    if is_bed(name) or any(is_bed(part.source.name) for part in reading.parts):
+        extent = np.max([mesh.box.high for mesh in meshes], axis=0) - np.min([mesh.box.low for mesh in meshes], axis=0)
+        kept = {k: _without_boards(meshes[k], found, extent, config) for k, found in cuts.items()}
+        cuts = {k: found for k, found in kept.items() if found}
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
     cut = {reading.parts[k].id for k in cuts}
     parts = tuple(
@@ -126,6 +134,22 @@ def _may_be_cut(part: Part, config: CutConfig) -> bool:
 def _materials(part: Part) -> Indices:
     """Returns the number of the surface of each face of the part's mesh."""
     return np.repeat(np.arange(len(part.surfaces)), [len(surface.mesh.faces) for surface in part.surfaces])
+
+
+def _without_boards(mesh: TriangleMesh, pieces: list[FacePiece], extent: Vec3, config: CutConfig) -> list[FacePiece]:
+    """Returns what a bed's object is cut into, its headboard and footboard with the rest of it; nothing but these."""
+    is_board = [piece.role == "front" and _is_board(mesh, piece, extent, config) for piece in pieces]
+    if not any(is_board):
+        return pieces
+    whole = [p.faces for p, board in zip(pieces, is_board, strict=True) if board or p.role == "rest"]
+    others = [p for p, board in zip(pieces, is_board, strict=True) if not board and p.role != "rest"]
+    return [FacePiece("rest", np.sort(np.concatenate(whole))), *others] if others else []
+
+
+def _is_board(mesh: TriangleMesh, piece: FacePiece, extent: Vec3, config: CutConfig) -> bool:
+    size = mesh.with_faces(piece.faces).box.size
+    wide = int(np.argmax(size[:2]))
+    return bool(size[wide] >= config.bed_width * extent[wide] and size[2] >= config.bed_height * size[wide])
 
 
 def _islands(part: Part) -> Indices:

@@ -92,6 +92,7 @@ _CONTAINERS = word_set(
     "bed stair nightstand shell housing"
 )
 _CHESTS = word_set("chest trunk coffer")
+_BEDS = word_set("bed cot crib cradle mattress pillow duvet")
 _APPLIANCES = word_set("fridge refrigerator freezer oven stove cooker microwave dishwasher washer")
 
 
@@ -138,6 +139,11 @@ def is_chest(name: str) -> bool:
     """Whether the name is that of a chest, a trunk or a chest freezer, but of no chest of drawers."""
     said = {singular(w) for w in spoken(name)}
     return bool(said & _CHESTS) and "drawer" not in said
+
+
+def is_bed(name: str) -> bool:
+    """Whether the name is that of a bed or of what lies on one: a cot, a mattress, a pillow."""
+    return bool({singular(w) for w in spoken(name)} & _BEDS)
 
 
 def is_appliance(name: str) -> bool:
