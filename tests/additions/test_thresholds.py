@@ -73,7 +73,12 @@ REASONS = {
     "likeness.py": {"OPAQUE_ALPHA": GLASS, "DEFAULT_TEXTURE_DENSITY": GLASS},
     "top/complete.py": {"NARROWEST_GROOVE": SHAPE, "GROOVE_DETAIL": SHAPE, "RECTANGLE": SHAPE},
     "top/cutouts.py": {"SWEEP_POSES": SAMPLES, "ROUNDED_UP": TOLERANCE},
-    "top/height_map.py": {"LEAST_UPRIGHT_PART": TOLERANCE, "BORDER_TOLERANCE": TOLERANCE, "CELLS_AT_ONCE": LIMIT},
+    "top/height_map.py": {
+        "(_ALL, _FIRST, _LAST)": NUMBERING,
+        "LEAST_UPRIGHT_PART": TOLERANCE,
+        "BORDER_TOLERANCE": TOLERANCE,
+        "CELLS_AT_ONCE": LIMIT,
+    },
     "top/outline.py": {"ALONG_AXES": SHAPE, "SPECK": SAMPLES},
     "top/section.py": {
         "LEAST_SPREAD": TOLERANCE,

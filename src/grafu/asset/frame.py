@@ -146,7 +146,7 @@ def _scale(reading: Reading, options: LoadOptions, whole: Box, up: int) -> tuple
     estimate = estimate_scale(reading.parts, whole, up, reading.furniture)
     unit = reading.convention.unit
     size, believed = float(whole.size.max()), ScaleConfig()
-    if unit is not None and believed.is_believed(unit, size, estimate.scale):
+    if unit is not None and believed.is_believed(unit, size, estimate):
         return unit, f"scale {unit:g} m per unit: stated by {reading.convention.origin}"
     if not reading.convention.normalised and not is_normalised(reading.parts, whole):
         common = likely_unit(size, estimate)

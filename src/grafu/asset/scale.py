@@ -50,6 +50,7 @@ TABLE: Final[dict[str, UsualSize]] = {
 # A unit in common use, in metres.
 UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "inches": 0.0254}
 _RARE: Final = ("inches",)
+_OF_FRONTS: Final = frozenset(("door width", "door height", "drawer width", "drawer height", "handle length"))
 _PANELS = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF, PartLabel.DIVIDER)
 
 
@@ -90,10 +91,10 @@ class ScaleConfig:
         """Returns how far a unit in common use lies from the estimate, on a logarithmic scale."""
         return abs(math.log(UNITS[unit] / estimate)) + (math.log(self.rare) if unit in _RARE else 0.0)
 
-    def is_believed(self, unit: float, size: float, estimate: float) -> bool:
-        """Whether a stated unit makes furniture of a largest side that size, and does not belie the estimate."""
-        near = abs(math.log(unit / estimate)) < math.log(self.contradicted)
-        return near and self.smallest <= size * unit <= self.largest_stated
+    def is_believed(self, unit: float, size: float, estimate: "Estimate") -> bool:
+        """Whether a stated unit makes furniture of a largest side that size, which doors, drawers and handles do not belie."""
+        near = abs(math.log(unit / estimate.scale)) < math.log(self.contradicted)
+        return (near or not estimate.rests_on_fronts) and self.smallest <= size * unit <= self.largest_stated
 
 
 @final
@@ -104,6 +105,11 @@ class Estimate:
     scale: float
     kind: Furniture
     measures: tuple[str, ...]
+
+    @property
+    def rests_on_fronts(self) -> bool:
+        """Whether it rests on doors, drawers or handles, whose sizes differ less than those of rooms and panels."""
+        return not _OF_FRONTS.isdisjoint(self.measures)
 
 
 def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furniture | None) -> Estimate:

@@ -214,8 +214,7 @@ def functionalize(
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     realized = replace(realized, object=fitted_object(realized.object, fittings))
     if settings.small_parts:
-        small = partial(with_small_parts, realized, asset, joints)
-        realized = stages.timed("small parts", small, lambda _: realized)
+        realized = stages.timed("small parts", partial(with_small_parts, realized, asset, joints), lambda _: realized)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(
