@@ -92,7 +92,7 @@ class ScaleConfig:
         return abs(math.log(UNITS[unit] / estimate)) + (math.log(self.rare) if unit in _RARE else 0.0)
 
     def is_believed(self, unit: float, size: float, estimate: "Estimate") -> bool:
-        """Whether a stated unit makes furniture of a largest side that size, which doors, drawers and handles do not belie."""
+        """Whether a stated unit makes furniture of that size, and no door, drawer or handle belies it."""
         near = abs(math.log(unit / estimate.scale)) < math.log(self.contradicted)
         return (near or not estimate.rests_on_fronts) and self.smallest <= size * unit <= self.largest_stated
 
