@@ -93,3 +93,11 @@ MECHANISM_MENU: dict[MechanismClass, str] = {
 }
 """The classes that can be chosen, hinges before rails, each with a line for menus."""
 RAIL_CLASSES = (MechanismClass.CENTRE, MechanismClass.CORNER)
+
+
+MOTION_WORDS = (
+    *("left", "right", "top", "bottom", "lift", "drop"),
+    *("slides", "pull", "slide-left", "slide-right", "slide-up", "fixed"),
+)
+"""How a user states a motion: the border that a part turns about (`lift`: the top, `drop`: the bottom); `slides` or
+`pull`: out of the front; `slide-left` and the like: along itself; `fixed`: it does not move."""

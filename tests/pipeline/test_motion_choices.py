@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
+from grafu.cli.part_options import part_move
 from grafu.errors import OptionError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -38,7 +39,7 @@ from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import MOTION_WORDS, JointType, PartLabel
 
 SOURCES = [MotionSource.ANNOTATION, MotionSource.RULE]
 SAMPLES = Path(__file__).parents[2] / "samples"
@@ -262,3 +263,27 @@ def test_a_door_of_a_sample_can_be_rejected_and_hung_anew(sample):
     assert door not in run(asset, base.with_motion(door, FIXED)).object.joint_of
     again = run(asset, base.with_motion(door, MotionChoice(Moves.TURNS, Side.RIGHT)))
     assert opened(again, door)[1] < -0.05
+
+
+@pytest.mark.parametrize(
+    ("word", "choice"),
+    [
+        ("lift", MotionChoice(Moves.TURNS, Side.TOP)),
+        ("drop", MotionChoice(Moves.TURNS, Side.BOTTOM)),
+        ("left", MotionChoice(Moves.TURNS, Side.LEFT)),
+        ("pull", MotionChoice(Moves.SLIDES)),
+        ("slide-left", MotionChoice(Moves.SLIDES, Side.LEFT)),
+        ("slide-right", MotionChoice(Moves.SLIDES, Side.RIGHT)),
+        ("slide-up", MotionChoice(Moves.SLIDES, Side.TOP)),
+        ("fixed", FIXED),
+    ],
+)
+def test_words_state_motions(word, choice):
+    assert choice_in_words(word) == choice
+
+
+def test_the_command_offers_every_word_and_no_other():
+    assert [part_move(f"door={word}") for word in MOTION_WORDS] == [("door", word) for word in MOTION_WORDS]
+    assert all(choice_in_words(word) for word in MOTION_WORDS)
+    with pytest.raises(OptionError, match="slide-up, fixed: got 'slide-down'"):
+        choice_in_words("slide-down")

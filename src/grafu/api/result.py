@@ -141,7 +141,8 @@ class Result:
         Args:
             part: the id of the part.
             how: `left`, `right`, `top` or `bottom`: the border that it turns about, seen from in front of the object;
-                `slides`: it slides out of the front; `fixed`: it gets no joint.
+                `lift` is `top`, `drop` is `bottom`; `slides` or `pull`: it slides out of the front; `slide-left`,
+                `slide-right` or `slide-up`: it slides along itself; `fixed`: it gets no joint.
 
         Raises:
             TypeError: if an argument has a wrong type.

@@ -59,8 +59,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         type=part_move,
         default=[],
         metavar="PART=HOW",
-        help="how a part moves, whatever the motion source states: it turns about its left, right, top or bottom side, "
-        "or slides, or is fixed; once for each part",
+        help="how a part moves, whatever the motion source states: it turns about its left, right, top or bottom side "
+        "(lift: top, drop: bottom); slides or pull: out of the front; slide-left, slide-right, slide-up: along itself; "
+        "fixed; once for each part",
     )
     parser.add_argument(
         "--formats",

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from grafu.errors import OptionError
 from grafu.pipeline.motion_source import SourceOption, parse_motion
+from grafu.vocabulary import MOTION_WORDS
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -21,8 +22,6 @@ def motion_choice(text: str) -> SourceOption:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
-SIDES = ("left", "right", "top", "bottom")
-MOTIONS = (*SIDES, "slides", "fixed")
 OLD_FIXED = "not"  # the word of earlier versions for `fixed`
 Move = tuple[str, str]
 
@@ -36,8 +35,8 @@ def part_move(text: str) -> Move:
     part, _, motion = text.rpartition("=")
     if part and motion == OLD_FIXED:
         raise argparse.ArgumentTypeError(f"`not` is called `fixed` now: use --move {part}=fixed")
-    if not part or motion not in MOTIONS:
-        raise argparse.ArgumentTypeError(f"must be PART=HOW, HOW one of {', '.join(MOTIONS)}: got {text!r}")
+    if not part or motion not in MOTION_WORDS:
+        raise argparse.ArgumentTypeError(f"must be PART=HOW, HOW one of {', '.join(MOTION_WORDS)}: got {text!r}")
     return part, motion
 
 

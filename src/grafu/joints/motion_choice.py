@@ -19,7 +19,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.rail.search import slides_in_its_plane
 from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.border import part_axes
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import MOTION_WORDS, JointType, PartLabel
 
 _LEVEL = 1e-6  # metres: a face this near to the middle of the whole is in the middle
 OLD_FIXED = "not"
@@ -94,21 +94,30 @@ FIXED = MotionChoice(Moves.FIXED)
 
 TURNING_SIDES = ("left", "right", "top", "bottom")
 """The borders that a part can turn about, as words."""
+_CHOICES: dict[str, MotionChoice] = dict(
+    zip(
+        MOTION_WORDS,
+        (
+            *(MotionChoice(Moves.TURNS, Side(side)) for side in (*TURNING_SIDES, "top", "bottom")),
+            *(MotionChoice(Moves.SLIDES, side) for side in (None, None, Side.LEFT, Side.RIGHT, Side.TOP)),
+            FIXED,
+        ),
+        strict=True,
+    )
+)
 
 
 def choice_in_words(word: str) -> MotionChoice:
-    """Returns the choice that one word states: a border of `TURNING_SIDES`, `slides`, or `fixed`.
+    """Returns the choice that one of `MOTION_WORDS` states.
 
     Raises:
         OptionError: if it is another word.
     """
-    if word in TURNING_SIDES:
-        return MotionChoice(Moves.TURNS, Side(word))
     if word == OLD_FIXED:
         raise OptionError("`not` is called `fixed` now: use fixed")
-    if word not in (Moves.SLIDES.value, Moves.FIXED.value):
-        raise OptionError(f"must be one of {', '.join((*TURNING_SIDES, Moves.SLIDES, Moves.FIXED))}: got {word!r}")
-    return MotionChoice(Moves(word))
+    if word not in _CHOICES:
+        raise OptionError(f"must be one of {', '.join(MOTION_WORDS)}: got {word!r}")
+    return _CHOICES[word]
 
 
 def label_of_motion(part: Part, choice: MotionChoice, drawers: DrawerConfig = DrawerConfig()) -> PartLabel:
