@@ -1,4 +1,4 @@
-"""Fronts of a column agree on being doors or drawers; wide ones are rather drawers."""
+"""Fronts of a column, or of a row, agree on being doors or drawers; wide ones are rather drawers."""
 
 from math import log
 
@@ -65,6 +65,21 @@ def test_a_column_agrees():
 )
 def test_what_is_no_column_stays_as_the_network_has_it(other):
     assert labels_of((3.0, 3.0), STACK[0], other)[0] == [DOOR, DOOR]
+
+
+ROW = (front("first", 0.0, 0.5, 0.5), front("middle", 0.52, 0.5, 0.2), front("last", 0.74, 0.5, 0.5))
+
+
+def test_fronts_of_a_row_agree():
+    assert labels_of((0.01, 3.0, 0.01), *ROW)[0] == [DRAWER] * 3
+    assert labels_of((60.0, 0.5, 60.0), *ROW)[0] == [DOOR] * 3
+
+
+@pytest.mark.parametrize(
+    "other", [front("lower", 0.52, 0.5, 0.2, 0.15), front("far", 0.9, 0.5, 0.2), front("raised", 0.52, 0.55, 0.2)]
+)
+def test_what_is_no_row_stays_as_the_network_has_it(other):
+    assert labels_of((0.01, 3.0), ROW[0], other)[0] == [DRAWER, DOOR]
 
 
 def test_fronts_that_are_higher_than_wide_are_no_column():

@@ -11,6 +11,7 @@ Labels that the input states are kept, whatever the network states.
 """
 
 import numpy as np
+from jaxtyping import Bool
 
 from grafu.completion.answers import decision_of
 from grafu.completion.config import DecodeConfig
@@ -20,7 +21,7 @@ from grafu.completion.probabilities import Probabilities, averaged, mirrored_bac
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
 from grafu.completion.votes import ranking_of
-from grafu.geometry.arrays import Indices
+from grafu.geometry.arrays import Indices, Points
 from grafu.geometry.budget import fits, present_budget, require_room, require_time
 from grafu.geometry.components import linked
 from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, LABELS, RAIL, UNKNOWN
@@ -65,37 +66,70 @@ def _weights(probabilities: Probabilities, count: int, config: DecodeConfig) -> 
     return weights
 
 
-_ALIGNED = 0.05  # of a front's width: how far the sides of fronts of one column differ
-_BETWEEN = 0.5  # of a front's height: how far the next one of its column may be, and how much its height may differ
+_ALIGNED = 0.05  # of a front's width, or of its height: how far the sides of fronts of one column, or row, differ
+_BETWEEN = 0.5  # of a front's height: how far the next one may be, and how much the height of one column's may differ
 
 
 def _with_columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
-    """Returns the weights of labels where the fronts of a column agree on being doors or drawers, more likely drawers.
+    """Returns the weights of labels where the fronts of a row or column agree on being doors or drawers.
 
-    Wide fronts right above each other, seen from the front, are a column: their odds are the mean of the logarithms.
+    The odds of a row, and then of a column, are the mean of the logarithms. Those of a column, wide fronts right above
+    each other, are more likely drawers.
     """
+    made = weights
+    for group in _rows(weights, graph):
+        made = _agreed(made, group, 1.0)
+    for group in _columns(made, graph, config):
+        made = _agreed(made, group, config.stacked)
+    return made
+
+
+def _agreed(weights: np.ndarray, group: Indices, factor: float) -> np.ndarray:
+    """Returns the weights in which a group has common odds of drawers against doors, multiplied by a factor."""
+    odds = np.log(np.maximum(weights[group, DRAWER], _LEAST) / np.maximum(weights[group, DOOR], _LEAST))
+    ratio = factor * float(np.exp(odds.mean()))
+    both = weights[group, DOOR] + weights[group, DRAWER]
     made = weights.copy()
-    for column in _columns(weights, graph, config):
-        odds = np.log(np.maximum(weights[column, DRAWER], _LEAST) / np.maximum(weights[column, DOOR], _LEAST))
-        ratio = config.stacked * float(np.exp(odds.mean()))
-        both = weights[column, DOOR] + weights[column, DRAWER]
-        made[column, DRAWER], made[column, DOOR] = both * ratio / (1 + ratio), both / (1 + ratio)
+    made[group, DRAWER], made[group, DOOR] = both * ratio / (1 + ratio), both / (1 + ratio)
     return made
 
 
 def _columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> list[Indices]:
     """Returns the columns of wide fronts, each as the numbers of its nodes."""
-    low, high = (np.array([getattr(node.box, end) for node in graph.nodes]) for end in ("low", "high"))
+    low, high, fronts = _fronts(weights, graph)
+    wide = (high - low)[:, 0] >= config.wide * (high - low)[:, 2]
+    low, high, fronts = low[wide], high[wide], fronts[wide]
     size = high - low
-    wide = size[:, 0] >= config.wide * size[:, 2]
-    fronts = np.flatnonzero(wide & np.isin(weights.argmax(axis=1), (DOOR, DRAWER)))
-    if len(fronts) < 2:
-        return []
-    low, high, size = low[fronts], high[fronts], size[fronts]
     aside = np.maximum(np.abs(low[:, None, 0] - low[None, :, 0]), np.abs(high[:, None, 0] - high[None, :, 0]))
     between = np.maximum(low[:, None, 2] - high[None, :, 2], low[None, :, 2] - high[:, None, 2])
     near = (aside <= _ALIGNED * size[:, None, 0]) & (np.abs(between) <= _BETWEEN * size[:, None, 2])
     near &= np.abs(size[:, None, 2] - size[None, :, 2]) <= _BETWEEN * size[:, None, 2]
+    return _groups(near, fronts)
+
+
+def _rows(weights: np.ndarray, graph: FunctionalGraph) -> list[Indices]:
+    """Returns the rows of fronts side by side, of one height and in one plane, each as the numbers of its nodes."""
+    low, high, fronts = _fronts(weights, graph)
+    size = high - low
+    apart = np.maximum(np.abs(low[:, None] - low[None]), np.abs(high[:, None] - high[None]))
+    level = (apart[:, :, 2] <= _ALIGNED * size[:, None, 2]) & (apart[:, :, 1] <= _BETWEEN * size[:, None, 2])
+    between = np.maximum(low[:, None, 0] - high[None, :, 0], low[None, :, 0] - high[:, None, 0])
+    return _groups(level & (np.abs(between) <= _BETWEEN * size[:, None, 2]), fronts)
+
+
+def _fronts(weights: np.ndarray, graph: FunctionalGraph) -> tuple[Points, Points, Indices]:
+    """Returns the lowest and highest corners of what is most likely a door or drawer, and the numbers of its nodes."""
+    fronts = np.flatnonzero(np.isin(weights.argmax(axis=1), (DOOR, DRAWER)))
+    boxes = [graph.nodes[k].box for k in fronts]
+    ends = ([box.low for box in boxes], [box.high for box in boxes])
+    low, high = (np.array(corners).reshape(-1, 3) for corners in ends)
+    return low, high, fronts
+
+
+def _groups(near: Bool[np.ndarray, "n n"], fronts: Indices) -> list[Indices]:
+    """Returns the fronts that are near each other, directly or through others, in groups of two and more."""
+    if len(fronts) < 2:
+        return []
     number = linked(len(fronts), *np.nonzero(near))
     groups = (fronts[number == k] for k in range(int(number.max()) + 1))
     return [group for group in groups if len(group) > 1]
