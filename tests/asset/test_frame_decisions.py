@@ -1,4 +1,5 @@
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -213,3 +214,25 @@ def test_units_that_nobody_states_and_sizes_that_belie_the_stated_unit(factor, u
     frame = settle_frame(reading, LoadOptions())
     assert unit is None or frame.scale == pytest.approx(unit)
     assert 0.5 < frame.scale * factor < 2.0
+
+
+def test_what_labels_and_sizes_decided_is_stated_with_its_confidence():
+    asset = cabinet()
+    frame = settle_frame(reading_of(asset, np.diag([100.0] * 3 + [1.0])), LoadOptions())
+    up, front, scale = frame.assumed
+    assert up.endswith("labelled panels and legs, confidence 100 %")
+    assert front.endswith("face or open there, confidence 100 %")
+    assert float(re.search(r"confidence (\d+) %", scale)[1]) == pytest.approx(
+        100 * min(0.01 / estimate(asset, 100.0), estimate(asset, 100.0) / 0.01), abs=0.6
+    )
+    turned_door = [p for p in asset.parts if p.label is not PartLabel.SIDE_PANEL]
+    votes = up_votes((*turned_door, box_lying_on_its_side()), asset.box)
+    assert 0.5 < votes.confidence("+Z") < 1.0
+
+
+def estimate(asset: Asset, factor: float) -> float:
+    return estimate_scale(asset.parts, asset.box, 2, None).scale / factor
+
+
+def box_lying_on_its_side():
+    return replace(box("top", (-0.5, -0.3, 0.1), (0.5, -0.28, 0.9)), label=PartLabel.TOP_PANEL)

@@ -29,7 +29,7 @@ def test_one_result_names_what_was_added_what_was_guessed_and_its_page(
 
     assert "green: Everything works: 1 door and 1 drawer; nothing collides, nothing comes loose." in said
     assert "added: 2 hinges, 2 rails, 1 top panel and 1 handle\n" in said
-    assert "guessed: scale 1 m per unit: metres make a storage of plausible size; --scale changes it" in said
+    assert "guessed: scale 1 m per unit: metres make a storage of plausible size, confidence " in said
     assert f"look at {topless.job.folder / 'report.html'}" in said
 
 

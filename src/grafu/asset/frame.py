@@ -105,13 +105,17 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
     if convention.up is not None:
         other = votes.against(convention.up)
         if other is not None:
-            return _Choice(other, f"panels, doors and legs stand so, against {convention.up} of {convention.origin}")
+            sure = _sure(votes.confidence(other))
+            return _Choice(
+                other, f"panels, doors and legs stand so, against {convention.up} of {convention.origin}{sure}"
+            )
         return _Choice(convention.up, f"stated by {convention.origin}")
     if options.front is not None and options.front[1] == convention.usual_up[1]:
         other = "+Z" if convention.usual_up == "+Y" else "+Y"
         return _Choice(votes.best or other, "left over by the user's front")
     if votes.best is not None:
-        return _Choice(votes.best, "from the places and thin sides of labelled panels and legs")
+        sure = _sure(votes.confidence(votes.best))
+        return _Choice(votes.best, f"from the places and thin sides of labelled panels and legs{sure}")
     return _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it")
 
 
@@ -125,12 +129,22 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     votes = front_votes(reading.parts, whole, up)
     usual = "+X" if reading.kind in ROBOTS and up[1] != "X" else _USUAL_FRONT[up]
     front, why = decide_front(votes, stated, usual)
+    sure = _sure(votes[front] / max(sum(votes.values()), 1e-9))
     reasons = {
-        "geometry": "doors, drawers, handles or the back panel face or open there",
+        "geometry": f"doors, drawers, handles or the back panel face or open there{sure}",
         "convention": f"stated by {convention.origin}",
         "habit": "assumed, as all sides look alike; --front changes it",
     }
     return _Choice(front, reasons[why])
+
+
+def _sure(ratio: float) -> str:
+    """Returns the confidence of a decision, in words: the fraction of what tells that tells the same."""
+    return f", confidence {_percent(ratio)}"
+
+
+def _percent(ratio: float) -> str:
+    return f"{ratio:.0%}".replace("%", " %")
 
 
 def _scale(reading: Reading, options: LoadOptions, whole: Box, up: int) -> tuple[float, str]:
@@ -151,7 +165,8 @@ def _scale(reading: Reading, options: LoadOptions, whole: Box, up: int) -> tuple
     if not reading.convention.normalised and not is_normalised(reading.parts, whole):
         common = likely_unit(size, estimate)
         if common is not None:
-            why = f"{common[0]} make a {estimate.kind} of plausible size; --scale changes it"
+            sure = _sure(min(common[1] / estimate.scale, estimate.scale / common[1]))
+            why = f"{common[0]} make a {estimate.kind} of plausible size{sure}; --scale changes it"
             return common[1], f"scale {common[1]:g} m per unit: {why}"
     return estimate.scale, _estimated(estimate, height)
 
@@ -159,7 +174,5 @@ def _scale(reading: Reading, options: LoadOptions, whole: Box, up: int) -> tuple
 def _estimated(estimate: Estimate, height: float) -> str:
     basis = ", ".join(estimate.measures[:4])
     metres = f"{height * estimate.scale:.2f} m high"
-    return (
-        f"scale {estimate.scale:.6g} m per unit ({metres}): estimated for a {estimate.kind} piece from {basis}; "
-        "--height changes it"
-    )
+    made = f"estimated for a {estimate.kind} piece from {basis}, within {_percent(estimate.spread)}"
+    return f"scale {estimate.scale:.6g} m per unit ({metres}): {made}; --height changes it"

@@ -111,6 +111,13 @@ class Estimate:
         """Whether it rests on doors, drawers or handles, whose sizes differ less than those of rooms and panels."""
         return not _OF_FRONTS.isdisjoint(self.measures)
 
+    @property
+    def spread(self) -> float:
+        """The standard error of the scale (fraction of it), from the spreads of the sizes that it rests on."""
+        usual = TABLE if self.kind == "table" else STORAGE
+        weight = sum(usual[name].spread ** -2 for name in self.measures)
+        return math.expm1(weight**-0.5) if weight else math.inf
+
 
 def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furniture | None) -> Estimate:
     """Returns the likely metric scale of a piece of furniture.

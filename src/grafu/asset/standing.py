@@ -134,6 +134,12 @@ class UpVotes:
             return None
         return spelled(axis, bool(self.sense[axis] >= 0))
 
+    def confidence(self, up: str) -> float:
+        """Returns which fraction of what lies or stands does so where this direction is up; 0 where nothing tells."""
+        axis = "XYZ".index(up[1])
+        agree = self.lying[axis] + self.standing.sum() - self.standing[axis]
+        return float(agree / max(self.lying.sum() + self.standing.sum(), 1.0))
+
     def against(self, stated: str, config: UpEvidenceConfig = UpEvidenceConfig()) -> str | None:
         """Returns the upward direction that nearly everything speaks for instead of a stated one; None: it holds."""
         axis, sign = "XYZ".index(stated[1]), 1.0 if stated[0] == "+" else -1.0
