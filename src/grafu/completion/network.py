@@ -11,7 +11,7 @@ Labels that the input states are kept, whatever the network states.
 """
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, Int
 
 from grafu.completion.answers import decision_of
 from grafu.completion.config import DecodeConfig
@@ -31,6 +31,7 @@ from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.vocabulary import PartLabel
 
+Group = Int[np.ndarray, " _"]  # numbers of nodes
 _LEAST = 1e-9  # no weight is less, so that odds are finite
 _CARRIED_BY = {DOOR: HINGE, DRAWER: RAIL, HANDLE: ATTACHED}
 
@@ -84,7 +85,7 @@ def _with_columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeCon
     return made
 
 
-def _agreed(weights: np.ndarray, group: Indices, factor: float) -> np.ndarray:
+def _agreed(weights: np.ndarray, group: Group, factor: float) -> np.ndarray:
     """Returns the weights in which a group has common odds of drawers against doors, multiplied by a factor."""
     odds = np.log(np.maximum(weights[group, DRAWER], _LEAST) / np.maximum(weights[group, DOOR], _LEAST))
     ratio = factor * float(np.exp(odds.mean()))
@@ -94,7 +95,7 @@ def _agreed(weights: np.ndarray, group: Indices, factor: float) -> np.ndarray:
     return made
 
 
-def _columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> list[Indices]:
+def _columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> list[Group]:
     """Returns the columns of wide fronts, each as the numbers of its nodes."""
     low, high, fronts = _fronts(weights, graph)
     wide = (high - low)[:, 0] >= config.wide * (high - low)[:, 2]
@@ -107,7 +108,7 @@ def _columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) 
     return _groups(near, fronts)
 
 
-def _rows(weights: np.ndarray, graph: FunctionalGraph) -> list[Indices]:
+def _rows(weights: np.ndarray, graph: FunctionalGraph) -> list[Group]:
     """Returns the rows of fronts side by side, of one height and in one plane, each as the numbers of its nodes."""
     low, high, fronts = _fronts(weights, graph)
     size = high - low
@@ -126,7 +127,7 @@ def _fronts(weights: np.ndarray, graph: FunctionalGraph) -> tuple[Points, Points
     return low, high, fronts
 
 
-def _groups(near: Bool[np.ndarray, "n n"], fronts: Indices) -> list[Indices]:
+def _groups(near: Bool[np.ndarray, "n n"], fronts: Indices) -> list[Group]:
     """Returns the fronts that are near each other, directly or through others, in groups of two and more."""
     if len(fronts) < 2:
         return []
