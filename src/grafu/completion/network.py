@@ -5,7 +5,7 @@ that they added as nodes of the input, until none fires: the number of handles h
 of two forward passes, on the graph and on its mirror image: their errors differ.
 
 Labels of unlabelled parts: the network's category, weighed by whether anything could carry such a part, and by whether
-it is one of a column of wide fronts, which are drawers rather than doors.
+it is one of a row of fronts, which agree, or of a column of wide ones, which are rather drawers.
 
 Labels that the input states are kept, whatever the network states.
 """
