@@ -113,7 +113,7 @@ def test_without_labels_nothing_is_claimed():
     asset = cabinet().with_labels({p.id: PartLabel.UNKNOWN for p in cabinet().parts})
     assert up_votes(asset.parts, asset.box).best is None
     assert not any(front_votes(asset.parts, asset.box, "+Z").values())
-    frame = settle_frame(reading_of(asset, np.eye(4)), LoadOptions())
+    frame = settle_frame(reading_of(asset, turned("+Y", "+Z")), LoadOptions())
     assert (frame.up, frame.front) == ("+Y", "+Z")
     assert any("--up changes it" in said for said in frame.assumed)
 

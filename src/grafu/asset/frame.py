@@ -12,8 +12,9 @@ import numpy as np
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Placing, Reading
+from grafu.asset.resting import stands_on_another_side
 from grafu.asset.scale import Estimate, ScaleConfig, estimate_scale, is_normalised, likely_unit
-from grafu.asset.standing import HeadingConfig, decide_front, front_votes, up_votes, vector
+from grafu.asset.standing import HeadingConfig, UpVotes, decide_front, front_votes, up_votes, vector
 from grafu.errors import AssetError
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
@@ -101,7 +102,7 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
     convention = reading.convention
     if options.up is not None:
         return _Choice(options.up, "stated by the user")
-    votes = up_votes(reading.parts, whole)
+    votes = up_votes([part for part in reading.parts if part.labelled_by != "shape"], whole)
     if convention.up is not None:
         other = votes.against(convention.up)
         if other is not None:
@@ -109,14 +110,24 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
             return _Choice(
                 other, f"panels, doors and legs stand so, against {convention.up} of {convention.origin}{sure}"
             )
-        return _Choice(convention.up, f"stated by {convention.origin}")
+        return _by_rest(reading, votes, _Choice(convention.up, f"stated by {convention.origin}"))
     if options.front is not None and options.front[1] == convention.usual_up[1]:
         other = "+Z" if convention.usual_up == "+Y" else "+Y"
         return _Choice(votes.best or other, "left over by the user's front")
     if votes.best is not None:
         sure = _sure(votes.confidence(votes.best))
         return _Choice(votes.best, f"from the places and thin sides of labelled panels and legs{sure}")
-    return _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it")
+    return _by_rest(reading, votes, _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it"))
+
+
+def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice) -> _Choice:
+    """Returns the direction that is up by the format, or the one that the shape tells where labels tell nothing."""
+    if votes.lying.any() or votes.standing.any() or votes.sense.any():
+        return usual
+    other = stands_on_another_side(reading.parts, usual.value, "+Z" if usual.value == "+Y" else "+Y")
+    if other is None:
+        return usual
+    return _Choice(other, f"what the piece rests on tells, against {usual.value} of {reading.convention.origin}")
 
 
 def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choice:

@@ -3,6 +3,7 @@
 No joint is asked. Coordinates are the input's; directions are spelled like `-Y`.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import radians
 from typing import final
@@ -158,7 +159,7 @@ class UpVotes:
 _PLACES = {PartLabel.TOP_PANEL: 1.0, PartLabel.BOTTOM_PANEL: -1.0, PartLabel.LEG: -1.0}
 
 
-def up_votes(parts: tuple[Part, ...], whole: Box, config: UpEvidenceConfig = UpEvidenceConfig()) -> UpVotes:
+def up_votes(parts: Sequence[Part], whole: Box, config: UpEvidenceConfig = UpEvidenceConfig()) -> UpVotes:
     """Returns what labelled panels, doors and legs say of the direction that is up."""
     lying, standing, sense = np.zeros(3), np.zeros(3), np.zeros(3)
     for part in parts:

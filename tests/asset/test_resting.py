@@ -1,0 +1,63 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grafu.asset.frame import settle_frame
+from grafu.asset.options import DIRECTIONS, LoadOptions
+from grafu.asset.part import Part
+from grafu.asset.reading import Convention, Reading
+from grafu.asset.resting import stands_on_another_side
+from grafu.asset.standing import vector
+from grafu.vocabulary import PartLabel
+from small_scenes import box
+
+GLTF = Convention("glTF", up="+Y", front="+Z")
+
+
+def table() -> tuple[Part, ...]:
+    legs = [box(f"leg_{x}{y}", (x, y, 0.0), (x + 0.05, y + 0.05, 0.7)) for x in (-0.6, 0.55) for y in (-0.4, 0.35)]
+    return (box("plate", (-0.65, -0.45, 0.7), (0.65, 0.45, 0.73)), *legs)
+
+
+def cabinet() -> tuple[Part, ...]:
+    """Returns a case on a full base whose doors have a knob each: on its face it rests on two knobs."""
+    doors = [box(f"d{x}", (x, -0.32, 0.02), (x + 0.39, -0.3, 0.98)) for x in (-0.4, 0.01)]
+    knobs = [box(f"k{x}", (x, -0.35, 0.5), (x + 0.02, -0.32, 0.52)) for x in (-0.05, 0.03)]
+    return (box("case", (-0.4, -0.3, 0.0), (0.4, 0.3, 1.0)), *doors, *knobs)
+
+
+def in_pose(parts: tuple[Part, ...], up: str, front: str) -> tuple[Part, ...]:
+    """Returns nameless parts whose up and front are these directions of the input."""
+    rotation = np.column_stack([np.cross(-vector(front), vector(up)), -vector(front), vector(up)])
+    T = np.eye(4)
+    T[:3, :3] = rotation
+    return tuple(
+        Part(f"Cube.{k}", PartLabel.UNKNOWN, tuple(s.transformed(T) for s in part.surfaces), part.source, "none")
+        for k, part in enumerate(parts)
+    )
+
+
+@pytest.mark.parametrize("up", DIRECTIONS)
+def test_a_nameless_table_stands_on_its_legs_in_every_pose(up):
+    parts = in_pose(table(), up, next(d for d in DIRECTIONS if d[1] != up[1]))
+    assert (stands_on_another_side(parts, "+Y", "+Z") or "+Y") == up
+    frame = settle_frame(Reading("glb", parts, GLTF), LoadOptions())
+    assert frame.up == up
+    assert ("what the piece rests on tells" in frame.assumed[0]) == (up != "+Y")
+
+
+def test_a_nameless_cabinet_on_its_knobs_has_the_other_usual_direction_up():
+    lying = in_pose(cabinet(), "+Z", "-Y")
+    assert stands_on_another_side(lying, "+Y", "+Z") == "+Z"
+    # on its back or on a side it rests steadily, and the format is believed
+    assert stands_on_another_side(lying, "-Y", "+Z") is None
+    assert stands_on_another_side(lying, "+X", "+Z") is None
+    assert stands_on_another_side(in_pose(cabinet(), "+Y", "+Z"), "+Y", "+Z") is None
+
+
+def test_what_the_user_or_a_label_states_overrules_what_it_rests_on():
+    parts = in_pose(table(), "+Z", "-Y")
+    assert settle_frame(Reading("glb", parts, GLTF), LoadOptions(up="+Y")).up == "+Y"
+    side = replace(parts[0], label=PartLabel.SIDE_PANEL, labelled_by="name")
+    assert settle_frame(Reading("glb", (side, *parts[1:]), GLTF), LoadOptions()).up == "+Y"
