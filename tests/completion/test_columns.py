@@ -54,6 +54,12 @@ def test_a_column_agrees():
     assert len(set(labels_of((0.01, 0.01, 30.0), *three)[0])) == 1
 
 
+def test_the_more_fronts_a_column_has_the_more_likely_they_are_drawers():
+    three = (*STACK, front("top", 0, 0.44))
+    assert labels_of((30.0, 30.0), *STACK)[0] == [DOOR, DOOR]
+    assert labels_of((30.0, 30.0, 30.0), *three)[0] == [DRAWER] * 3
+
+
 @pytest.mark.parametrize(
     "other",
     [

@@ -89,11 +89,13 @@ def test_a_board_that_fills_its_opening_does_not_slide_out_of_it():
     assert skipped(result) == {"drawer": Reason.NO_ROOM}
 
 
-def test_what_is_only_guessed_to_be_a_drawer_is_none_without_rails():
+@pytest.mark.parametrize("has_handle", [True, False])
+def test_what_is_only_guessed_to_be_a_drawer_is_none_without_rails_unless_a_handle_rides_on_it(has_handle):
     guessed = replace(DRAWER, label=PartLabel.UNKNOWN, labelled_by="none")
-    result = realized(scene(guessed, *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)), UNTRIMMED)
+    handle = [box("handle", (0.15, -0.43, 0.14), (0.25, -0.4, 0.16), "drawer")] if has_handle else []
+    result = realized(scene(guessed, *handle, *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)), UNTRIMMED)
 
-    assert skipped(result) == {"drawer": Reason.NO_ROOM}
+    assert skipped(result) == ({} if has_handle else {"drawer": Reason.NO_ROOM})
 
 
 def test_a_door_that_would_come_away_from_everything_gets_no_joint():

@@ -135,6 +135,16 @@ def test_two_doors_in_one_object_become_two_and_a_panel_beside_one_stays():
     assert cut(case, merge_meshes([wide, narrow.translated(np.array([0, 0.3, 0]))]), moving=[False, True]) == {}
 
 
+def test_a_pane_in_the_rails_of_an_object_is_no_front_beside_a_panel():
+    """Stiles and rails as deep as the door overlap at its corners: no frame in the sense of a joiner."""
+    stiles = [board((x, -0.24, 0.0), (x + 0.1, -0.2, 0.9)) for x in (-0.38, 0.28)]
+    rails = [board((-0.38, -0.24, z), (0.38, -0.2, z + 0.12)) for z in (0.0, 0.78)]
+    pane = board((-0.3, -0.26, 0.11), (0.3, -0.245, 0.79))
+    door = merge_meshes([*stiles, *rails, pane])
+
+    assert cut(merge_meshes(CASE), door) == {}
+
+
 def test_bar_and_posts_of_one_handle_are_one_piece_and_panes_go_with_their_frame():
     bar = board((-0.1, -0.25, 0.5), (0.1, -0.24, 0.51))
     posts = [board((x, -0.24, 0.5), (x + 0.01, -0.2, 0.51)) for x in (-0.09, 0.08)]

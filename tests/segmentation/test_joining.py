@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.joining import joined_objects
 from small_assets import CABINET, DOOR, DRAWER, mesh_of
 
@@ -33,6 +33,18 @@ def groups(*fragments, case=CASE, may=None):
 
 def test_the_boards_of_a_drawer_and_the_pieces_of_its_handle_are_joined():
     assert groups(FRONT, *BOARDS.values(), BAR, *POSTS) == [(0, 1, 2, 3, 4), (5, 6, 7)]
+
+
+def test_bar_and_posts_before_a_front_of_several_shells_are_one_handle():
+    stiles = [board((x, -0.2, 0.0), (x + 0.08, -0.18, 0.98)) for x in (-0.38, 0.3)]
+    pane = board((-0.31, -0.2, 0.3), (0.31, -0.19, 0.6))
+    rails = [board((-0.38, -0.2, z), (0.38, -0.18, z + 0.3)) for z in (0.0, 0.6)]
+    hinge = board((-0.4, -0.19, -0.02), (0.4, -0.18, 0.01))
+    door = merge_meshes([*stiles, *rails, pane, hinge])
+    assert [
+        set(group)
+        for group in joined_objects([door, *(board(*f) for f in (BAR, *POSTS)), *CASE], [True] * (4 + len(CASE)))
+    ] == [{1, 2, 3}]
 
 
 def quad(x, z):

@@ -14,6 +14,7 @@ from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Placing, Reading
 from grafu.asset.resting import stands_on_another_side
 from grafu.asset.scale import Estimate, ScaleConfig, estimate_scale, is_normalised, likely_unit
+from grafu.asset.seen_side import most_shown_side
 from grafu.asset.standing import HeadingConfig, UpVotes, decide_front, front_votes, up_votes, vector
 from grafu.errors import AssetError
 from grafu.geometry.arrays import Mat4
@@ -22,6 +23,8 @@ from grafu.geometry.mesh import heading_of
 from grafu.geometry.transform import from_rotation, rotation_matrix
 
 _USUAL_FRONT = {"+Y": "+Z", "-Y": "+Z", "+Z": "-Y", "-Z": "-Y", "+X": "+Z", "-X": "+Z"}
+
+_DATA_SETS = ("partnet-mobility", "hssd", "release")  # their models face one way
 
 
 @final
@@ -138,6 +141,10 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     convention = reading.convention
     stated = convention.front if convention.front is not None and convention.front[1] != up[1] else None
     votes = front_votes(reading.parts, whole, up)
+    if not any(votes.values()) and reading.kind not in _DATA_SETS:
+        shown = most_shown_side(reading.parts, whole, up, stated is not None)
+        if shown is not None and shown != stated:
+            return _Choice(shown, "most parts, and steps between them, are seen there")
     usual = "+X" if reading.kind in ROBOTS and up[1] != "X" else _USUAL_FRONT[up]
     front, why = decide_front(votes, stated, usual)
     sure = _sure(votes[front] / max(sum(votes.values()), 1e-9))

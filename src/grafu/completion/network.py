@@ -75,13 +75,13 @@ def _with_columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeCon
     """Returns the weights of labels where the fronts of a row or column agree on being doors or drawers.
 
     The odds of a row, and then of a column, are the mean of the logarithms. Those of a column, wide fronts right above
-    each other, are more likely drawers.
+    each other, are more likely drawers, with each one above another.
     """
     made = weights
     for group in _rows(weights, graph):
         made = _agreed(made, group, 1.0)
     for group in _columns(made, graph, config):
-        made = _agreed(made, group, config.stacked)
+        made = _agreed(made, group, config.stacked ** (len(group) - 1))
     return made
 
 

@@ -54,18 +54,25 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
     It is None too for a single board, such as a front without a box, where hardware was chosen, where the drawer would
-    come away from all static parts, and where only a guess states that it is a drawer: cases slide as freely.
+    come away from all static parts, and where it has no handle and only a guess states that it is a drawer: cases slide
+    as freely.
     """
     frame, config = search.frame, search.config
     is_board = slides_in_its_plane(search.scene.parts[search.request.moving].mesh, frame.slide, config.drawer)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
-    if is_board or not search.scene.parts[search.request.moving].label.is_movable:
+    if is_board or not _is_sure(search):
         return None
     upper = search.travel(search.reach)
     wanted = min(search.request.reference or search.wanted, search.reach)
     if upper < config.restricted * wanted:
         return None
     return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+
+
+def _is_sure(search: DrawerSearch) -> bool:
+    """Whether the input states a drawer, or something rides on it: its handle."""
+    moving = search.scene.moving_bodies[search.request.moving]
+    return search.scene.parts[moving.id].label.is_movable or len(moving.members) > 1
 
 
 def lift_without_hardware(search: DrawerSearch) -> Placement | None:

@@ -229,13 +229,21 @@ def _major(view: ShellsView, fronts: tuple[FrontShells, ...], alike: float) -> t
 
 
 def _is_beside_panel(view: ShellsView, own: Indices, major: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
-    """Whether a plate is one front beside a plate that is none: a control panel."""
+    """Whether a plate is one front beside a plate that is none: a control panel. A frame around it is none."""
     area = np.prod(view.size[:, :2], axis=1)
     size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
     outline, plate = float(size[0] * size[1]), major[0].shells[0]
     beside = [k for k in own.tolist() if k != plate and overlaps(view, k)[plate] < config.beside]
     has_panel = len(major) == 1 and any(area[k] >= config.panel * outline for k in beside)
+    if has_panel and _is_around(view, own, plate):
+        return False
     return has_panel and bool(area[[plate, *beside]].sum() >= config.filled * outline)
+
+
+def _is_around(view: ShellsView, shells: Indices, plate: int) -> bool:
+    """Whether shells lie on all four sides of a plate."""
+    middle = (view.low[shells, :2] + view.high[shells, :2]) / 2
+    return bool((middle < view.low[plate, :2]).any(axis=0).all() and (middle > view.high[plate, :2]).any(axis=0).all())
 
 
 def _is_case(view: ShellsView, rest: Indices, fronts: tuple[FrontShells, ...], config: SegmentationConfig) -> bool:

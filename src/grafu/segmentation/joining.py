@@ -44,7 +44,8 @@ def joined_objects(
     whole, apart = merge_meshes(meshes), MeshShells.of(meshes).shell
     contacts: Final = _Contacts(meshes, config.joining)
     across = _across(whole, owner, apart, may)
-    numberings = (apart,) if across.max(initial=0) == apart.max(initial=0) else (across, apart)
+    numberings = [across] if across.max(initial=0) < apart.max(initial=0) else []
+    numberings += [apart, owner] if len(meshes) <= apart.max(initial=0) else [apart]
     faces = SeenFaces.of(whole, axes_from(0))
     fronts = [front for shell in numberings for front in _front_objects(faces, shell, owner, may, config)]
     single = [front for front in fronts if contacts.count_apart(front.handles_within(fronts)) < 2]
@@ -66,6 +67,8 @@ class _Front:
     plates: Group
     members: Group
     handles: tuple[Group, ...]
+    carriers: Group
+    """The objects of its plate, also where they are more than the front: then there are no plates."""
 
     @property
     def objects(self) -> frozenset[int]:
@@ -111,10 +114,11 @@ class _Contacts:
         return len(parted)
 
     def handle_of(self, handle: Group, front: _Front) -> Group:
-        """Returns the objects of a handle, those left out that hang together with something else than the front."""
+        """Returns the objects of a handle, those left out that hang together with something else than it."""
         if not handle:
             return ()
-        return self._without_static(handle[:1], handle[1:], self._meshes[handle[0]].box, front.objects | {*handle})
+        inside = front.objects | {*handle, *front.carriers}
+        return self._without_static(handle[:1], handle[1:], self._meshes[handle[0]].box, inside)
 
     def _without_static(self, fixed: Group, others: Group, ahead: Box, inside: frozenset[int]) -> Group:
         kept, within = list(others), set(inside)
@@ -197,7 +201,11 @@ def _front_objects(
     found = [front.made_of(members) for front in fronts_among(view, plates, config)]
     objects: Final = _ObjectsOfShells(shell, owner)
     return [
-        _Front(*objects.whole_in(front.shells), tuple(sum(objects.whole_in(handle), ()) for handle in front.handles))
+        _Front(
+            *objects.whole_in(front.shells),
+            tuple(sum(objects.whole_in(handle), ()) for handle in front.handles),
+            objects.of_shell(front.shells[0]),
+        )
         for front in found
     ]
 
@@ -220,7 +228,11 @@ class _ObjectsOfShells:
         objects, place = np.unique(self._object[rows], return_inverse=True)
         inside = np.bincount(place.reshape(-1), weights=self._faces[rows])
         whole = {*objects[inside == self._all[objects]].tolist()}
-        plates = self._object[self._starts[group[0]] : self._starts[group[0] + 1]].tolist()
+        plates = self.of_shell(group[0])
         if not whole >= {*plates}:
             return (), ()
-        return tuple(plates), tuple(sorted(whole - {*plates}))
+        return plates, tuple(sorted(whole - {*plates}))
+
+    def of_shell(self, shell: int) -> Group:
+        """Returns the objects that have faces in a shell."""
+        return tuple(self._object[self._starts[shell] : self._starts[shell + 1]].tolist())
