@@ -30,10 +30,10 @@ from grafu.segmentation.config import (
     CandidateConfig,
     DivisionConfig,
     FrameConfig,
-    FurnitureConfig,
     MemberConfig,
     SegmentationConfig,
 )
+from grafu.segmentation.furniture_pieces import FurnitureConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 SOURCES = Path(__file__).parents[1] / "src" / "grafu"

@@ -117,6 +117,26 @@ def test_what_is_divided_already_stays_as_it_is(sample):
     assert cut(*meshes) == {}, "nor where no name states what the parts are"
 
 
+def test_the_back_behind_all_fronts_does_not_count_as_one_because_they_lie_before_it():
+    names = [name for name in CABINET if name not in ("top_panel-3", "back_panel-5", *DOOR, *DRAWER)]
+    back = board((-0.4, 0.18, -0.02), (0.4, 0.2, 0.92))
+    worktop, pipe = board((-0.6, -0.3, 1.2), (0.6, 0.3, 1.24)), board((-0.4, 0.2, 0.1), (0.4, 0.5, 0.8))
+    doors = [board((x, -0.2, 0.0), (x + 0.38, -0.18, 0.9)) for x in (-0.39, 0.01)]
+    found = cut(merge_meshes([*map(mesh_of, names), back, worktop, pipe, *doors]))
+
+    assert boxes(found, "front") == rounded(doors)
+
+
+def test_the_only_object_of_an_input_is_a_case_also_where_it_looks_like_a_drawer():
+    """A base cabinet has no top, and its door is as wide as its sides stand apart."""
+    names = ("vertical_side_panel-1", "vertical_side_panel-2", "bottom_panel-4", "back_panel-5")
+    door = board((-0.41, -0.2, 0.0), (0.41, -0.18, 0.98))
+    whole = merge_meshes([*map(mesh_of, names), door, mesh_of("handle-8")])
+
+    assert boxes(cut(whole), "front") == rounded([door])
+    assert boxes(cut(whole, board((-0.5, -0.2, -0.1), (0.5, 0.2, -0.05))), "front") == [], "a drawer over a board"
+
+
 def test_what_may_not_be_cut_stays_whole():
     whole = merge_meshes([mesh_of(name) for name in CABINET])
 

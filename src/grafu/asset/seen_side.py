@@ -46,7 +46,7 @@ class SeenSideConfig:
 
 @final
 @dataclass(frozen=True, slots=True)
-class _Sight:
+class _Appearance:
     """What one side shows: the entropy of the areas of the parts that are seen, in nats, and how many steps."""
 
     parts: float
@@ -71,17 +71,17 @@ def most_shown_side(
     meshes = [part.mesh for part in parts]
     owners = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
     caster = RayCaster(merge_meshes(meshes))
-    sights = {side: _sight(caster, owners, whole, side, config) for side in DIRECTIONS if side[1] != up[1]}
-    first, second = sorted(sights, key=lambda side: -sights[side].parts)[:2]
+    appearances = {side: _appearance(caster, owners, whole, side, config) for side in DIRECTIONS if side[1] != up[1]}
+    first, second = sorted(appearances, key=lambda side: -appearances[side].parts)[:2]
     least = config.against if is_stated else config.clear
-    is_clear = sights[first].parts >= least * (sights[second].parts + config.trace)
-    is_stepped = sights[first].steps >= max(sight.steps for sight in sights.values())
+    is_clear = appearances[first].parts >= least * (appearances[second].parts + config.trace)
+    is_stepped = appearances[first].steps >= max(appearance.steps for appearance in appearances.values())
     return first if is_clear and is_stepped else None
 
 
-def _sight(
+def _appearance(
     caster: RayCaster, owners: Int[np.ndarray, " faces"], whole: Box, side: str, config: SeenSideConfig
-) -> _Sight:
+) -> _Appearance:
     axis, sign = "XYZ".index(side[1]), 1.0 if side[0] == "+" else -1.0
     largest = max(float(whole.size.max()), 1e-12)
     ratio = (np.arange(config.rays) + 0.5) / config.rays
@@ -92,9 +92,9 @@ def _sight(
     origins[..., axis] = (whole.high if sign > 0 else whole.low)[axis] + sign * 0.1 * largest
     faces, distances = caster.first_faces(origins.reshape(-1, 3), -sign * np.eye(3)[axis])
     areas = np.bincount(owners[faces[faces >= 0]])
-    shares = areas[areas > 0] / max(areas.sum(), 1)
+    fractions = areas[areas > 0] / max(areas.sum(), 1)
     depth = distances.reshape(config.rays, config.rays) / largest
-    return _Sight(float(-(shares * np.log(shares)).sum()), _steps(depth, config.step))
+    return _Appearance(float(-(fractions * np.log(fractions)).sum()), _steps(depth, config.step))
 
 
 def _steps(depth: Float[np.ndarray, "n m"], least: float) -> float:

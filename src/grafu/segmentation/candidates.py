@@ -89,7 +89,7 @@ def _is_seen(view: ShellsView, shell: int, is_frame: bool, near: float, config: 
     """Whether little hides a shell, and most of its outline shows it or what it holds."""
     rows, columns = view.window(shell)
     first, depth = view.seen[rows, columns], view.depth[rows, columns]
-    own = within(view, shell, near)
+    own = within(view, shell, near) & (view.low[:, 2] <= view.high[shell, 2] + config.before * near)
     own[shell] = True
     is_own = (first >= 0) & own[first]
     hidden = (first >= 0) & ~is_own & (depth > view.high[shell, 2] + near)

@@ -1,8 +1,7 @@
-"""From where on shells are fronts, what belongs to a front, which objects hide some, and what is a piece of furniture.
+"""From where on shells are fronts, what belongs to a front, and which objects hide some.
 
-Lengths of `FurnitureConfig` are metres. Else inputs come in any unit: lengths are fractions of an object's largest
-side, or multiples of `near`, the length at which something still touches. Other numbers are fractions of what their
-line states.
+Inputs come in any unit: lengths are fractions of an object's largest side, or multiples of `near`, the length at which
+something still touches. Other numbers are fractions of what their line states.
 """
 
 from dataclasses import dataclass
@@ -41,7 +40,9 @@ class CandidateConfig:
     hidden: float = 0.3
     """How much of a front others may hide (of its outline)."""
     seen: float = 0.5
-    """How much of it, or of what it holds, is seen (of its outline)."""
+    """How much of it, or of what it holds, is seen (of its outline) ..."""
+    before: float = 5.0
+    """... which begins before it by so much at most: a handle, a moulding (multiple of `near`)."""
     room: float = 0.3
     """How deep what it closes is (of its shorter side)."""
     flank_reach: float = 5.0
@@ -252,49 +253,3 @@ class SegmentationConfig(ShortRepr):
     """Of fronts drawn on a surface."""
     joining: JoiningConfig = JoiningConfig()
     """Of objects that are one front."""
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class FurnitureConfig:
-    """What is one piece of furniture in a scene, and what is a floor, a wall or a prop.
-
-    Raises:
-        ValueError: if a number is not above 0.
-    """
-
-    touch: float = 0.005
-    """As near as this, two shells touch (metres)."""
-    floor_side: float = 1.5
-    """A floor or a carpet is at least as long and as wide as this (metres)."""
-    wall_height: float = 1.8
-    """Least height of a wall, which is as wide as a floor (metres)."""
-    thickness: float = 0.3
-    """Largest thickness of a floor or a wall (metres) ..."""
-    plate: float = 0.15
-    """... and as a fraction of its shorter side."""
-    low: float = 0.1
-    """How far from the end of the scene a floor or a wall lies (fraction of the scene's extent)."""
-    spans: float = 0.9
-    """What a wall spans (fraction of the scene's extent)."""
-    filled: float = 0.7
-    """What one piece covers of a plate that is a panel of that piece (fraction of the plate)."""
-    side: float = 0.15
-    """The shortest side of a piece of furniture (metres) ..."""
-    length: float = 0.25
-    """... and its longest (metres)."""
-    within: float = 0.9
-    """How much of the content of a piece lies in its box (fraction of the content's extent along each axis)."""
-    near: float = 0.1
-    """As near as this, a front or a prop belongs to a piece (metres)."""
-    crossed: float = 0.002
-    """By how much an object may cross the plane between two pieces (metres)."""
-    reach: float = 0.05
-    """How far from that plane a side stands (metres)."""
-    beside: float = 0.4
-    """What lies so near to the plane shows how high and how deep a side must be (metres)."""
-    closed: float = 0.5
-    """What a side covers (fraction of that outline)."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)

@@ -13,9 +13,10 @@ from jaxtyping import Bool, Int
 from grafu.geometry.arrays import Indices, Mat3, Vec3
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.candidates import Scale, candidates, framed, halves, merged, overlaps
-from grafu.segmentation.config import DivisionConfig, SegmentationConfig
+from grafu.segmentation.candidates import candidates, framed, halves, merged, overlaps
+from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.fronts import FrontShells, fronts_among, lying_on_fronts
+from grafu.segmentation.hidden_fronts import hides, is_flush, is_one_with_handles, outline, without_case
 from grafu.segmentation.view import MaskOfShells, OfShells, ShellsView, view_of
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
@@ -143,13 +144,6 @@ def axes_from(turn: int) -> Mat3:
     return np.stack([np.cross(_Z, toward), _Z, toward])
 
 
-def outline(view: ShellsView, front: FrontShells) -> float:
-    """Returns the area of a front's bounding box as it is seen."""
-    shells = [*front.shells]
-    size = view.high[shells].max(axis=0) - view.low[shells].min(axis=0)
-    return float(size[0] * size[1])
-
-
 def fronts_by_object(
     view: ShellsView, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig
 ) -> FoundFronts:
@@ -157,12 +151,13 @@ def fronts_by_object(
     view, members = merged(view, [*framed(view, config), *halves(view, config)])
     may = may[[shells[0] for shells in members]]
     found: dict[int, list[FrontShells]] = {}
-    for front in _with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config):
+    fronts = _with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config)
+    for front in without_case(view, fronts, config):
         found.setdefault(int(view.owner[front.shells[0]]), []).append(front)
-    flush = {owner: tuple(f for f in fronts if _is_flush(view, f, config.division)) for owner, fronts in found.items()}
-    hidden = {o: fronts for o, fronts in flush.items() if fronts and _hides(view, o, fronts, whole[o], config)}
+    flush = {owner: tuple(f for f in fronts if is_flush(view, f, config.division)) for owner, fronts in found.items()}
+    hidden = {o: fronts for o, fronts in flush.items() if fronts and hides(view, o, fronts, whole[o], config)}
     others = {o: fronts for o, fronts in flush.items() if o not in hidden}
-    single = {o: f[0] for o, f in others.items() if _is_one_with_handles(view, o, f, config.division)}
+    single = {o: f[0] for o, f in others.items() if is_one_with_handles(view, o, f, config.division)}
     lying = lying_on_fronts(view, may & ~np.isin(view.owner, [*hidden, *single]), hidden, config)
     return FoundFronts(
         {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()},
@@ -182,82 +177,6 @@ def _with_low(
     wide = [k for k in free if view.size[k, 0] > view.size[k, 1]]
     found = fronts_among(view, np.array(wide, dtype=np.int64), config)
     return (*fronts, *(front for front in found if front.handles and not taken & front.all_shells))
-
-
-def _is_one_with_handles(view: ShellsView, owner: int, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
-    """Whether an object is one front, or a drawer behind one, with a handle or two."""
-    if len(fronts) != 1 or not 0 < len(fronts[0].handles) <= config.most_handles:
-        return False
-    own = view.owner == owner
-    size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
-    return outline(view, fronts[0]) >= config.single * float(size[0] * size[1])
-
-
-def _is_flush(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bool:
-    """Whether a front lies near the front of its object, its handles left out, and is no trifle."""
-    plate = front.shells[0]
-    handles = [shell for handle in front.handles for shell in handle]
-    own = np.setdiff1d(np.flatnonzero(view.owner == view.owner[plate]), handles)
-    depth = float(view.high[own, 2].max() - view.low[own, 2].min())
-    extent = float((view.high.max(axis=0) - view.low.min(axis=0)).max())
-    inside = float(view.high[own, 2].max() - view.high[plate, 2])
-    shorter, thick = float(view.size[plate, :2].min()), float(view.size[plate, 2])
-    return inside <= config.flush * depth + thick and shorter >= config.small * extent
-
-
-def _hides(
-    view: ShellsView, owner: int, fronts: tuple[FrontShells, ...], is_whole: bool, config: SegmentationConfig
-) -> bool:
-    """Whether an object is more than the fronts in it are: a case, or several fronts in one."""
-    own = view.owner == owner
-    low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
-    size = high - low
-    major = _major(view, fronts, config.division.alike)
-    filled = sum(outline(view, front) for front in major) / float(size[0] * size[1])
-    if is_whole or size[2] <= config.division.plate * size[:2].min():
-        several = len(major) > 1 and filled >= config.division.filled
-        return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major, config.division))
-    rest = own.copy()
-    rest[[shell for front in fronts for shell in front.all_shells]] = False
-    return len(major) > 1 or (bool(rest.any()) and _is_case(view, np.flatnonzero(rest), fronts, config))
-
-
-def _major(view: ShellsView, fronts: tuple[FrontShells, ...], alike: float) -> tuple[FrontShells, ...]:
-    """Returns the fronts of some size, `alike` of the largest: rails and stiles are far smaller than their panel."""
-    areas = [outline(view, front) for front in fronts]
-    return tuple(front for front, area in zip(fronts, areas, strict=True) if area >= alike * max(areas))
-
-
-def _is_beside_panel(view: ShellsView, own: Indices, major: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
-    """Whether a plate is one front beside a plate that is none: a control panel. A frame around it is none."""
-    area = np.prod(view.size[:, :2], axis=1)
-    size = view.high[own].max(axis=0) - view.low[own].min(axis=0)
-    outline, plate = float(size[0] * size[1]), major[0].shells[0]
-    beside = [k for k in own.tolist() if k != plate and overlaps(view, k)[plate] < config.beside]
-    has_panel = len(major) == 1 and any(area[k] >= config.panel * outline for k in beside)
-    if has_panel and _is_around(view, own, plate):
-        return False
-    return has_panel and bool(area[[plate, *beside]].sum() >= config.filled * outline)
-
-
-def _is_around(view: ShellsView, shells: Indices, plate: int) -> bool:
-    """Whether shells lie on all four sides of a plate."""
-    middle = (view.low[shells, :2] + view.high[shells, :2]) / 2
-    return bool((middle < view.low[plate, :2]).any(axis=0).all() and (middle > view.high[plate, :2]).any(axis=0).all())
-
-
-def _is_case(view: ShellsView, rest: Indices, fronts: tuple[FrontShells, ...], config: SegmentationConfig) -> bool:
-    """Whether shells are more than a box behind fronts: they stand out of these, or are closed from above."""
-    plates = [front.shells[0] for front in fronts]
-    reach = config.division.case_reach
-    near = reach * (config.candidates.near * float(Scale.of(view).extent[plates[0]]))
-    low, high = view.low[rest].min(axis=0), view.high[rest].max(axis=0)
-    left, right = view.low[plates].min(axis=0) - near, view.high[plates].max(axis=0) + near
-    if (low[:2] < left[:2]).any() or (high[:2] > right[:2]).any():
-        return bool(view.low[plates, 2].max() - low[2] > near / reach)
-    above = view.high[rest, 1] >= high[1] - near
-    lid = float(view.faced[rest[above], 1].sum())
-    return lid >= config.division.lid * float((high - low)[0] * (high - low)[2])
 
 
 def _pieces(shells: MeshShells, owner: int, start: int, fronts: tuple[FrontShells, ...]) -> list[FacePiece]:

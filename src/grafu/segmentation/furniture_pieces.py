@@ -14,14 +14,60 @@ import numpy as np
 from grafu.geometry.arrays import Indices, Mask
 from grafu.geometry.box import Box
 from grafu.geometry.components import linked, shell_numbers
+from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.touching import near_pairs, touching_pairs
-from grafu.segmentation.config import FurnitureConfig
 
 FLOOR_OR_WALL: Final = -1
 ALONE: Final = -2
 
 Groups = list[np.ndarray]
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class FurnitureConfig:
+    """What is one piece of furniture in a scene, and what is a floor, a wall or a prop.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    touch: float = 0.005
+    """As near as this, two shells touch (metres)."""
+    floor_side: float = 1.5
+    """A floor or a carpet is at least as long and as wide as this (metres)."""
+    wall_height: float = 1.8
+    """Least height of a wall, which is as wide as a floor (metres)."""
+    thickness: float = 0.3
+    """Largest thickness of a floor or a wall (metres) ..."""
+    plate: float = 0.15
+    """... and as a fraction of its shorter side."""
+    low: float = 0.1
+    """How far from the end of the scene a floor or a wall lies (fraction of the scene's extent)."""
+    spans: float = 0.9
+    """What a wall spans (fraction of the scene's extent)."""
+    filled: float = 0.7
+    """What one piece covers of a plate that is a panel of that piece (fraction of the plate)."""
+    side: float = 0.15
+    """The shortest side of a piece of furniture (metres) ..."""
+    length: float = 0.25
+    """... and its longest (metres)."""
+    within: float = 0.9
+    """How much of the content of a piece lies in its box (fraction of the content's extent along each axis)."""
+    near: float = 0.1
+    """As near as this, a front or a prop belongs to a piece (metres)."""
+    crossed: float = 0.002
+    """By how much an object may cross the plane between two pieces (metres)."""
+    reach: float = 0.05
+    """How far from that plane a side stands (metres)."""
+    beside: float = 0.4
+    """What lies so near to the plane shows how high and how deep a side must be (metres)."""
+    closed: float = 0.5
+    """What a side covers (fraction of that outline)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
 
 
 @final
