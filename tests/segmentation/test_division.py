@@ -165,6 +165,27 @@ def test_a_pane_in_the_rails_of_an_object_is_no_front_beside_a_panel():
     assert cut(merge_meshes(CASE), door) == {}
 
 
+@pytest.mark.parametrize(
+    ("strip", "has_knob", "is_one"),
+    [
+        ((0.25, 0.4), False, True),
+        ((0.25, 0.4), True, False),  # it has a handle of its own
+        ((0.253, 0.4), False, False),  # there is a gap
+        ((0.1, 0.4), False, False),  # it is no strip
+    ],
+)
+def test_a_stile_drawn_beside_the_plate_of_a_drawer_is_part_of_its_front(strip, has_knob, is_one):
+    left, right = strip
+    end = left if left < 0.25 else 0.25
+    plates = [board((x, -0.22, 0.02), (y, -0.2, 0.48)) for x, y in ((-0.4, end), (left, right))]
+    upper = board((-0.4, -0.22, 0.52), (0.4, -0.2, 0.98))
+    knobs = [board((x, -0.25, z), (x + 0.02, -0.22, z + 0.02)) for x, z in ((-0.05, 0.25), (-0.05, 0.75))]
+    knobs += [board(((left + right) / 2, -0.25, 0.3), ((left + right) / 2 + 0.02, -0.22, 0.32))] if has_knob else []
+    found = cut(merge_meshes([*CASE, *plates, upper, *knobs]))
+
+    assert boxes(found, "front") == rounded([merge_meshes(plates), upper] if is_one else [*plates, upper])
+
+
 def test_bar_and_posts_of_one_handle_are_one_piece_and_panes_go_with_their_frame():
     bar = board((-0.1, -0.25, 0.5), (0.1, -0.24, 0.51))
     posts = [board((x, -0.24, 0.5), (x + 0.01, -0.2, 0.51)) for x in (-0.09, 0.08)]

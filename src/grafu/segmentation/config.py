@@ -81,6 +81,10 @@ class FrameConfig:
     """What the panels of a frame cover (of its inside)."""
     muntin: float = 1.5
     """How wide a bar that parts panels is at most (of the width of the frame's bars)."""
+    strip: float = 2.5
+    """How many times as long as wide a strip is that lies beside a front without a gap, and is a stile of it ..."""
+    strip_area: float = 0.4
+    """... and how large it is at most (of that front's outline)."""
     set_back: float = 0.02
     """How far behind the face of a frame its panels lie at least (of its thickness)."""
 

@@ -57,7 +57,45 @@ def fronts_among(view: ShellsView, plates: Indices, config: SegmentationConfig) 
         front = finder.with_members(plate, taken)
         taken |= front.all_shells
         found.append(front)
-    return tuple(found)
+    return _with_stiles(view, found, config)
+
+
+def _with_stiles(view: ShellsView, found: Sequence[FrontShells], config: SegmentationConfig) -> tuple[FrontShells, ...]:
+    """Returns the fronts, each with the stiles and rails that were drawn beside its plate without a gap.
+
+    Such a strip has no handle, and the plate has one, or another strip at its opposite side.
+    """
+    fronts = list(found)
+    for front in found:
+        strips = [other for other in found if other is not front and not other.handles]
+        beside = {k: side for k, strip in enumerate(strips) if (side := _strip_side(view, front, strip, config))}
+        opposite = {side for side in beside.values() if (side[0], -side[1]) in beside.values()}
+        own = [strips[k] for k, side in beside.items() if strips[k] in fronts and (front.handles or side in opposite)]
+        if own and front in fronts:
+            shells = (*front.shells, *(shell for strip in own for shell in strip.shells))
+            fronts[fronts.index(front)] = FrontShells(shells, front.handles)
+            fronts = [other for other in fronts if other not in own]
+    return tuple(fronts)
+
+
+def _strip_side(
+    view: ShellsView, front: FrontShells, strip: FrontShells, config: SegmentationConfig
+) -> tuple[int, int] | None:
+    """Returns the axis and the sense in which a strip lies right beside a front, along a whole side, or None."""
+    low, high = view.low, view.high
+    a, b, frames = front.shells[0], strip.shells[0], config.frames
+    extent = float(Scale.of(view).extent[a])
+    size = view.size[b, :2]
+    if size.max() < frames.strip * size.min() or size.prod() > frames.strip_area * view.size[a, :2].prod():
+        return None
+    across = int(np.argmin(size))
+    ends = np.abs([low[a, 1 - across] - low[b, 1 - across], high[a, 1 - across] - high[b, 1 - across]])
+    is_level = abs(high[a, 2] - high[b, 2]) <= config.candidates.near * extent
+    if not is_level or ends.max() > frames.same * extent:
+        return None
+    gaps = {1: abs(low[b, across] - high[a, across]), -1: abs(low[a, across] - high[b, across])}
+    sense = min(gaps, key=lambda side: gaps[side])
+    return (across, sense) if gaps[sense] <= frames.gap * extent else None
 
 
 def lying_on_fronts(
