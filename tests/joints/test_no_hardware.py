@@ -89,13 +89,17 @@ def test_a_board_that_fills_its_opening_does_not_slide_out_of_it():
     assert skipped(result) == {"drawer": Reason.NO_ROOM}
 
 
-@pytest.mark.parametrize("has_handle", [True, False])
-def test_what_is_only_guessed_to_be_a_drawer_is_none_without_rails_unless_a_handle_rides_on_it(has_handle):
+@pytest.mark.parametrize(("has_handle", "is_case"), [(True, False), (True, True), (False, True)])
+def test_what_is_only_guessed_to_be_a_drawer_is_one_without_rails_if_it_has_a_handle_and_is_no_case(
+    has_handle, is_case
+):
     guessed = replace(DRAWER, label=PartLabel.UNKNOWN, labelled_by="none")
     handle = [box("handle", (0.15, -0.43, 0.14), (0.25, -0.4, 0.16), "drawer")] if has_handle else []
-    result = realized(scene(guessed, *handle, *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)), UNTRIMMED)
+    boards = [(-0.02, 0.0), (0.3, 0.32)]  # above and below it, and as wide as it
+    plates = [box(f"plate_{k}", (0.0, -0.4, low), (0.4, 0.0, high)) for k, (low, high) in enumerate(boards)]
+    asset = scene(guessed, *handle, *(plates if is_case else CASE), joints=(sliding("drawer", (0.0, -1.0, 0.0)),))
 
-    assert skipped(result) == ({} if has_handle else {"drawer": Reason.NO_ROOM})
+    assert skipped(realized(asset, UNTRIMMED)) == ({} if has_handle and not is_case else {"drawer": Reason.NO_ROOM})
 
 
 def test_a_door_that_would_come_away_from_everything_gets_no_joint():

@@ -228,6 +228,8 @@ class RealizationConfig(ShortRepr):
     """By how much a door's back, which lies on what it closes, is pressed at most, where that is more (metres)."""
     no_hardware_width: float = 0.25
     """What slides without rails is at least this wide over its depth: a drawer, and no side of one."""
+    no_hardware_wide: float = 0.97
+    """What is as wide as this over the furniture is no drawer between its sides, where only a guess states one."""
     thinnest_front: float = 0.003
     """What ends so far behind a drawer's front is hidden by it (metres)."""
     max_carve: float = 0.05
@@ -281,19 +283,9 @@ class RealizationConfig(ShortRepr):
         require_positive(self, "hinge_bridge", "lid_opening", "no_hardware_gap", "carved_faces")
         require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
         require_ratios(
-            self,
-            "level_axis",
-            "upright",
-            "short",
-            "restricted",
-            "max_trim",
-            "max_carve",
-            "max_carve_hidden",
-            "max_carve_seen",
-            "rail_ratio",
-            "least_opening",
-            "kept",
+            self, "level_axis", "upright", "short", "restricted", "max_trim", "max_carve", "max_carve_hidden"
         )
-        require_ratios(self, "no_hardware_width")
+        require_ratios(self, "max_carve_seen", "rail_ratio", "least_opening", "kept")
+        require_ratios(self, "no_hardware_width", "no_hardware_wide")
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
 from grafu.joints.plan import JointRequest
@@ -70,9 +71,14 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
 
 
 def _is_sure(search: DrawerSearch) -> bool:
-    """Whether the input states a drawer, or something rides on it: its handle."""
-    moving = search.scene.moving_bodies[search.request.moving]
-    return search.scene.parts[moving.id].label.is_movable or len(moving.members) > 1
+    """Whether the input states a drawer, or its handle rides on it and it is not as wide as the furniture."""
+    scene, moving = search.scene, search.scene.moving_bodies[search.request.moving]
+    if scene.parts[moving.id].label.is_movable:
+        return True
+    across = int(np.argmin(np.abs(search.axis.direction[:2])))
+    whole = Box.enclosing(part.box for part in scene.parts.values()).size[across]
+    is_between = scene.parts[moving.id].box.size[across] < search.config.no_hardware_wide * whole
+    return len(moving.members) > 1 and bool(is_between)
 
 
 def lift_without_hardware(search: DrawerSearch) -> Placement | None:

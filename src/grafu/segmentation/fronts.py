@@ -101,17 +101,24 @@ def _strip_side(
 def lying_on_fronts(
     view: ShellsView, may: MaskOfShells, hidden: Mapping[int, tuple[FrontShells, ...]], config: SegmentationConfig
 ) -> dict[int, tuple[tuple[int, ...], ...]]:
-    """Returns for each object the shells that lie on fronts hidden in others, a group for each, where that parts it."""
+    """Returns for each object the shells that lie on fronts hidden in others, a group for each, where that parts it.
+
+    What is as small as a handle may be let in: it reaches the face of its front from behind.
+    """
     plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
     near, gap = config.candidates.near * Scale.of(view).extent[plates], config.members.handle_gap
+    thin = float(_SHEET * near.max(initial=0.0))
     area = np.prod(view.size[:, :2], axis=1)
     found: dict[int, tuple[tuple[int, ...], ...]] = {}
     for owner in np.unique(view.owner[may]).tolist() if len(plates) else ():
         own = np.flatnonzero(view.owner == owner)
         low, high = view.low[own, None], view.high[own, None]
-        shared = np.minimum(high, view.high[plates])[..., :2] - np.maximum(low, view.low[plates])[..., :2]
-        on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * area[own, None]
-        on &= (low[..., 2] >= view.low[plates, 2] - near) & (low[..., 2] <= view.high[plates, 2] + gap * near)
+        grown = low[..., :2] - thin, high[..., :2] + thin  # a sheet seen from its edge has an outline, too
+        shared = np.minimum(grown[1], view.high[plates, :2]) - np.maximum(grown[0], view.low[plates, :2])
+        on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(axis=2)
+        let_in = (area[own, None] <= config.members.handle_area * area[plates]) & (high[..., 2] >= view.high[plates, 2])
+        on &= let_in | (low[..., 2] >= view.low[plates, 2] - near)
+        on &= low[..., 2] <= view.high[plates, 2] + gap * near
         lies, fronts = on.any(axis=1), on.argmax(axis=1)
         served = np.unique(fronts[lies]).tolist()
         if served and (len(served) > 1 or not lies.all()):
