@@ -103,7 +103,7 @@ def lying_on_fronts(
 ) -> dict[int, tuple[tuple[int, ...], ...]]:
     """Returns for each object the shells that lie on fronts hidden in others, a group for each, where that parts it.
 
-    What is as small as a handle may be let in: it reaches the face of its front from behind.
+    What is as small as a handle may be inset: it reaches the face of its front from behind.
     """
     plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
     near, gap = config.candidates.near * Scale.of(view).extent[plates], config.members.handle_gap
@@ -116,8 +116,8 @@ def lying_on_fronts(
         grown = low[..., :2] - thin, high[..., :2] + thin  # a sheet seen from its edge has an outline, too
         shared = np.minimum(grown[1], view.high[plates, :2]) - np.maximum(grown[0], view.low[plates, :2])
         on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(axis=2)
-        let_in = (area[own, None] <= config.members.handle_area * area[plates]) & (high[..., 2] >= view.high[plates, 2])
-        on &= let_in | (low[..., 2] >= view.low[plates, 2] - near)
+        is_inset = (area[own, None] <= config.members.handle_area * area[plates]) & (high[..., 2] >= view.high[plates, 2])
+        on &= is_inset | (low[..., 2] >= view.low[plates, 2] - near)
         on &= low[..., 2] <= view.high[plates, 2] + gap * near
         lies, fronts = on.any(axis=1), on.argmax(axis=1)
         served = np.unique(fronts[lies]).tolist()
