@@ -116,7 +116,8 @@ def lying_on_fronts(
         grown = low[..., :2] - thin, high[..., :2] + thin  # a sheet seen from its edge has an outline, too
         shared = np.minimum(grown[1], view.high[plates, :2]) - np.maximum(grown[0], view.low[plates, :2])
         on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(axis=2)
-        is_inset = (area[own, None] <= config.members.handle_area * area[plates]) & (high[..., 2] >= view.high[plates, 2])
+        is_small = area[own, None] <= config.members.handle_area * area[plates]
+        is_inset = is_small & (high[..., 2] >= view.high[plates, 2])
         on &= is_inset | (low[..., 2] >= view.low[plates, 2] - near)
         on &= low[..., 2] <= view.high[plates, 2] + gap * near
         lies, fronts = on.any(axis=1), on.argmax(axis=1)
