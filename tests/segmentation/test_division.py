@@ -165,6 +165,30 @@ def test_a_pane_in_the_rails_of_an_object_is_no_front_beside_a_panel():
     assert cut(merge_meshes(CASE), door) == {}
 
 
+@pytest.mark.parametrize(("width", "is_apron"), [(0.2, True), (0.45, False)])
+def test_a_narrow_front_on_a_board_is_a_drawer_in_an_apron_and_a_wide_one_the_panel_of_a_front(width, is_apron):
+    legs = [board((x, y, 0.0), (x + 0.06, y + 0.06, 0.45)) for x in (-0.5, 0.44) for y in (-0.3, 0.24)]
+    aprons = [board((-0.44, y, 0.33), (0.44, y + 0.02, 0.45)) for y in (-0.29, 0.27)]
+    ends = [board((x, -0.27, 0.33), (x + 0.02, 0.27, 0.45)) for x in (-0.46, 0.44)]
+    front, sides = board((-width, -0.31, 0.34), (width, -0.29, 0.44)), (-width + 0.01, width - 0.02)
+    boards = [board((x, -0.27, 0.35), (x + 0.01, 0.1, 0.42)) for x in sides]
+    whole = merge_meshes([*legs, *aprons, *ends, front, *boards, board((-0.55, -0.35, 0.45), (0.55, 0.35, 0.48))])
+
+    plate = front if is_apron else merge_meshes([aprons[0], front, *boards])
+    assert rounded([plate])[0] in boxes(cut(whole), "front")
+
+
+@pytest.mark.parametrize("has_knob", [True, False])
+def test_a_solid_drawer_before_legs_is_known_by_its_knob(has_knob):
+    legs = [board((x, y, 0.0), (x + 0.08, y + 0.08, 0.5)) for x in (-0.45, 0.37) for y in (-0.35, 0.27)]
+    top, shelf = board((-0.5, -0.4, 0.5), (0.5, 0.4, 0.55)), board((-0.5, -0.4, 0.1), (0.5, 0.4, 0.13))
+    drawer = board((-0.42, -0.42, 0.34), (0.42, 0.3, 0.49))
+    knob = [board((-0.04, -0.5, 0.37), (0.04, -0.42, 0.45))] if has_knob else []
+
+    fronts = boxes(cut(merge_meshes([*legs, top, shelf, drawer, *knob])), "front")
+    assert fronts == (rounded([drawer]) if has_knob else [])
+
+
 @pytest.mark.parametrize(
     ("strip", "has_knob", "is_one"),
     [

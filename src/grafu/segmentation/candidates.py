@@ -63,8 +63,13 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
         k
         for k in found.tolist()
         if _is_seen(view, k, bool(cover[k] < config.full), config.near * float(scale.extent[k]), config)
-        and _has_room(view, k, config.room * float(shorter[k]), config)
-        and (plate[k] or _is_flanked(view, k, scale, config))
+        and (
+            (body[k] and _has_handle(view, k, config.near * float(scale.extent[k]), config))
+            or (
+                _has_room(view, k, config.room * float(shorter[k]), config)
+                and (plate[k] or _is_flanked(view, k, scale, config))
+            )
+        )
     ]
     return np.array(kept, dtype=np.int64)
 
@@ -94,6 +99,15 @@ def _is_seen(view: ShellsView, shell: int, is_frame: bool, near: float, config: 
     is_own = (first >= 0) & own[first]
     hidden = (first >= 0) & ~is_own & (depth > view.high[shell, 2] + near)
     return bool(hidden.mean() <= config.hidden and (is_frame or is_own.mean() >= config.seen))
+
+
+def _has_handle(view: ShellsView, shell: int, near: float, config: CandidateConfig) -> bool:
+    """Whether something small stands out of a body, in the middle of its height or width: a knob or a bar."""
+    on = within(view, shell, 0.0) & (np.abs(view.low[:, 2] - view.high[shell, 2]) <= near)
+    on &= view.high[:, 2] > view.high[shell, 2] + near
+    on &= np.prod(view.size[:, :2], axis=1) <= config.handle * np.prod(view.size[shell, :2])
+    middles = np.abs((view.low + view.high - view.low[shell] - view.high[shell])[:, :2]) / 2
+    return bool((on & (middles <= near).any(axis=1)).any())
 
 
 def _has_room(view: ShellsView, shell: int, least: float, config: CandidateConfig) -> bool:

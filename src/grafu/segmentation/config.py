@@ -37,6 +37,8 @@ class CandidateConfig:
     """What the faces of a drawer drawn as one body cover (of its outline) ..."""
     body: float = 0.6
     """... and how large it is at most (of its object's outline)."""
+    handle: float = 0.1
+    """A handle that tells that such a body is a drawer, whatever stands around it (of its outline)."""
     hidden: float = 0.3
     """How much of a front others may hide (of its outline)."""
     seen: float = 0.5
@@ -103,6 +105,10 @@ class MemberConfig(ShortRepr):
 
     nested: float = 0.5
     """What a larger plate covers of a smaller one where they are one front (of the smaller outline)."""
+    apron_width: float = 0.5
+    """A front that is as narrow as this on a board (of its width) ..."""
+    apron_height: float = 0.6
+    """... and as high as this (of its height) is that of a drawer in an apron."""
     whole: float = 0.8
     """A plate that covers so much may be fixed (of its object's outline) ..."""
     half: float = 0.5

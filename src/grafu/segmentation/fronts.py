@@ -156,9 +156,17 @@ class _FrontFinder:
         on = np.zeros(len(self._area), dtype=bool)
         on[plates] = True
         on &= inner & (view.low[:, 2] >= view.high[plate, 2] - near) & (view.owner == view.owner[plate])
-        covers = float(self._area[_outermost(view, np.flatnonzero(on), config.nested)].sum())
+        outer = _outermost(view, np.flatnonzero(on), config.nested)
+        covers = float(self._area[outer].sum())
         many = int(on.sum()) > 1 and covers >= config.half * self._area[plate]
-        return many and bool(self._area[plate] >= config.whole * self._scale.outline[plate])
+        if many and bool(self._area[plate] >= config.whole * self._scale.outline[plate]):
+            return True
+        return len(outer) == 1 and self._is_apron(plate, outer[0])
+
+    def _is_apron(self, plate: int, front: int) -> bool:
+        """Whether a board is longer by far than the front on it, and hardly higher: the apron of a table."""
+        ratio = self._view.size[front, :2] / self._view.size[plate, :2]
+        return bool(ratio[0] <= self._config.apron_width and ratio[1] >= self._config.apron_height)
 
     def with_members(self, plate: int, taken: Iterable[int]) -> FrontShells:
         """Returns the front of a plate: shells of its object that no front has yet, as they belong to it."""
