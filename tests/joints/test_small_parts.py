@@ -13,11 +13,14 @@ from grafu.articulation.sweep import cycle_tracks
 from grafu.asset.edit import yawed
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
+from grafu.asset.part import AnnotatedJoint
 from grafu.export.files import write_files
 from grafu.export.glb import export_glb
 from grafu.export.mjcf import export_mjcf
 from grafu.export.urdf import export_urdf
 from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
@@ -26,7 +29,7 @@ from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
 from judging import swept_collisions
-from small_scenes import DOOR, SIDE, box, cylinder, drawer, scene
+from small_scenes import DOOR, SIDE, box, cylinder, drawer, hinged, scene
 
 BACK = box("back", (-0.02, 0.38, 0.0), (0.4, 0.4, 0.6))
 OTHER_SIDE = box("other_side", (0.4, 0.0, 0.0), (0.42, 0.4, 0.6))
@@ -157,6 +160,19 @@ def test_a_knob_that_is_sunk_into_a_panel_ends_on_it_and_looks_the_same():
     assert "handle_dial" not in {skip.request for skip in report_of(made).skipped}
 
 
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_stated_knob_that_is_sunk_into_a_panel_ends_on_it_whichever_way_its_axis_points(sense):
+    dial = cylinder("dial", ((0.5, 0.01, 0.3), (0.5, -0.02, 0.3)), 0.02)
+    axis = Axis(vec3(0.5, 0.0, 0.3), vec3(0.0, sense, 0.0))
+    stated = (AnnotatedJoint("dial", JointType.CONTINUOUS, axis, 0.0, 2 * pi),)
+    asset = replace(scene(*CASE, DOOR, PANEL, dial, joints=(hinged(),)), small_joints=stated)
+    made = made_of(asset, source=MotionSource.ANNOTATION)
+    (record,) = [record for record in report_of(made).joints if record.small]
+    assert [(one.kind, round(one.amount, 3)) for one in record.clearances] == [("trimmed", 0.01)]
+    box = made.object.link("dial").mesh.box
+    assert (box.low[1], box.high[1]) == (pytest.approx(-0.02), pytest.approx(0.0, abs=5e-4))
+
+
 def test_a_knob_that_hangs_in_the_air_stays_a_piece():
     assert small_joints(made_of(*CASE, DOOR, knob(ends=(-0.035, -0.06)), mark(before=-0.06))) == {}
 
@@ -250,6 +266,16 @@ def test_a_button_is_pressed_and_made_shorter_so_that_it_cuts_into_nothing():
     record = next(record for record in report_of(made).joints if record.part == "start_button")
     assert [one.kind for one in record.clearances] == ["trimmed"]
     assert record.collision_share == 0
+
+
+def test_a_stated_button_that_travels_farther_than_half_its_length_travels_half_of_it():
+    button = box("start_button", (0.405, -0.01, 0.5), (0.415, 0.0, 0.51))
+    axis = Axis(vec3(0.41, 0.0, 0.505), vec3(0.0, 1.0, 0.0))
+    stated = (AnnotatedJoint("start_button", JointType.PRISMATIC, axis, 0.0, 0.007),)
+    asset = replace(scene(*CASE, DOOR, button, joints=(hinged(),)), small_joints=stated)
+    made = made_of(asset, source=MotionSource.ANNOTATION)
+    assert small_joints(made)["start_button"].limits.upper == pytest.approx(0.005)
+    assert made.object.link("start_button").mesh.box.high[1] == pytest.approx(-0.005)
 
 
 def test_a_button_that_may_not_be_trimmed_stays_and_the_report_says_so():

@@ -8,7 +8,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import Mat4
+from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import MeshCollider, SweptBody
@@ -132,47 +132,54 @@ def _free(
 ) -> tuple[float, _Taken, tuple[Clearance, ...]]:
     """Returns how far a part moves freely, and the part made to fit.
 
-    A button that meets what it stands on is made shorter by its travel; a knob that is sunk into it ends on it.
+    A button that meets what it stands on is made shorter by its travel, and travels half its length at most; a knob
+    that is sunk into it ends on it.
     """
-    if config.trim and taken.request.source == FOUND and taken.request.kind.turns:
-        taken, notes = _seated(taken, made, config)
+    if config.trim and taken.request.kind.turns:
+        taken, notes = _seated(taken, wanted, made, config)
         return _opening(taken, wanted, made, config), taken, notes
     opening = _opening(taken, wanted, made, config)
     if opening >= config.restricted * wanted or taken.request.kind.turns or not config.trim:
         return opening, taken, ()
-    shorter = _shortened(taken, wanted)
-    if shorter is None:
-        return opening, taken, ()
-    opening = _opening(shorter, wanted, made, config)
     length = _span(taken)
-    note = Clearance(taken.request.moving, "trimmed", wanted, wanted / length, "it would cut in as it is pressed")
+    travel = min(wanted, length / 2)
+    shorter = _shortened(taken, travel)
+    opening = _opening(shorter, travel, made, config)
+    note = Clearance(taken.request.moving, "trimmed", travel, travel / length, "it would cut in as it is pressed")
     return opening, shorter, (note,)
 
 
-def _seated(taken: _Taken, made: ArticulatedObject, config: RealizationConfig) -> tuple[_Taken, tuple[Clearance, ...]]:
-    """Returns a part whose inner end is pressed flat by the least depth at which it cuts into nothing at rest.
+def _seated(
+    taken: _Taken, wanted: float, made: ArticulatedObject, config: RealizationConfig
+) -> tuple[_Taken, tuple[Clearance, ...]]:
+    """Returns a part whose inner end is pressed flat by the least depth at which it turns without cutting in.
 
-    It stays as it is where it cuts into nothing, or still does with as much of it pressed as may be: it has a bearing.
+    It stays as it is where it cuts into nothing at rest, or still does with as much of it pressed as may be: it has a
+    bearing.
     """
     length = _span(taken)
     low, high = 0.0, config.small.sunk * length
-    if not _cuts(taken, made, config) or _cuts(_pressed(taken, high), made, config):
+    if not _cuts(taken, 0.0, made, config) or _cuts(_pressed(taken, high), wanted, made, config):
         return taken, ()
     while high - low > config.depth * _extent(made):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if _cuts(_pressed(taken, middle), made, config) else (low, middle)
+        low, high = (middle, high) if _cuts(_pressed(taken, middle), wanted, made, config) else (low, middle)
     note = Clearance(taken.request.moving, "trimmed", high, high / length, "it was sunk into what it stands on")
     return _pressed(taken, high), (note,)
 
 
-def _cuts(taken: _Taken, made: ArticulatedObject, config: RealizationConfig) -> bool:
-    body, near = _swept(taken, 0.0, made, config)
-    return bool(blockers_at(body, np.eye(4), near))
+def _cuts(taken: _Taken, upper: float, made: ArticulatedObject, config: RealizationConfig) -> bool:
+    """Whether a part cuts into anything at rest, or before it has moved so far."""
+    body, near = _swept(taken, upper, made, config)
+    motion = taken.request.kind.along(taken.request.axis)
+    return bool(blockers_at(body, np.eye(4), near)) or (
+        upper > 0 and widest_free(body, motion, upper, near, config.fine_poses, config.short) < upper
+    )
 
 
 def _pressed(taken: _Taken, depth: float) -> _Taken:
     """Returns a part without what lies deeper than so far before its inner end, metres: pressed onto a plane."""
-    direction = taken.request.axis.direction
+    direction = _outward(taken)
     plane = depth + min(float((visual.mesh.vertices @ direction).min()) for visual in taken.visuals)
 
     def pressed(mesh: TriangleMesh) -> TriangleMesh:
@@ -181,6 +188,15 @@ def _pressed(taken: _Taken, depth: float) -> _Taken:
 
     visuals = (replace(v, surfaces=tuple(replace(s, mesh=pressed(s.mesh)) for s in v.surfaces)) for v in taken.visuals)
     return replace(taken, visuals=tuple(visuals))
+
+
+def _outward(taken: _Taken) -> Vec3:
+    """Returns the direction of the axis that leads away from the middle of what carries the part."""
+    direction = taken.request.axis.direction
+    names = {visual.name for visual in taken.visuals}
+    carrier = Box.enclosing(visual.mesh.box for visual in taken.link.visuals if visual.name not in names)
+    own = Box.enclosing(visual.mesh.box for visual in taken.visuals)
+    return direction if float((own.center - carrier.center) @ direction) >= 0 else -direction
 
 
 def _opening(taken: _Taken, wanted: float, made: ArticulatedObject, config: RealizationConfig) -> float:
@@ -211,11 +227,9 @@ def _span(taken: _Taken) -> float:
     return float(np.ptp(along))
 
 
-def _shortened(taken: _Taken, travel: float) -> _Taken | None:
-    """Returns a part that ends sooner on the side to which it moves, by its travel; None where little would be left."""
+def _shortened(taken: _Taken, travel: float) -> _Taken:
+    """Returns a part that ends sooner on the side to which it moves, by its travel."""
     direction, length = taken.request.axis.direction, _span(taken)
-    if length < 2 * travel:
-        return None
     outer = min(float((visual.mesh.vertices @ direction).min()) for visual in taken.visuals)
     T = _scaling(direction, (length - travel) / length, outer)
     visuals = (replace(v, surfaces=tuple(s.transformed(T) for s in v.surfaces)) for v in taken.visuals)

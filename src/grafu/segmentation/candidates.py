@@ -102,7 +102,9 @@ def _is_seen(view: ShellsView, shell: int, is_frame: bool, near: float, config: 
 
 
 def _has_handle(view: ShellsView, shell: int, near: float, config: CandidateConfig) -> bool:
-    """Whether something small stands out of a body, in the middle of its height or width: a knob or a bar."""
+    """Whether something small stands out of the middle of a body as deep as a drawer: a knob or a bar, of no panel."""
+    if view.size[shell, 2] < view.size[shell, :2].min():
+        return False
     on = within(view, shell, 0.0) & (np.abs(view.low[:, 2] - view.high[shell, 2]) <= near)
     on &= view.high[:, 2] > view.high[shell, 2] + near
     on &= np.prod(view.size[:, :2], axis=1) <= config.handle * np.prod(view.size[shell, :2])
