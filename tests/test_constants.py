@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grafu.articulation.mass import MassConfig
-from grafu.asset.bodies import SlidingDoorConfig
+from grafu.asset.body_kinds import SlidingDoorConfig
 from grafu.asset.cutting import CutConfig
 from grafu.asset.drafts import GroupConfig
 from grafu.asset.foreign.agreement import AgreementConfig

@@ -63,6 +63,21 @@ def test_what_follows_nothing_that_moves_has_no_coupling(tmp_path, mimic):
     assert [joint.coupling for joint in asset.joints] == [None] * 3
 
 
+@pytest.mark.parametrize(("length", "is_handle"), [(0.12, True), (0.3, False)])
+def test_what_is_small_and_turns_on_a_door_is_its_handle_with_a_small_joint(tmp_path, length, is_handle):
+    lever = urdf_text(
+        '<link name="movable"><visual><origin xyz="0.3 -0.02 0.5"/><geometry>'
+        f'<box size="{length} 0.02 0.02"/></geometry></visual></link>'
+        '<joint name="turn" type="revolute"><parent link="door_link"/><child link="movable"/>'
+        '<axis xyz="0 -1 0"/><limit lower="0" upper="0.8"/></joint>'
+    )
+    asset = load_annotated(write_urdf(tmp_path, lever))
+    part = next(part for part in asset.parts if part.source.name == "movable")
+    assert (part.label is PartLabel.HANDLE, part.carried_by) == (is_handle, "door_link")
+    assert [joint.part == part.id for joint in asset.small_joints] == [True] * is_handle
+    assert (part.id in {joint.part for joint in asset.joints}) is not is_handle
+
+
 def test_lengths_of_a_coupling_grow_with_the_model():
     axis = Axis(np.zeros(3), np.eye(3)[2])
     turn = AnnotatedJoint("a", JointType.REVOLUTE, axis, 0.0, 1.0)

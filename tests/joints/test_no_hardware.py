@@ -89,6 +89,18 @@ def test_a_board_that_fills_its_opening_does_not_slide_out_of_it():
     assert skipped(result) == {"drawer": Reason.NO_ROOM}
 
 
+@pytest.mark.parametrize(("name", "slides"), [("door", True), ("drawer", False)])
+def test_the_leaf_of_a_sliding_door_slides_without_tracks_and_no_board_of_a_drawer_does(name, slides):
+    """It stands in a case all around it, open at one end, and there is no track."""
+    leaf = box(name, (0.0, -0.02, 0.0), (0.8, 0.02, 2.0))
+    case = [box(f"wall_{k}", (0.0, y, -0.03), (1.6, y + 0.03, 2.03)) for k, y in enumerate((-0.0501, 0.0201))]
+    case += [box(f"end_{k}", (0.0, -0.0201, z), (1.6, 0.0201, z + 0.03)) for k, z in enumerate((-0.0301, 2.0001))]
+    asset = scene(leaf, *case, joints=(sliding(name, (1.0, 0.0, 0.0), 0.7),))
+    result = realize(plan_from_annotation(asset), asset, replace(GALLERY, rails=()), UNTRIMMED)
+
+    assert ([joint.template for joint in installed(result).values()] == [NO_HARDWARE]) is slides
+
+
 @pytest.mark.parametrize(("has_handle", "is_case"), [(True, False), (True, True), (False, True)])
 def test_what_is_only_guessed_to_be_a_drawer_is_one_without_rails_if_it_has_a_handle_and_is_no_case(
     has_handle, is_case

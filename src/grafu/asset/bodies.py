@@ -10,35 +10,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import final
 
-import numpy as np
-
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import motion_kind
+from grafu.asset.body_kinds import is_lever, slides_in_its_plane
 from grafu.asset.drafts import PartDraft
 from grafu.asset.labels import is_control, is_piece, label_of
 from grafu.asset.names import unique_ids, words
 from grafu.asset.part import AnnotatedJoint, Annotation, Part, PartSource
 from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
-from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import merge_meshes
 from grafu.vocabulary import JointType, PartLabel
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class SlidingDoorConfig:
-    """What counts as a sliding door where no name tells.
-
-    Raises:
-        ValueError: if a fraction is not between 0 and 1.
-    """
-
-    flat: float = 0.35
-    """Largest thickness of an upright plate that slides along itself (fraction of its next larger side)."""
-
-    def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
 
 
 @final
@@ -125,14 +108,22 @@ def annotation_of_bodies(bodies: list[Body], up: int) -> Annotation | None:
         up: the index of the vertical axis in the input's coordinates.
     """
     notes: list[str] = []
+    by_link = {body.link: body for body in bodies}
     moving_bodies = {body.link for body in bodies if _is_moving(body, notes)}
+    levers = {link for link in moving_bodies if _is_lever(by_link[link], by_link, moving_bodies)}
+    moving_bodies -= levers
     if not moving_bodies:
         return None
-    by_link = {body.link: body for body in bodies}
     drafts: list[_Draft] = []
     for body in bodies:
         carrier = _carrier(body, by_link, moving_bodies)
-        drafts += _moving(body, carrier, up) if body.link in moving_bodies else _static(body, carrier, notes)
+        if body.link in moving_bodies:
+            drafts += _moving(body, carrier, up)
+        elif body.link in levers:
+            notes.append(f"{body.name} ({body.link}) turns on what it opens: it has a joint with --small-parts only")
+            drafts += [_Draft(v.name, PartLabel.HANDLE, "joint", (v,), carrier) for v in body.visuals]
+        else:
+            drafts += _static(body, carrier, notes)
     drafts = [d for d in drafts if any(not s.is_empty for v in d.visuals for s in v.surfaces)]
     ids = unique_ids((d.name, d.label is PartLabel.HANDLE) for d in drafts)
     moving_ids = {d.visuals[0].link: i for d, i in zip(drafts, ids, strict=True) if d.is_moving}
@@ -186,6 +177,16 @@ def _is_moving(body: Body, notes: list[str]) -> bool:
     return any(label_of(v.name) is not PartLabel.HANDLE for v in body.visuals) or body.parent is None
 
 
+def _is_lever(body: Body, by_link: Mapping[str, Body], moving_bodies: set[str]) -> bool:
+    if body.motion is None or not motion_kind(body.motion.type).turns or body.parent not in moving_bodies:
+        return False
+    return is_lever(_size(body.visuals), _size(by_link[body.parent].visuals))
+
+
+def _size(visuals: Iterable[BodyVisual]) -> Vec3:
+    return merge_meshes([s.mesh for v in visuals for s in v.surfaces]).box.size
+
+
 def _carrier(body: Body, by_link: dict[str, Body], moving_bodies: set[str]) -> str | None:
     seen = {body.link}
     parent = body.parent
@@ -230,17 +231,7 @@ def _label_of_motion(spoken: PartLabel, rest: tuple[BodyVisual, ...], motion: St
         return motion_kind(motion.type).label
     if spoken is not PartLabel.UNKNOWN:
         return spoken
-    return PartLabel.DOOR if _slides_in_its_plane(rest, motion, up) else PartLabel.DRAWER
-
-
-def _slides_in_its_plane(
-    visuals: tuple[BodyVisual, ...], motion: StatedMotion, up: int, config: SlidingDoorConfig = SlidingDoorConfig()
-) -> bool:
-    """Whether the motion shifts an upright plate along itself: a sliding door, not a drawer or a tray."""
-    size = merge_meshes([s.mesh for v in visuals for s in v.surfaces]).box.size
-    along = int(np.argmax(np.abs(motion.axis.direction)))
-    thin = int(np.argmin(size))
-    return along != up and thin not in (up, along) and bool(size[thin] < config.flat * np.delete(size, thin).min())
+    return PartLabel.DOOR if slides_in_its_plane(_size(rest), motion.axis.direction, up) else PartLabel.DRAWER
 
 
 def _static(body: Body, carrier: str | None, notes: list[str]) -> list[_Draft]:

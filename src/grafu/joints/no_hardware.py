@@ -13,7 +13,7 @@ from grafu.joints.rail.body_region import is_shallow
 from grafu.joints.rail.search import DrawerSearch, slides_in_its_plane
 from grafu.joints.report import Placement
 from grafu.scene.scene import Scene
-from grafu.vocabulary import MechanismClass
+from grafu.vocabulary import MechanismClass, PartLabel
 
 NO_HARDWARE = "none"
 """`Placement.template` of a joint without hardware."""
@@ -54,14 +54,14 @@ def _about(axis: Axis, search: DoorSearch) -> Placement | None:
 def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
-    It is None too for a single board, such as a front without a box, where hardware was chosen, where the drawer would
-    come away from all static parts, and where it has no handle and only a guess states that it is a drawer: cases slide
-    as freely.
+    It is None too for a single board, such as a front without a box, but not for the leaf of a sliding door; where
+    hardware was chosen, where the drawer would come away from all static parts, and where it has no handle and only a
+    guess states that it is a drawer: cases slide as freely.
     """
-    frame, config = search.frame, search.config
-    is_board = slides_in_its_plane(search.scene.parts[search.request.moving].mesh, frame.slide, config.drawer)
-    is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
-    if is_board or not _is_sure(search):
+    frame, config, part = search.frame, search.config, search.scene.parts[search.request.moving]
+    is_leaf = slides_in_its_plane(part.mesh, frame.slide, config.drawer)
+    is_side = frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
+    if (part.label is not PartLabel.DOOR if is_leaf else is_side) or not _is_sure(search):
         return None
     upper = search.travel(search.reach)
     wanted = min(search.request.reference or search.wanted, search.reach)

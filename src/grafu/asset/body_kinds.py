@@ -1,0 +1,65 @@
+"""What a moving body is where no name tells: a sliding door or a drawer, a lever or a door."""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.geometry.arrays import Vec3
+from grafu.geometry.config_checks import require_ratios
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class SlidingDoorConfig:
+    """What counts as a sliding door where no name tells.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    flat: float = 0.35
+    """Largest thickness of an upright plate that slides along itself (fraction of its next larger side)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class LeverConfig:
+    """What is the handle of a door, where it turns by itself.
+
+    Raises:
+        ValueError: if the fraction is not between 0 and 1.
+    """
+
+    most: float = 0.25
+    """Largest side of a handle (fraction of the largest side of what it turns on)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, "most")
+
+
+def is_lever(size: Vec3, whole: Vec3, config: LeverConfig = LeverConfig()) -> bool:
+    """Whether what turns on a moving body is small against that: the lever or knob of a building's door.
+
+    Args:
+        size: its extents.
+        whole: those of what it turns on.
+        config: what is small.
+    """
+    return float(size.max()) <= config.most * float(whole.max())
+
+
+def slides_in_its_plane(size: Vec3, direction: Vec3, up: int, config: SlidingDoorConfig = SlidingDoorConfig()) -> bool:
+    """Whether the motion shifts an upright plate along itself: a sliding door, not a drawer or a tray.
+
+    Args:
+        size: its extents.
+        direction: that in which it slides.
+        up: the index of the vertical axis.
+        config: what is a plate.
+    """
+    along, thin = int(np.argmax(np.abs(direction))), int(np.argmin(size))
+    return along != up and thin not in (up, along) and bool(size[thin] < config.flat * np.delete(size, thin).min())
