@@ -2,11 +2,14 @@
 
 from dataclasses import replace
 
+import manifold3d
 import numpy as np
 import pytest
 
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.plan import AUTOMATIC, JointChoice
@@ -32,6 +35,16 @@ def knuckles(x, y=-0.008):
     return [cylinder(f"knuckle_{x}_{low}", ((x, y, low), (x, y, high))) for low, high in heights]
 
 
+def leaved(x, y, low, bore):
+    """A barrel of 6 mm with a leaf of 15 mm behind it, and a pin hole if it has a bore: one shell."""
+    barrel = manifold3d.Manifold.cylinder(0.06, 0.006, circular_segments=32)
+    leaf = manifold3d.Manifold.cube((0.004, 0.015, 0.06)).translate((-0.002, 0.0, 0.0))
+    whole = (barrel + leaf) - manifold3d.Manifold.cylinder(0.06, 0.003, circular_segments=32) if bore else barrel + leaf
+    made = whole.translate((x, y, low)).to_mesh()
+    mesh = TriangleMesh(np.asarray(made.vert_properties[:, :3], float), np.asarray(made.tri_verts, int))
+    return replace(box(f"leaved_{low}", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=(Surface(mesh),))
+
+
 def rod(name="rod", y=-0.01, ends=(0.0, 0.4), carried_by="door"):
     return cylinder(name, ((ends[0], y, 0.006), (ends[1], y, 0.006)), carried_by=carried_by)
 
@@ -55,6 +68,13 @@ def test_a_door_turns_about_the_border_that_has_its_hinges():
     assert opens_towards(before)[1] < 0
     assert opens_towards(after)[1] < 0
     assert after.mounts == ()
+
+
+@pytest.mark.parametrize("bore", [True, False])
+def test_the_barrel_of_a_hinge_may_be_one_shell_with_its_leaf(bore):
+    _, after = told(LEAF, *CASE, leaved(0.404, -0.022, 0.08, bore), leaved(0.404, -0.022, 0.46, bore))
+
+    assert np.allclose(after.axis.point[:2], (0.404, -0.022), atol=1e-5)
 
 
 def test_it_is_built_there_on_the_hinges_that_are_drawn():

@@ -9,6 +9,7 @@ from functools import cache
 from typing import TypeAlias, final
 
 import numpy as np
+from jaxtyping import Float
 
 from grafu.asset.part import Asset
 from grafu.geometry.axis import Axis
@@ -174,20 +175,39 @@ def _barrels(frame: BorderFrame, moving: str, model: _Model) -> Iterator[Barrel]
 
 
 def _as_barrel(shell: TriangleMesh, part: str, frame: BorderFrame, config: DrawnConfig) -> Iterator[Barrel]:
-    """Yields a shell as a barrel, if it is a cylinder near the border and along it, with the radius of a hinge's."""
+    """Yields the barrel of a shell near the border and along it, if it has one with the radius of a hinge's.
+
+    A shell is a cylinder, or a cylinder at an end of a leaf that is no wider.
+    """
     local = frame.to_border(shell.vertices)
     box = Box.around(local)
     is_beside = box.low[0] >= -config.reach and box.high[0] <= config.reach
     is_level = box.low[1] >= -frame.thickness - config.reach and box.high[1] <= config.reach
-    radius = float(box.size[:2].max()) / 2
+    size = box.size[:2]
+    is_round = bool(size.max() * config.round <= size.min())
+    radius = float(size.max() if is_round else size.min()) / 2
     if not (is_beside and is_level and config.radii[0] <= radius <= config.radii[1]) or box.size[2] < radius:
         return
-    x, y = float(box.center[0]), float(box.center[1])
-    off = np.hypot(local[:, 0] - x, local[:, 1] - y)
-    is_rim = off > (1 - config.round) * radius
-    on_rim = np.abs(off[is_rim] - radius) <= (1 - config.round) * radius
-    if len(on_rim) >= config.corners and np.count_nonzero(on_rim) >= config.round * len(on_rim):
-        yield Barrel(part, x, y, float(box.low[2]), float(box.high[2]))
+    along = int(np.argmax(size))
+    for side in (0.0,) if is_round else (-1.0, 1.0):
+        middle = box.center[:2].copy()
+        middle[along] += side * (float(size[along]) / 2 - radius)
+        outer = local[:, :2][
+            side * (local[:, along] - middle[along]) >= 0
+        ]  # all of a cylinder, the half at a leaf's end
+        if _lies_on_rim(outer - middle, radius, config):
+            yield Barrel(part, float(middle[0]), float(middle[1]), float(box.low[2]), float(box.high[2]))
+
+
+def _lies_on_rim(points: Float[np.ndarray, "n 2"], radius: float, config: DrawnConfig) -> bool:
+    """Whether points around a pin lie on a rim, but for those of caps, and for those of a bore or a pin within it."""
+    off = np.hypot(*points.T)
+    off, near = off[off > (1 - config.round) * radius], (1 - config.round) * radius
+    on_rim = np.abs(off - radius) <= near
+    inner = off[~on_rim]
+    in_bore = np.count_nonzero(np.abs(inner - np.median(inner)) <= near) if len(inner) else 0
+    found = int(np.count_nonzero(on_rim))
+    return bool(found >= config.corners and found + in_bore >= config.round * len(off))
 
 
 def _lines(barrels: Sequence[Barrel], within: float) -> list[list[Barrel]]:
