@@ -127,6 +127,17 @@ def test_the_back_behind_all_fronts_does_not_count_as_one_because_they_lie_befor
     assert boxes(found, "front") == rounded(doors)
 
 
+@pytest.mark.parametrize("turns", [0, 2])
+def test_fronts_with_handles_are_clearer_than_a_back_in_two_panels(turns):
+    T = np.linalg.matrix_power(QUARTER, turns)
+    backs = [board((x, 0.205, 0.1), (x + 0.38, 0.215, 0.9)) for x in (-0.39, 0.01)]
+    names = [name for name in CABINET if name != "back_panel-5"]
+    found = cut(merge_meshes([*map(mesh_of, names), *backs]).transformed(T))
+
+    doors = [mesh_of(name).transformed(T) for name in (DOOR[0], "drawer_front-9")]
+    assert boxes(found, "front") == rounded(doors)
+
+
 def test_the_only_object_of_an_input_is_a_case_also_where_it_looks_like_a_drawer():
     """A base cabinet has no top, and its door is as wide as its sides stand apart."""
     names = ("vertical_side_panel-1", "vertical_side_panel-2", "bottom_panel-4", "back_panel-5")

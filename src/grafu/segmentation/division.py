@@ -116,26 +116,30 @@ def _from_the_best_side(
 ) -> FoundFronts:
     """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
 
-    A side or the back is a plate that is alone and has no handle, so such a front is not clear.
+    A side or the back is a plate that is alone and has no handle, so such a front is not clear. Where all is one
+    object, two fronts with handles are clearer than fronts without: a back in two panels has none.
     """
     several = np.bincount(shells.owner, minlength=len(whole)) > 1
     may = (several & may_be_cut)[shells.owner]
     if not may.any():
         return FoundFronts({}, {})
-    ahead = clear = FoundFronts({}, {})
-    handled: dict[int, FrontShells] = {}
-    most = 0.0
+    sides: list[FoundFronts] = []
+    ranks: list[tuple[bool, bool, float]] = []
     for turn in range(4):
         view = view_of(shells.mesh, shells.shell, shells.owner, axes_from(turn))
         found = fronts_by_object(view, may, whole, config)
-        if turn == 0 and found.clear:
+        clear = [front for fronts in found.clear.values() for front in fronts]
+        is_held = len(whole) > 1 or sum(bool(front.handles) for front in clear) > 1
+        if turn == 0 and clear and is_held:
             return found
-        area = sum(outline(view, front) for fronts in found.clear.values() for front in fronts)
-        ahead = found if turn == 0 else ahead
-        clear, most = (replace(found, hidden=found.clear), area) if area > most else (clear, most)
-        handled = handled or found.with_handles
-    chosen = clear if clear.hidden else ahead
-    return chosen if chosen.hidden else FoundFronts({}, handled)
+        area = sum(outline(view, front) for front in clear)
+        sides.append(found)
+        ranks.append((bool(clear) and is_held, bool(clear) and turn == 0, area))
+    best = max(range(4), key=lambda turn: ranks[turn])
+    ahead, handled = sides[0], next((side.with_handles for side in sides if side.with_handles), {})
+    if best > 0 and ranks[best][2] > 0:
+        return replace(sides[best], hidden=sides[best].clear)
+    return ahead if ahead.hidden else FoundFronts({}, handled)
 
 
 def axes_from(turn: int) -> Mat3:
