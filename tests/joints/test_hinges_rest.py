@@ -8,10 +8,11 @@ import trimesh
 
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.config import RealizationConfig
-from grafu.joints.hinge.candidates import Tolerances, ruled_pins
+from grafu.joints.hinge.candidates import Tolerances, heights_to_try, ruled_pins
 from grafu.joints.hinge.survey import BorderSurvey
 from grafu.joints.hinge_config import PinConfig
 from grafu.scene.border import border_frame, without_handle
@@ -21,6 +22,7 @@ from small_scenes import DOOR, LEFT_EDGE, box, hinged, scene
 
 BESIDE = box("side", (-0.02, -0.02, 0.0), (-0.002, 0.4, 0.6))
 RADIUS = 0.0036
+RIGHT_EDGE = Axis(vec3(0.4, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
 
 
 def with_shapes(part, *meshes):
@@ -111,3 +113,35 @@ def test_no_block_where_a_pivot_carries_the_door():
 
     assert installed(result)["door"].template == "pivot"
     assert blocks(result) == []
+
+
+def test_a_pair_of_doors_tries_the_same_heights_in_the_same_order():
+    left, right = (border_frame(DOOR.mesh, axis) for axis in (LEFT_EDGE, RIGHT_EDGE))
+    heights = [
+        [[float(frame.to_object(vec3(0.0, 0.0, z)[None])[0, 2]) for z in levels] for levels in heights_to_try(frame, 2)]
+        for frame in (left, right)
+    ]
+
+    assert left.rotation[2, 2] * right.rotation[2, 2] < 0
+    assert np.allclose(heights[0], heights[1])
+
+
+def test_hinges_of_a_door_are_out_of_the_way_only_all_together():
+    """Stops that end within leaves: each hinge alone would be free once it is shifted along the pin, both are not."""
+    plain = realized(scene(DOOR, BESIDE, joints=(hinged(),)))
+    leaves = sorted((v.mesh.box for v in hardware(plain, "door")[0]), key=lambda leaf: leaf.low[2])
+    deep = 1.5 * 0.0004 * 0.6
+    stops = [
+        _stop("low stop", leaves[0], leaves[0].low[2] - 0.004, leaves[0].low[2] + deep),
+        _stop("high stop", leaves[-1], leaves[-1].high[2] - deep, leaves[-1].high[2] + 0.004),
+    ]
+    found = realized(scene(DOOR, BESIDE, *stops, joints=(hinged(),)))
+    beside = sorted((v.mesh.box for v in hardware(found, "door")[0]), key=lambda leaf: leaf.low[2])
+
+    assert len(leaves) == len(beside) == 2
+    assert beside[0].low[2] == pytest.approx(leaves[0].low[2], abs=1e-4)
+    assert beside[1].high[2] < leaves[1].high[2] or beside[1].low[2] > stops[1].box.high[2]
+
+
+def _stop(name, leaf, low, high):
+    return box(name, (leaf.low[0], leaf.low[1], low), (-1e-4, leaf.high[1], high))

@@ -41,9 +41,9 @@ REASONS = {
     "lifts.py": {"_LEVEL": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
-    "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING},
+    "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING, "_HEIGHT_SHIFTS": SAMPLES},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
-    "hinge/place.py": {"_FEWEST": EFFORT, "_HEIGHT_SHIFTS": SAMPLES, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
+    "hinge/place.py": {"_FEWEST": EFFORT, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
     "limits.py": {
         "_REST_DENSITY": SAMPLES,
         "_DIP": TOLERANCE,

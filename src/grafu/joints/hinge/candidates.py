@@ -27,6 +27,7 @@ from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
 from grafu.vocabulary import MechanismClass, PartLabel
 
 PIVOTS, MAKESHIFT = 4, 5  # preferences: of pivots after C, F, P and inset leaves, of makeshift mounts after all
+_HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
 
 
 @final
@@ -209,6 +210,17 @@ def hinge_count(length: float, config: HingeConfig) -> int:
 def hinge_heights(length: float, count: int) -> np.ndarray:
     """Returns the z of each hinge: the i-th of N at i / (N + 1) of the height (supplement, Search and Snap)."""
     return (np.arange(1, count + 1) / (count + 1) - 0.5) * length
+
+
+def heights_to_try(frame: BorderFrame, count: int) -> Iterator[list[float]]:
+    """Yields for each hinge the z in the frame at which to try it, its own first.
+
+    From the lowest hinge up, and each shifted up before down: where a pair of doors has to shift hinges, it shifts both
+    doors' alike, though the frame of one stands on its head.
+    """
+    up = -1 if frame.rotation[2, 2] < 0 and abs(frame.rotation[2, 2]) > abs(frame.rotation[:2, 2]).max() else 1
+    for z in hinge_heights(frame.length, count)[::up]:
+        yield [float(z) + up * ratio * frame.length for ratio in _HEIGHT_SHIFTS]
 
 
 def hinge_size(

@@ -90,7 +90,7 @@ OF_PLACE = frozenset((PACKED, HANGING))  # the same for all templates of a class
 class HingeSite:
     """What hinge hardware is tested against: the door, static parts, the other moving bodies and their motions.
 
-    `holders` are the parts that alone may hold it (empty: any).
+    `holders` are the parts that alone may hold it (empty: any); `beside` is the door's moving hardware placed so far.
     """
 
     moving: str
@@ -110,6 +110,7 @@ class HingeSite:
     config: HingeConfig
     block: BlockConfig
     holders: tuple[str, ...] = ()
+    beside: tuple[TriangleMesh, ...] = ()
 
 
 @final
@@ -214,8 +215,9 @@ def _static_in_the_way(static: list[TriangleMesh], site: HingeSite) -> bool:
 
 def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: HingeSite) -> bool:
     """Whether the moving hardware cuts into static parts somewhere, or into other moving bodies at rest."""
-    body = _body(dynamic, site)
-    box = Box.enclosing(mesh.box for mesh in dynamic)
+    together = [*dynamic, *site.beside]  # on one door no hinge gets out of the way alone
+    body = _body(together, site)
+    box = Box.enclosing(mesh.box for mesh in together)
     near = in_the_way(site.obstacles, swept_box(box, site.motion, site.upper))
     if not is_free(body, site.motion, site.upper, near, _POSES):
         return True

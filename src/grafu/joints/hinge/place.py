@@ -15,6 +15,7 @@ from grafu.joints.hinge.candidates import (
     PIVOTS,
     PinCandidate,
     fit_hinge,
+    heights_to_try,
     hinge_heights,
     hinge_size,
     is_leaf,
@@ -39,7 +40,6 @@ from grafu.joints.report import Placement
 from grafu.joints.support_block import nearest_part
 from grafu.templates.template import Gallery, HingeModel, HingeSize
 
-_HEIGHT_SHIFTS = (0.0, 0.04, -0.04, 0.08, -0.08, 0.12, -0.12, 0.2, -0.2, 0.28, -0.28, 0.31, -0.31)
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
 _Drawbacks = tuple[int, bool, bool, int]
 _FEWEST = 2  # hinges of a door that has no room for all
@@ -238,8 +238,7 @@ def _installed(
         return
     size = _on_material(model, size, pin, site, count, search)
     taken: list[float] = []
-    for z in hinge_heights(search.frame.length, count):
-        levels = [float(z) + ratio * search.frame.length for ratio in _HEIGHT_SHIFTS]
+    for levels in heights_to_try(search.frame, count):
         free = (level for level in levels if all(abs(level - other) > size.length for other in taken))
         tries = ((level, install(fit_hinge(model, size, search.frame, pin, level), pin, site)) for level in free)
         found = _first_unstruck((level, hinge) for level, hinge in tries if hinge is not None)
@@ -247,6 +246,7 @@ def _installed(
             yield None
             return
         taken.append(found[0])
+        site = replace(site, beside=(*site.beside, *found[1].dynamic_meshes))
         yield found[1]
 
 
