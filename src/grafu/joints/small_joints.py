@@ -2,20 +2,21 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import pi
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import Mat4
+from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import translation
 from grafu.joints.config import RealizationConfig
-from grafu.joints.limits import blockers_at, in_the_way, sweep, swept_box, widest_free
+from grafu.joints.limits import blockers_at, in_the_way, opening_values, sweep, swept_box, widest_free
 from grafu.joints.measuring import gap_between
 from grafu.joints.no_hardware import DRAWN
 from grafu.joints.plan import JointRequest
@@ -134,7 +135,7 @@ def _free(
 
     A button that meets what it stands on is made shorter by its travel; a knob that is sunk into it ends on it.
     """
-    if config.trim and taken.request.source == FOUND and taken.request.kind.turns:
+    if config.trim and taken.request.kind.turns:
         taken, notes = _seated(taken, made, config)
         return _opening(taken, wanted, made, config), taken, notes
     opening = _opening(taken, wanted, made, config)
@@ -150,29 +151,37 @@ def _free(
 
 
 def _seated(taken: _Taken, made: ArticulatedObject, config: RealizationConfig) -> tuple[_Taken, tuple[Clearance, ...]]:
-    """Returns a part whose inner end is pressed flat by the least depth at which it cuts into nothing at rest.
+    """Returns a part whose inner end is pressed flat by the least depth at which it cuts into nothing as it turns.
 
-    It stays as it is where it cuts into nothing, or still does with as much of it pressed as may be: it has a bearing.
+    An axis that was found points out of what holds the part; of one that is stated, either end may be sunk. A part
+    stays as it is where it cuts into nothing, or still does with as much of it pressed as may be: it has a bearing.
     """
-    length = _span(taken)
-    low, high = 0.0, config.small.sunk * length
-    if not _cuts(taken, made, config) or _cuts(_pressed(taken, high), made, config):
+    length, most = _span(taken), config.small.sunk * _span(taken)
+    axis = taken.request.axis.direction
+    ways = (axis,) if taken.request.source == FOUND else (axis, -axis)
+    outward = next((way for way in ways if not _cuts(_pressed(taken, most, way), made, config)), None)
+    if outward is None or not _cuts(taken, made, config):
         return taken, ()
+    low, high = 0.0, most
     while high - low > config.depth * _extent(made):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if _cuts(_pressed(taken, middle), made, config) else (low, middle)
+        low, high = (middle, high) if _cuts(_pressed(taken, middle, outward), made, config) else (low, middle)
     note = Clearance(taken.request.moving, "trimmed", high, high / length, "it was sunk into what it stands on")
-    return _pressed(taken, high), (note,)
+    return _pressed(taken, high, outward), (note,)
 
 
 def _cuts(taken: _Taken, made: ArticulatedObject, config: RealizationConfig) -> bool:
-    body, near = _swept(taken, 0.0, made, config)
-    return bool(blockers_at(body, np.eye(4), near))
+    wanted = taken.request.reference or 2 * pi
+    body, near = _swept(taken, wanted, made, config)
+    motion = taken.request.kind.along(taken.request.axis)
+    return any(blockers_at(body, motion(value), near) for value in opening_values(wanted, config.fine_poses))
 
 
-def _pressed(taken: _Taken, depth: float) -> _Taken:
-    """Returns a part without what lies deeper than so far before its inner end, metres: pressed onto a plane."""
-    direction = taken.request.axis.direction
+def _pressed(taken: _Taken, depth: float, direction: Vec3) -> _Taken:
+    """Returns a part without what lies deeper than so far before its inner end, metres: pressed onto a plane.
+
+    `direction` points from the inner end to the outer one.
+    """
     plane = depth + min(float((visual.mesh.vertices @ direction).min()) for visual in taken.visuals)
 
     def pressed(mesh: TriangleMesh) -> TriangleMesh:

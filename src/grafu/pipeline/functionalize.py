@@ -192,7 +192,8 @@ def functionalize(
     completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
-    if settings.small_parts:  # most runs do without
+    with_small = settings.small_parts or (motion.reads_annotation and bool(asset.small_joints))
+    if with_small:  # most runs do without
         from grafu.joints.small_joints import with_small_parts
         from grafu.joints.small_parts import without_turntables
     if not motion.reads_annotation:
@@ -213,7 +214,7 @@ def functionalize(
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     realized = replace(realized, object=fitted_object(realized.object, fittings))
-    if settings.small_parts:
+    if with_small:
         realized = stages.timed("small parts", partial(with_small_parts, realized, asset, joints), lambda _: realized)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
