@@ -66,6 +66,8 @@ def test_pieces_wholes_and_controls_are_told_apart():
     assert is_control("knob")
     assert is_control("Caster_2")
     assert not is_control("door_knob")
+    assert is_control("door_button")
+    assert not is_control("button_door")
 
 
 @given(st.text(max_size=20), st.booleans())

@@ -26,6 +26,7 @@ from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
+from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
@@ -198,7 +199,8 @@ def functionalize(
         from grafu.joints.small_parts import without_turntables
     if not motion.reads_annotation:
         lifting = at_scale(joints.lift, metre_on(asset.extent))
-        plan = with_lifts(with_drawn_hinges(plan, asset, joints), completion.completed, lifting)
+        plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
+        plan = with_lifts(plan, completion.completed, lifting)
         plan = without_turntables(plan, asset) if settings.small_parts else plan
     plan = with_choices(
         plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
