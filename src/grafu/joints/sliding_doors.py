@@ -15,8 +15,8 @@ from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
+from grafu.graph.edges import Slide
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.vocabulary import JointType
 
 SOURCE = "rule"
 """`JointRequest.source` of a sliding door: its name tells."""
@@ -26,7 +26,7 @@ _UP = 2
 
 @final
 @dataclass(frozen=True)
-class SlidingDoorConfig:
+class NamedSlideConfig:
     """When a door that is called sliding does so; all are fractions of its own sides.
 
     Raises:
@@ -38,14 +38,14 @@ class SlidingDoorConfig:
     room: float = 0.5
     """Within the piece it needs room beside it for at least this fraction of its width."""
     lap: float = 0.1
-    """What it cuts into by more than this on its way, another door, is in its way (fraction of its thickness)."""
+    """What it cuts into by more than this as it slides, another door, blocks it (fraction of its thickness)."""
 
     def __post_init__(self) -> None:
         require_ratios(self, "thin", "room", "lap")
 
 
 def with_sliding_doors(
-    plan: RealizationPlan, asset: Asset, config: SlidingDoorConfig = SlidingDoorConfig()
+    plan: RealizationPlan, asset: Asset, config: NamedSlideConfig = NamedSlideConfig()
 ) -> RealizationPlan:
     """Returns the plan in which doors that are called sliding slide to the side with more room, and do not turn.
 
@@ -56,20 +56,20 @@ def with_sliding_doors(
     return replace(plan, joints=tuple(joints))
 
 
-def _sliding(request: JointRequest, asset: Asset, doors: list[Part], config: SlidingDoorConfig) -> JointRequest:
+def _sliding(request: JointRequest, asset: Asset, doors: list[Part], config: NamedSlideConfig) -> JointRequest:
     """Returns the request of a hinged door that is called sliding as one that slides; any other as it is."""
     leaf = asset.part(request.moving)
     if not _WORDS & set(spoken(leaf.source.name)):
         return request
-    shift = next(_ways(leaf, asset, doors, config), None)
+    shift = next(_shifts(leaf, asset, doors, config), None)
     if shift is None:
         return request
     reach = float(np.abs(shift).max())
     axis = Axis(leaf.box.center, shift / reach)
-    return JointRequest(request.moving, JointType.PRISMATIC, axis, SOURCE, reach, (), request.attached)
+    return JointRequest(request.moving, Slide.joint_type, axis, SOURCE, reach, (), request.attached)
 
 
-def _ways(leaf: Part, asset: Asset, doors: list[Part], config: SlidingDoorConfig) -> Iterator[Vec3]:
+def _shifts(leaf: Part, asset: Asset, doors: list[Part], config: NamedSlideConfig) -> Iterator[Vec3]:
     """Yields the shifts of an upright leaf along X or Y to beside where it stands, metres, the longer first."""
     across = int(np.argmin(leaf.box.size))
     if across == _UP or leaf.box.size[across] > config.thin * np.delete(leaf.box.size, across).min():
@@ -78,7 +78,7 @@ def _ways(leaf: Part, asset: Asset, doors: list[Part], config: SlidingDoorConfig
     width = float(leaf.box.size[along])
     rooms = ((asset.box.high - leaf.box.high)[along], (leaf.box.low - asset.box.low)[along])
     inner = leaf.box.grown(-config.lap * float(leaf.box.size[across]))
-    for room, sign in sorted(zip(rooms, (1.0, -1.0), strict=True), key=lambda way: -way[0]):
+    for room, sign in sorted(zip(rooms, (1.0, -1.0), strict=True), key=lambda side: -side[0]):
         shift = sign * min(float(room), width) * np.eye(3)[along]
         moved = Box(inner.low + shift, inner.high + shift)
         if room >= config.room * width and not any(d is not leaf and d.box.overlaps(moved) for d in doors):

@@ -158,8 +158,8 @@ def _seated(taken: _Taken, made: ArticulatedObject, config: RealizationConfig) -
     """
     length, most = _span(taken), config.small.sunk * _span(taken)
     axis = taken.request.axis.direction
-    ways = (axis,) if taken.request.source == FOUND else (axis, -axis)
-    outward = next((way for way in ways if not _cuts(_pressed(taken, most, way), made, config)), None)
+    sides = (axis,) if taken.request.source == FOUND else (axis, -axis)
+    outward = next((side for side in sides if not _cuts(_pressed(taken, most, side), made, config)), None)
     if outward is None or not _cuts(taken, made, config):
         return taken, ()
     low, high = 0.0, most

@@ -194,14 +194,8 @@ def functionalize(
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
     with_small = settings.small_parts or (motion.reads_annotation and bool(asset.small_joints))
-    if with_small:  # most runs do without
-        from grafu.joints.small_joints import with_small_parts
-        from grafu.joints.small_parts import without_turntables
     if not motion.reads_annotation:
-        lifting = at_scale(joints.lift, metre_on(asset.extent))
-        plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
-        plan = with_lifts(plan, completion.completed, lifting)
-        plan = without_turntables(plan, asset) if settings.small_parts else plan
+        plan = _shown_by_shape(plan, asset, completion, joints, with_small)
     plan = with_choices(
         plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
     )
@@ -216,7 +210,9 @@ def functionalize(
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     realized = replace(realized, object=fitted_object(realized.object, fittings))
-    if with_small:
+    if with_small:  # most runs do without
+        from grafu.joints.small_joints import with_small_parts
+
         realized = stages.timed("small parts", partial(with_small_parts, realized, asset, joints), lambda _: realized)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
@@ -235,6 +231,19 @@ def functionalize(
         stated,
         frozenset(settings.motions),
     )
+
+
+def _shown_by_shape(
+    plan: RealizationPlan, asset: Asset, completion: GraphCompletion, joints: RealizationConfig, with_small: bool
+) -> RealizationPlan:
+    """Returns a predicted plan with what shape and names alone show of how parts move."""
+    plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
+    plan = with_lifts(plan, completion.completed, at_scale(joints.lift, metre_on(asset.extent)))
+    if not with_small:
+        return plan
+    from grafu.joints.small_parts import without_turntables
+
+    return without_turntables(plan, asset)
 
 
 def _with_source(
