@@ -89,7 +89,7 @@ OF_MODULES = {
         "pieces.py": {},
         "plausibility.py": {},
         "reading.py": {"_FLATNESS": TOLERANCE},
-        "scale.py": {"STORAGE": SOLD, "TABLE": SOLD, "UNITS": SOLD},
+        "scale.py": {"DOOR": SOLD, "STORAGE": SOLD, "TABLE": SOLD, "WINDOW": SOLD, "UNITS": SOLD},
         "standing.py": {"_PLACES": NUMBERING},
     },
     "metrics": {"panels.py": {"POSES": SAMPLES}},

@@ -68,6 +68,8 @@ def test_pieces_wholes_and_controls_are_told_apart():
     assert not is_control("door_knob")
     assert is_control("door_button-1")
     assert not is_control("button_drawer")
+    assert is_control("door_button")
+    assert not is_control("button_door")
 
 
 @given(st.text(max_size=20), st.booleans())

@@ -335,4 +335,19 @@ def test_a_urdf_with_small_joints_gives_them_again(files):
     (joint,) = small_joints(again).values()
     assert joint.type is JointType.CONTINUOUS
     assert np.allclose(joint.axis.direction, (0, -1, 0), atol=1e-6)
-    assert small_joints(made_of(asset, source=MotionSource.ANNOTATION, small=False)) == {}
+    assert set(small_joints(made_of(asset, source=MotionSource.ANNOTATION, small=False))) == {joint.child}
+    assert small_joints(made_of(asset, source=MotionSource.RULE, small=False)) == {}
+
+
+@pytest.mark.parametrize("outward", [-1.0, 1.0])
+def test_a_stated_knob_that_is_sunk_into_a_panel_ends_on_it_whichever_way_its_axis_points(outward):
+    dial = cylinder("handle_dial", ((0.5, 0.01, 0.3), (0.5, -0.02, 0.3)), 0.02)
+    turning = AnnotatedJoint(
+        "handle_dial", JointType.REVOLUTE, Axis(vec3(0.5, 0, 0.3), vec3(0, outward, 0)), 0.0, 0.0, False
+    )
+    asset = scene(*CASE, DOOR, PANEL, dial, joints=(hinged(),))
+    made = made_of(replace(asset, small_joints=(turning,)), source=MotionSource.ANNOTATION, small=False)
+    (record,) = [record for record in report_of(made).joints if record.small]
+    assert (record.type, record.collision_share) == ("continuous", 0)
+    box = made.object.link("handle_dial").mesh.box
+    assert (box.low[1], box.high[1]) == (pytest.approx(-0.02), pytest.approx(0.0, abs=1e-3))

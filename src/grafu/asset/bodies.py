@@ -120,7 +120,7 @@ def annotation_of_bodies(bodies: list[Body], up: int) -> Annotation | None:
         if body.link in moving_bodies:
             drafts += _moving(body, carrier, up)
         elif body.link in levers:
-            notes.append(f"{body.name} ({body.link}) turns on what it opens: it has a joint with --small-parts only")
+            notes.append(f"{body.name} ({body.link}) turns on what it opens: it is a small part, which moves by itself")
             drafts += [_Draft(v.name, PartLabel.HANDLE, "joint", (v,), carrier) for v in body.visuals]
         else:
             drafts += _static(body, carrier, notes)
@@ -171,7 +171,7 @@ def _is_moving(body: Body, notes: list[str]) -> bool:
     if body.motion is None and _spoken_label(body, body.visuals) is PartLabel.UNKNOWN:
         return False
     if all(is_control(n) or label_of(n) is PartLabel.HANDLE for n in names) or is_control(body.name):
-        stays = "kept in place" if body.motion is None else "it has a joint with --small-parts only"
+        stays = "kept in place" if body.motion is None else "it is a small part, which moves by itself"
         notes.append(f"{body.name} ({body.link}) is annotated to move, but is no door or drawer: {stays}")
         return False
     return any(label_of(v.name) is not PartLabel.HANDLE for v in body.visuals) or body.parent is None

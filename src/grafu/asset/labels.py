@@ -71,7 +71,7 @@ TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
 
 # Things that furniture annotations give joints to although no hinge or rail carries them.
 _CONTROLS = frozenset({"wheel", "caster", "castor", "knob", "nob", "button", "switch", "lever", "dial", "lock", "key"})
-_CONTROLS_OF_FRONTS = frozenset({"wheel", "caster", "castor", "button", "switch", "dial"})
+_LEAF_CONTROLS = word_set("knob nob lock key")
 _PLACES = word_set(
     "left right upper lower top bottom middle center centre mid front back rear side inner outer lateral vertical "
     "horizontal first second third sliding fixed"
@@ -131,11 +131,14 @@ def label_of(name: str) -> PartLabel:
 
 
 def is_control(name: str) -> bool:
-    """Whether the name is that of a wheel, caster, knob, button or the like: it may turn, but on no hinge or rail."""
-    words = [singular(w) for w in spoken(name)]
-    said = set(words)
-    of_front = bool(said & {"door", "drawer"})  # a door's knob is its handle, but its button is none
-    return bool(said & _CONTROLS) and (not of_front or words[-1] in _CONTROLS_OF_FRONTS)
+    """Whether the name is that of a wheel, caster, knob, button or the like: it may turn, but on no hinge or rail.
+
+    A `door_button` is a button: what a name ends in tells what it names; a `lock_door` is a door.
+    """
+    said = [singular(w) for w in spoken(name)]
+    if {"door", "drawer"} & set(said):
+        return bool(said) and said[-1] in _CONTROLS - _LEAF_CONTROLS
+    return bool(_CONTROLS & set(said))
 
 
 def is_chest(name: str) -> bool:

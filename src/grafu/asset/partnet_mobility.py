@@ -5,9 +5,10 @@ makers' `mobility.urdf` is read by what it states.
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import final
 
 import numpy as np
@@ -173,7 +174,9 @@ def _vector(holder: JsonObject, key: str) -> tuple[float, ...] | None:
 
 
 CONVENTION = Convention("the data set (PartNet-Mobility)", up="+Y", front="+Z", normalised=True)
-_TABLES = frozenset({"table", "desk"})
+_KINDS: Mapping[str, Furniture] = MappingProxyType(
+    {"table": "table", "desk": "table", "door": "door", "window": "window"}
+)
 
 
 @final
@@ -246,7 +249,7 @@ def _furniture(folder: Path, files: ModelFiles) -> Furniture | None:
         return None
     meta = read_json(path, files, EXPECTED)
     category = str(meta.get("model_cat", ""))[:100].lower() if isinstance(meta, dict) else ""
-    return "table" if category in _TABLES else "storage" if "storage" in category else None
+    return _KINDS.get(category, "storage" if "storage" in category else None)
 
 
 def _bodies_from_urdf(folder: Path, files: ModelFiles) -> UrdfBodies:

@@ -68,7 +68,7 @@ class Placing:
         return replace(self._made[key][1], name=surface.name)
 
 
-Furniture = Literal["storage", "table"]
+Furniture = Literal["storage", "table", "door", "window"]
 
 
 @final

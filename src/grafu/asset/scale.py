@@ -6,10 +6,12 @@ estimate is their weighted mean on a logarithmic scale, so scaling the input sca
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final, final
 
 import numpy as np
 
+from grafu.asset.names import singular, spoken
 from grafu.asset.part import Part
 from grafu.asset.reading import Furniture
 from grafu.geometry.box import Box
@@ -47,10 +49,27 @@ TABLE: Final[dict[str, UsualSize]] = {
     "drawer height": UsualSize(0.13, 0.4),
     "panel thickness": UsualSize(0.025, 0.5),
 }
+# Doors and windows of buildings, with their frames.
+DOOR: Final[dict[str, UsualSize]] = {
+    "height": UsualSize(2.10, 0.1),
+    "width": UsualSize(1.00, 0.4),
+    "door height": UsualSize(2.02, 0.1),
+}
+WINDOW: Final[dict[str, UsualSize]] = {
+    "height": UsualSize(1.30, 0.3),
+    "width": UsualSize(1.10, 0.4),
+}
+_USUAL: Final[dict[Furniture, dict[str, UsualSize]]] = {
+    "storage": STORAGE,
+    "table": TABLE,
+    "door": DOOR,
+    "window": WINDOW,
+}
 # A unit in common use, in metres.
 UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "inches": 0.0254}
 _RARE: Final = ("inches",)
 _OF_FRONTS: Final = frozenset(("door width", "door height", "drawer width", "drawer height", "handle length"))
+_DOORWAYS: Final = frozenset(("doorway", "doorframe", "jamb", "architrave"))
 _PANELS = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF, PartLabel.DIVIDER)
 
 
@@ -83,6 +102,8 @@ class ScaleConfig:
     """Distance of the middle of what hangs about the origin from it (fraction of half the sides)."""
     radii: tuple[float, float] = (0.99, 1.08)
     """Least and greatest radius of the sphere about the origin in which it lies (in units)."""
+    doorway: float = 0.4
+    """Greatest depth of a door with its frame (fraction of its width)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -114,12 +135,14 @@ class Estimate:
     @property
     def spread(self) -> float:
         """The standard error of the scale (fraction of it), from the spreads of the sizes that it rests on."""
-        usual = TABLE if self.kind == "table" else STORAGE
+        usual = _USUAL[self.kind]
         weight = sum(usual[name].spread ** -2 for name in self.measures)
         return math.expm1(weight**-0.5) if weight else math.inf
 
 
-def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furniture | None) -> Estimate:
+def estimate_scale(
+    parts: tuple[Part, ...], whole: Box, up: int, furniture: Furniture | None, config: ScaleConfig = ScaleConfig()
+) -> Estimate:
     """Returns the likely metric scale of a piece of furniture.
 
     Args:
@@ -127,9 +150,10 @@ def estimate_scale(parts: tuple[Part, ...], whole: Box, up: int, furniture: Furn
         whole: the box around them.
         up: the index of the vertical axis.
         furniture: what kind it is, where the input states it.
+        config: what a doorway looks like.
     """
-    kind = furniture or _kind(parts, whole, up)
-    usual = TABLE if kind == "table" else STORAGE
+    kind = furniture or _kind(parts, whole, up, config)
+    usual = _USUAL[kind]
     found = {k: v for k, v in _measures(parts, whole, up).items() if v > 0}
     known = sorted(set(found) & set(usual), key=lambda k: (usual[k].spread, k))
     weights = np.array([usual[k].spread ** -2 for k in known])
@@ -166,12 +190,23 @@ def is_normalised(parts: tuple[Part, ...], whole: Box, config: ScaleConfig = Sca
     return config.radii[0] < radius < config.radii[1]
 
 
-def _kind(parts: tuple[Part, ...], whole: Box, up: int) -> Furniture:
+def _kind(parts: tuple[Part, ...], whole: Box, up: int, config: ScaleConfig) -> Furniture:
     labels = {p.label for p in parts}
+    if PartLabel.DRAWER not in labels and _is_doorway(parts, whole, up, config):
+        return "door"
     if PartLabel.TOP_PANEL not in labels or PartLabel.LEG not in labels:
         return "storage"
     legs = [p.box.size[up] for p in parts if p.label is PartLabel.LEG]
     return "table" if legs and max(legs) > 0.5 * whole.size[up] else "storage"
+
+
+def _is_doorway(parts: tuple[Part, ...], whole: Box, up: int, config: ScaleConfig) -> bool:
+    """Whether a thin object, higher than wide, has a part that is called a door's frame, or one of its jambs."""
+    depth, width = np.sort(np.delete(whole.size, up))
+    if depth > config.doorway * width or width > whole.size[up]:
+        return False
+    names = [tuple(singular(word) for word in spoken(p.source.name)) for p in parts]
+    return any(_DOORWAYS & set(name) or ("door", "frame") in pairwise(name) for name in names)
 
 
 def _measures(parts: tuple[Part, ...], whole: Box, up: int) -> dict[str, float]:

@@ -54,18 +54,29 @@ def _about(axis: Axis, search: DoorSearch) -> Placement | None:
 def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
-    It is None too for a single board, such as a front without a box, but not for the leaf of a sliding door; where
-    hardware was chosen, where the drawer would come away from all static parts, and where it has no handle and only a
-    guess states that it is a drawer: cases slide as freely.
+    It is None too for a single board, such as a front without a box, unless it is a sliding door; where hardware was
+    chosen, where the drawer would come away from all static parts, and where it has no handle and only a guess states
+    that it is a drawer: cases slide as freely.
     """
     frame, config, part = search.frame, search.config, search.scene.parts[search.request.moving]
-    is_leaf = slides_in_its_plane(part.mesh, frame.slide, config.drawer)
-    is_side = frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
-    if (part.label is not PartLabel.DOOR if is_leaf else is_side) or not _is_sure(search):
+    is_board = slides_in_its_plane(part.mesh, frame.slide, config.drawer)
+    if is_board and part.label is PartLabel.DOOR:
+        return _sliding_door(search)
+    is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
+    if is_board or not _is_sure(search):
         return None
     upper = search.travel(search.reach)
     wanted = min(search.request.reference or search.wanted, search.reach)
     if upper < config.restricted * wanted:
+        return None
+    return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+
+
+def _sliding_door(search: DrawerSearch) -> Placement | None:
+    """Returns the joint of a sliding door in what guides it, which the model has: a track, a pocket, a frame."""
+    wanted = min(search.request.reference or search.reach, search.reach)
+    upper = search.travel(wanted)
+    if upper < search.config.restricted * wanted:
         return None
     return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
 

@@ -26,6 +26,7 @@ from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
+from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
@@ -192,13 +193,9 @@ def functionalize(
     completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
-    if settings.small_parts:  # most runs do without
-        from grafu.joints.small_joints import with_small_parts
-        from grafu.joints.small_parts import without_turntables
+    with_small = settings.small_parts or (motion.reads_annotation and bool(asset.small_joints))
     if not motion.reads_annotation:
-        lifting = at_scale(joints.lift, metre_on(asset.extent))
-        plan = with_lifts(with_drawn_hinges(plan, asset, joints), completion.completed, lifting)
-        plan = without_turntables(plan, asset) if settings.small_parts else plan
+        plan = _shown_by_shape(plan, asset, completion, joints, with_small)
     plan = with_choices(
         plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
     )
@@ -213,7 +210,9 @@ def functionalize(
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     realized = replace(realized, object=fitted_object(realized.object, fittings))
-    if settings.small_parts:
+    if with_small:  # most runs do without
+        from grafu.joints.small_joints import with_small_parts
+
         realized = stages.timed("small parts", partial(with_small_parts, realized, asset, joints), lambda _: realized)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
@@ -232,6 +231,19 @@ def functionalize(
         stated,
         frozenset(settings.motions),
     )
+
+
+def _shown_by_shape(
+    plan: RealizationPlan, asset: Asset, completion: GraphCompletion, joints: RealizationConfig, with_small: bool
+) -> RealizationPlan:
+    """Returns a predicted plan with what shape and names alone show of how parts move."""
+    plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
+    plan = with_lifts(plan, completion.completed, at_scale(joints.lift, metre_on(asset.extent)))
+    if not with_small:
+        return plan
+    from grafu.joints.small_parts import without_turntables
+
+    return without_turntables(plan, asset)
 
 
 def _with_source(

@@ -120,14 +120,20 @@ def _manifold(solid: ConvexSolid) -> manifold3d.Manifold:
 _TURN_STEP = np.radians(5.0)
 _MOST_PLANES = 26  # of a box with its edges and corners bevelled
 _SAMPLES = 2000  # points on a part where it is looked at
-_MOST_SOLIDS = 400  # a piece whose cutting triangles would sweep out more is covered by its convex hull
+MOST_SOLIDS = 400  # a piece whose cutting triangles would sweep out more is covered by its convex hull
 
 
-def carve(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
-    """Returns the scene with the path cut out of those blockers that lose less than the limit."""
+def carve(
+    scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig, most: int = MOST_SOLIDS
+) -> tuple[Scene, list[Clearance]]:
+    """Returns the scene with the path cut out of those blockers that lose less than the limit.
+
+    A piece whose cutting triangles would sweep out more than `most` solids is covered by its convex hull: that is
+    faster, and cuts more.
+    """
     ids = [name for name in ids if len(scene.parts[name].mesh.faces) <= config.carved_faces]
     play = config.clearance.play * config.depth * scene.extent
-    solids = list(_swept_solids(scene, path, ids, play, config))
+    solids = list(_swept_solids(scene, path, ids, play, config, most))
     carved: list[Part] = []
     done: list[Clearance] = []
     for name in ids:
@@ -169,12 +175,12 @@ def _is_hidden(scene: Scene, part: Part, solids: Sequence[ConvexSolid], config: 
 
 
 def _swept_solids(
-    scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
+    scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig, most: int
 ) -> Iterator[ConvexSolid]:
     """Yields convex solids that cover the path of whatever of the moving body cuts into a blocker, with some play."""
     poses = [path.motion(v) for v in np.linspace(0.0, path.reach, _steps(path) + 1)]
     boxes = [scene.parts[name].box for name in ids]
-    for points in _cutting_pieces(scene, path, ids, play, config):
+    for points in _cutting_pieces(scene, path, ids, play, config, most):
         for step in pairwise(poses):
             swept = np.vstack([transform_points(T, points) for T in step])
             if not any(Box.around(swept).overlaps(box, play) for box in boxes):
@@ -190,7 +196,7 @@ def _steps(path: Path) -> int:
 
 
 def _cutting_pieces(
-    scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig
+    scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig, most: int
 ) -> Iterator[Points]:
     """Yields the corners, with play, of what cuts in: a convex piece's hull, or the triangles of other pieces."""
     mesh = scene.moving_mesh(path.moving)
@@ -202,7 +208,7 @@ def _cutting_pieces(
         piece = mesh.with_faces(numbers == number)
         faces = cutting[numbers[cutting] == number]
         hull = ConvexSolid.around(piece.vertices)
-        if hull is not None and (len(faces) * _steps(path) > _MOST_SOLIDS or _is_convex(piece, hull, play)):
+        if hull is not None and (len(faces) * _steps(path) > most or _is_convex(piece, hull, play)):
             yield _grown(np.asarray(hull.vertices), play, path.axes)
         else:
             yield from (_grown(triangle, play, path.axes) for triangle in mesh.triangles[faces])

@@ -120,6 +120,7 @@ def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 
+_FINELY = 2000  # solids with which a path is cut by triangles where hulls would cut away too much
 _GAPS = (2.5, 4.0, 6.0)  # on each side, in tolerated penetrations
 _STEPS: tuple[_Step, ...] = (
     adopt,
@@ -132,4 +133,5 @@ _STEPS: tuple[_Step, ...] = (
     carve,
     partial(trim, at_back=True),
     carve,
+    partial(carve, most=_FINELY),
 )
