@@ -160,19 +160,6 @@ def test_a_knob_that_is_sunk_into_a_panel_ends_on_it_and_looks_the_same():
     assert "handle_dial" not in {skip.request for skip in report_of(made).skipped}
 
 
-@pytest.mark.parametrize("sense", [1.0, -1.0])
-def test_a_stated_knob_that_is_sunk_into_a_panel_ends_on_it_whichever_way_its_axis_points(sense):
-    dial = cylinder("dial", ((0.5, 0.01, 0.3), (0.5, -0.02, 0.3)), 0.02)
-    axis = Axis(vec3(0.5, 0.0, 0.3), vec3(0.0, sense, 0.0))
-    stated = (AnnotatedJoint("dial", JointType.CONTINUOUS, axis, 0.0, 2 * pi),)
-    asset = replace(scene(*CASE, DOOR, PANEL, dial, joints=(hinged(),)), small_joints=stated)
-    made = made_of(asset, source=MotionSource.ANNOTATION)
-    (record,) = [record for record in report_of(made).joints if record.small]
-    assert [(one.kind, round(one.amount, 3)) for one in record.clearances] == [("trimmed", 0.01)]
-    box = made.object.link("dial").mesh.box
-    assert (box.low[1], box.high[1]) == (pytest.approx(-0.02), pytest.approx(0.0, abs=5e-4))
-
-
 def test_a_knob_that_hangs_in_the_air_stays_a_piece():
     assert small_joints(made_of(*CASE, DOOR, knob(ends=(-0.035, -0.06)), mark(before=-0.06))) == {}
 
