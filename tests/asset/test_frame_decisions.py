@@ -92,6 +92,19 @@ def test_units_are_told_by_plausible_sizes():
     assert likely_unit(size / 0.12, tiny) is None
 
 
+@pytest.mark.parametrize(("frame", "metres"), [("door_frame", 2.1), ("Türrahmen", 2.1), ("case", None)])
+def test_a_door_of_a_building_has_the_height_of_one_in_any_unit(frame, metres):
+    for unit in (1.0, 0.4):
+        sides = [((-0.5, -0.07, 0.0), (-0.45, 0.07, 2.1)), ((0.45, -0.07, 0.0), (0.5, 0.07, 2.1))]
+        boxes = [(f"{frame}_{k}", low, high) for k, (low, high) in enumerate(sides)]
+        boxes.append(("door", (-0.44, -0.02, 0.01), (0.44, 0.02, 2.08)))
+        parts = tuple(box(n, *(tuple(unit * x for x in corner) for corner in (a, b))) for n, a, b in boxes)
+        estimate = estimate_scale(parts, whole_box(parts), 2, None)
+        height = estimate.scale * unit * 2.1
+        assert estimate.kind == ("door" if metres else "storage")
+        assert not metres or abs(height - metres) < 0.15
+
+
 def test_a_unit_sphere_about_the_origin_is_normalised_and_a_floor_is_not():
     asset = cabinet()
     hung = reading_of(asset, turned("+Z", "-Y") - np.outer([0, 0, asset.box.center[2], 0], [0, 0, 0, 1.0])).parts

@@ -11,13 +11,17 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.clearance.carve import Path, carve
 from grafu.joints.config import RealizationConfig
+from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.nesting import bodies_of
 from grafu.refusal import Reason
+from grafu.scene.scene import Scene
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door
 from grafu.synth.noise import edits
 from judging import installed, made_kind, realized, realized_kind, solid, swept_collisions
-from small_scenes import DOOR, SIDE, box, drawer, hinged, scene
+from small_scenes import DOOR, SIDE, box, drawer, hinged, scene, sliding
 
 KINDS = ("doors into the case", "inset door into the side", "drawer into both walls")
 NO_TRIM = RealizationConfig(trim=False)
@@ -262,3 +266,24 @@ def test_what_is_not_seen_or_a_drawn_bearing_makes_way_where_other_parts_would_l
     if is_carved:
         assert installed(result)["drawer"].collision_share == 0.0
         assert volume(visuals(result)[name].surfaces) >= 0.4 * volume(stuck.surfaces)
+
+
+def test_triangles_cut_less_than_the_hull_of_what_is_hollow():
+    sides = [((-0.1, -0.1, 0.0), (0.1, 0.1, 0.01)), ((-0.1, -0.1, 0.0), (-0.09, 0.1, 0.2))]
+    sides.append(((0.09, -0.1, 0.0), (0.1, 0.1, 0.2)))
+    trough = trimesh.boolean.union([trimesh.creation.box(bounds=bounds) for bounds in sides], engine="manifold")
+    fine = trough.subdivide_to_size(0.006)
+    part = replace(
+        box("trough", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=(Surface(TriangleMesh.from_trimesh(fine)),)
+    )
+    block = box("block", (-0.05, -0.05, 0.009), (0.05, 0.05, 0.109))
+    made = scene(part, block, joints=(sliding("trough", (0.0, 0.0, -1.0), 0.1),))
+    parts = {p.id: p for p in made.parts}
+    built = Scene(parts, bodies_of(plan_from_annotation(made).joints), made.extent)
+    axis = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0))
+    path = Path("trough", axis.shift, 0.1, np.eye(3), False)
+
+    assert carve(built, path, ["block"], RealizationConfig(), 10)[1] == []
+    (done,) = carve(built, path, ["block"], RealizationConfig(), 10_000)[1]
+    assert (done.part, done.kind) == ("block", "carved")
+    assert done.volume_share < 0.05

@@ -160,6 +160,19 @@ def test_a_knob_that_is_sunk_into_a_panel_ends_on_it_and_looks_the_same():
     assert "handle_dial" not in {skip.request for skip in report_of(made).skipped}
 
 
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_stated_knob_that_is_sunk_into_a_panel_ends_on_it_whichever_way_its_axis_points(sense):
+    dial = cylinder("dial", ((0.5, 0.01, 0.3), (0.5, -0.02, 0.3)), 0.02)
+    axis = Axis(vec3(0.5, 0.0, 0.3), vec3(0.0, sense, 0.0))
+    stated = (AnnotatedJoint("dial", JointType.CONTINUOUS, axis, 0.0, 2 * pi),)
+    asset = replace(scene(*CASE, DOOR, PANEL, dial, joints=(hinged(),)), small_joints=stated)
+    made = made_of(asset, source=MotionSource.ANNOTATION)
+    (record,) = [record for record in report_of(made).joints if record.small]
+    assert [(one.kind, round(one.amount, 3)) for one in record.clearances] == [("trimmed", 0.01)]
+    box = made.object.link("dial").mesh.box
+    assert (box.low[1], box.high[1]) == (pytest.approx(-0.02), pytest.approx(0.0, abs=5e-4))
+
+
 def test_a_knob_that_hangs_in_the_air_stays_a_piece():
     assert small_joints(made_of(*CASE, DOOR, knob(ends=(-0.035, -0.06)), mark(before=-0.06))) == {}
 
@@ -326,15 +339,13 @@ def test_a_urdf_with_small_joints_gives_them_again(files):
     assert small_joints(made_of(asset, source=MotionSource.RULE, small=False)) == {}
 
 
-@pytest.mark.parametrize("outward", [-1.0, 1.0])
-def test_a_stated_knob_that_is_sunk_into_a_panel_ends_on_it_whichever_way_its_axis_points(outward):
-    dial = cylinder("handle_dial", ((0.5, 0.01, 0.3), (0.5, -0.02, 0.3)), 0.02)
-    turning = AnnotatedJoint(
-        "handle_dial", JointType.REVOLUTE, Axis(vec3(0.5, 0, 0.3), vec3(0, outward, 0)), 0.0, 0.0, False
+def test_a_stated_button_is_pressed_as_far_as_its_range_spans():
+    button = box("door_button", (0.48, -0.016, 0.28), (0.52, 0.0, 0.32))
+    pressed = AnnotatedJoint(
+        "door_button", JointType.PRISMATIC, Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0)), -0.009, -0.004
     )
-    asset = scene(*CASE, DOOR, PANEL, dial, joints=(hinged(),))
-    made = made_of(replace(asset, small_joints=(turning,)), source=MotionSource.ANNOTATION, small=False)
-    (record,) = [record for record in report_of(made).joints if record.small]
-    assert (record.type, record.collision_share) == ("continuous", 0)
-    box = made.object.link("handle_dial").mesh.box
-    assert (box.low[1], box.high[1]) == (pytest.approx(-0.02), pytest.approx(0.0, abs=1e-3))
+    asset = replace(scene(*CASE, DOOR, PANEL, button, joints=(hinged(),)), small_joints=(pressed,))
+    made = made_of(asset, source=MotionSource.ANNOTATION, small=False)
+    (joint,) = small_joints(made).values()
+    assert joint.limits.upper == pytest.approx(0.005)
+    assert joint.axis.direction[1] == pytest.approx(1.0)

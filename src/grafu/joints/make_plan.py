@@ -118,7 +118,7 @@ def request_of_joint(joint: AnnotatedJoint, asset: Asset, config: PlanConfig) ->
     axis = joint.axis if opens_up else joint.axis.reversed()
     before, after = (lower, upper) if opens_up else (-upper, -lower)
     drawn_at = -before if min(-before, after) > config.play * max(-before, after) else 0.0
-    reference: float | None = after - before if drawn_at or before > 0 else after
+    reference: float | None = after - before if drawn_at else max(abs(before), abs(after))
     if not joint.limited and motion_kind(joint.type).slides:
         reference = None  # a quarter turn is a door's usual opening; how far a drawer comes out is unknown
     attached = attached_to(asset, ()).get(joint.part, ())

@@ -35,6 +35,8 @@ def stated_small_parts(asset: Asset, config: PlanConfig = PlanConfig()) -> tuple
         request = replace(request_of_joint(joint, asset, config), drawn_at=0.0, attached=joint.members)
         if request.kind.turns and not joint.limited:
             request = replace(request, type=JointType.CONTINUOUS, reference=2 * pi)
+        elif joint.limited and request.kind.slides:  # a button goes as far as its range spans, wherever it begins
+            request = replace(request, reference=abs(joint.upper - joint.lower))
         found.append(request)
     return tuple(found)
 
