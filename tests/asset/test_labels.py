@@ -65,6 +65,7 @@ def test_pieces_wholes_and_controls_are_told_apart():
     assert not any(is_whole_part(n) for n in ("doors", "drawer_unit", "drawer_side", "shelf"))
     assert is_control("knob")
     assert is_control("Caster_2")
+    assert is_control("heatknob")
     assert not is_control("door_knob")
     assert is_control("door_button-1")
     assert not is_control("button_drawer")

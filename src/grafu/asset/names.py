@@ -75,7 +75,7 @@ _GENERIC = word_set(
     "brown sweethome opening mirrored"
 )
 _PREPOSITIONS = word_set("of for with in at from under above below behind beneath on to")
-_SUFFIXES = ("drawers", "drawer", "doors", "door", "handle", "shelf", "hinge", "schublade", "griff")
+_SUFFIXES = ("drawers", "drawer", "doors", "door", "handle", "knob", "shelf", "hinge", "schublade", "griff")
 _LEAST_PREFIX = 4
 _LINKS = ("", "n", "en", "s", "es", "e")  # between the parts of a German compound
 _HAN = re.compile(r"[\u3005-\u30ff\u3400-\u9fff]+")
