@@ -6,12 +6,15 @@ import numpy as np
 
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import from_rotation
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.body_region import is_shallow
 from grafu.joints.rail.search import DrawerSearch, slides_in_its_plane
 from grafu.joints.report import Placement
+from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 from grafu.vocabulary import MechanismClass, PartLabel
 
@@ -74,11 +77,29 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
 
 def _sliding_door(search: DrawerSearch) -> Placement | None:
     """Returns the joint of a sliding door in what guides it, which the model has: a track, a pocket, a frame."""
+    if not _is_guided(search):
+        return None
     wanted = min(search.request.reference or search.reach, search.reach)
     upper = search.travel(wanted)
     if upper < search.config.restricted * wanted:
         return None
     return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+
+
+def _is_guided(search: DrawerSearch) -> bool:
+    """Whether something static is near both edges of a leaf along its way, or both its faces."""
+    scene, mesh = search.scene, search.scene.parts[search.request.moving].mesh
+    axes, near = part_axes(mesh), search.config.no_hardware_gap * search.scene.extent
+    local = Box.around(mesh.vertices @ axes)
+    along = int(np.argmax(np.abs(search.axis.direction @ axes)))
+
+    def is_near(axis: int, end: float) -> bool:
+        low, high = local.low.copy(), local.high.copy()
+        low[axis] = high[axis] = end
+        side = TriangleMesh.box_mesh(Box(low, high)).transformed(from_rotation(axes))
+        return scene.is_near_static(side, near, search.request.holders)
+
+    return any(is_near(k, local.low[k]) and is_near(k, local.high[k]) for k in range(3) if k != along)
 
 
 def _is_sure(search: DrawerSearch) -> bool:
