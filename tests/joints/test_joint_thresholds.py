@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
+from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.hinge.candidates import hinge_count
-from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import (
     BehindConfig,

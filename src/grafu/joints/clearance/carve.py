@@ -45,11 +45,14 @@ class Path:
     is_turn: bool
 
 
-def obstruction(scene: Scene, path: Path, config: RealizationConfig) -> SweepVerdict:
-    """Returns how far the static parts block the path of the moving body, and which of them do."""
+def obstruction(
+    scene: Scene, path: Path, config: RealizationConfig, ignored: frozenset[str] = frozenset()
+) -> SweepVerdict:
+    """Returns how far the static parts block the path of the moving body, and which of them do, `ignored` left out."""
     mesh = scene.moving_mesh(path.moving)
     body = scene.swept_body(path.moving, config.depth * scene.extent, path.axes)
-    near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))
+    obstacles = [obstacle for obstacle in scene.static_obstacles if obstacle.id not in ignored]
+    near = in_the_way(obstacles, swept_box(mesh.box, path.motion, path.reach))
     return sweep(body, path.motion, path.reach, near, config.fine_poses)
 
 
