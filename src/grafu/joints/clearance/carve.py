@@ -5,10 +5,10 @@ How much of a part goes when solids are cut out of it: of what is seen of it, an
 The path that must become free, and what stands in it.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import final
+from typing import TypeAlias, final
 
 import manifold3d
 import numpy as np
@@ -43,6 +43,9 @@ class Path:
     reach: float
     axes: Mat3
     is_turn: bool
+
+
+ClearanceStep: TypeAlias = Callable[[Scene, Path, Sequence[str], RealizationConfig], tuple[Scene, list[Clearance]]]
 
 
 def obstruction(
