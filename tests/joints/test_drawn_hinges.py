@@ -84,6 +84,18 @@ def test_it_is_built_there_on_the_hinges_that_are_drawn():
     assert (made.template, made.count) == ("drawn", 0)
 
 
+def test_nothing_is_cut_for_drawn_hinges_about_which_a_door_is_blocked_most_of_the_way():
+    """A post beside the door stands out before it: about knuckles within its thickness the door would run into it."""
+    post = box("post", (0.4005, -0.03, -0.02), (0.62, 0.4, 0.62))
+    parts = [LEAF, *(part for part in CASE if part.id != "side_right"), post, *knuckles(0.409)]
+    asset = scene(*parts, joints=(LEFT,))
+    made = installed(realize(with_drawn_hinges(plan_from_annotation(asset), asset), asset, GALLERY))["door"]
+
+    assert made.template != "drawn"
+    assert made.clearances == ()
+    assert made.opening >= np.radians(90)
+
+
 @pytest.mark.parametrize(
     "parts",
     [(), knuckles(-0.004), [*knuckles(-0.004), *knuckles(0.404)], knuckles(0.404)[:1], knuckles(0.6), [rod(y=-0.06)]],

@@ -115,6 +115,17 @@ def test_no_block_where_a_pivot_carries_the_door():
     assert blocks(result) == []
 
 
+@pytest.mark.parametrize(("behind", "expected"), [(True, 2), (False, 1)], ids=["a side behind", "nothing else"])
+def test_a_pivot_at_one_end_alone_carries_a_door_only_where_nothing_else_does(behind, expected):
+    """A board above would hold a pivot, nothing stands below; a side behind takes hinges on blocks."""
+    side = [box("side", (-0.02, 0.015, 0.0), (0.0, 0.4, 0.6))] if behind else []
+    above = box("board", (-0.02, -0.02, 0.602), (0.4, 0.4, 0.62))
+    result = realized(scene(DOOR, *side, above, joints=(hinged(),)))
+
+    assert installed(result)["door"].count == expected
+    assert (installed(result)["door"].template == "pivot") is not behind
+
+
 def test_a_pair_of_doors_tries_the_same_heights_in_the_same_order():
     left, right = (border_frame(DOOR.mesh, axis) for axis in (LEFT_EDGE, RIGHT_EDGE))
     heights = [

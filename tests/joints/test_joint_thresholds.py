@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
+from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.hinge.candidates import hinge_count
-from grafu.joints.hinge_config import DrawnConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import (
     BehindConfig,
@@ -34,6 +35,7 @@ CHOICE = "the range of what a user may choose"
 REASONS = {
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
+    "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/make.py": {"_FINELY": EFFORT, "_GAPS": EFFORT, "_STEPS": EFFORT},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},

@@ -10,7 +10,7 @@ from typing import final
 
 from grafu.geometry.axis import Axis
 from grafu.geometry.config_checks import at_scale
-from grafu.joints.clearance.carve import Path
+from grafu.joints.clearance.carve import Path, obstruction
 from grafu.joints.clearance.make import make_clearance
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
@@ -81,17 +81,21 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
 
 
 def _on_drawn_hinges(search: DoorSearch) -> _Found | None:
-    """Returns the joint on the hinges that are drawn, if any, with clearance made for the door where it needs some."""
-    axis = drawn_pin(search)
-    if axis is None:
+    """Returns the joint on the hinges that are drawn, if any, with clearance made for the door where it needs some.
+
+    If other parts block it most of the way about their pin, nothing is cut for it.
+    """
+    pin = drawn_pin(search)
+    if pin is None:
         return None
-    placement = door_on_drawn_hinges(axis, search)
+    placement = door_on_drawn_hinges(pin.axis, search)
     if placement is not None:
         return placement, search.scene, ()
-    path = _path(search.request, search.scene, axis, search.wanted)
-    cleared = make_clearance(search.scene, path, search.config)
-    again = door_search(search.request, cleared.scene, search.config)
-    placement = door_on_drawn_hinges(axis, again)
+    path, config = _path(search.request, search.scene, pin.axis, search.wanted), search.config
+    if obstruction(search.scene, path, config, pin.parts).ratio > config.hinge.drawn.blocked:
+        return None
+    cleared = make_clearance(search.scene, path, config)
+    placement = door_on_drawn_hinges(pin.axis, door_search(search.request, cleared.scene, config))
     return (placement, cleared.scene, cleared.clearances) if placement else None
 
 

@@ -19,8 +19,8 @@ from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.edges import Hinge
 from grafu.joints.config import RealizationConfig
+from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.hinge.search import DoorSearch
-from grafu.joints.hinge_config import DrawnConfig
 from grafu.joints.nesting import bodies_of
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.border import SNAP, BorderFrame, border_frame, part_axes
@@ -49,6 +49,15 @@ class Barrel:
 
 @final
 @dataclass(frozen=True, eq=False)
+class DrawnPin:
+    """The pin line of drawn hinges along a door's border, and the parts whose shells their barrels are."""
+
+    axis: Axis
+    parts: frozenset[str]
+
+
+@final
+@dataclass(frozen=True, eq=False)
 class _Model:
     """A scene, the config in its scale, and the shells of its parts; each part is taken apart once."""
 
@@ -65,8 +74,8 @@ def _model(scene: Scene, config: RealizationConfig) -> _Model:
     return _Model(scene, config, cache(lambda part: connected_parts(scene.parts[part].mesh)))
 
 
-def drawn_pin(search: DoorSearch) -> Axis | None:
-    """Returns the common axis of round barrels along the door's border, shells of the door or of static parts.
+def drawn_pin(search: DoorSearch) -> DrawnPin | None:
+    """Returns the common pin of round barrels along the door's border, shells of the door or of static parts.
 
     It is None where fewer than two lie on one line, where they are not spread along the border, and where hardware was
     chosen. One rod is enough where it carries the door; see `with_drawn_hinges`.
@@ -75,7 +84,7 @@ def drawn_pin(search: DoorSearch) -> Axis | None:
         return None
     model = _model(search.scene, search.config)
     line = _line(search.frame, search.request, model)
-    return search.frame.axis_at(line[0].x, line[0].y) if line else None
+    return DrawnPin(search.frame.axis_at(line[0].x, line[0].y), frozenset(b.part for b in line)) if line else None
 
 
 def with_drawn_hinges(

@@ -126,6 +126,20 @@ def test_nothing_juts_out_over_a_flap_that_rises() -> None:
     assert added([*carcass(), door], swing()).box.low[1] < -D / 2 - T - 0.01
 
 
+def test_the_edge_over_flaps_between_legs_is_straight() -> None:
+    """Flaps as wide as what lies between the legs: an overhang before the legs alone would stand out as two horns."""
+    flap = board("door", (-W / 2 + 0.08, -D / 2 - T, H - 0.3), (W / 2 - 0.08, -D / 2, H - 0.002))
+    legs = [
+        board(f"leg_{side}", (side * (W / 2 - 0.04) - 0.04, -D / 2 - T, 0.0), (side * (W / 2 - 0.04) + 0.04, -D / 2, H))
+        for side in (-1, 1)
+    ]
+    top = added([*carcass(), *legs, flap], lift(height=H - 0.002))
+    front_edge = top.mesh.vertices[top.mesh.vertices[:, 1] < -D / 2 + 0.05]
+
+    assert np.ptp(front_edge[:, 1]) <= 2e-3
+    assert np.ptp(front_edge[:, 0]) >= W
+
+
 def test_an_l_shaped_outline_stays_one() -> None:
     walls = [
         board("back", (0.0, 0.88, 0.0), (0.9, 0.9, H)),

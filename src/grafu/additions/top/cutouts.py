@@ -12,7 +12,8 @@ from shapely.geometry.base import BaseGeometry
 
 from grafu.additions.top.config import CutoutConfig, TopConfig
 from grafu.additions.top.roles import Closed
-from grafu.additions.top.section import EMPTY, offset, section_lines
+from grafu.additions.top.section import EMPTY, offset, polygons_in, section_lines
+from grafu.geometry.arrays import Vec2
 from grafu.geometry.transform import transform_points
 
 SWEEP_POSES = 12
@@ -92,13 +93,28 @@ def lifts(moving: Closed, config: CutoutConfig) -> bool:
 
 
 def _beyond(moving: Closed, outline: BaseGeometry, config: CutoutConfig, metre: float) -> BaseGeometry:
-    """Returns the plan of what lies before a flap's face, away from the body's middle: there it rises."""
+    """Returns the plan of what lies before a flap's face, away from the body's middle: there it rises.
+
+    An overhang that lies before the face goes as a whole, so that the slab has one straight edge there.
+    """
     box, middle = moving.mesh.box, outline.centroid
     away = box.center[:2] - np.array([middle.x, middle.y])
     across = int(np.argmin(box.size[:2]))
     outer = box.high[across] if away[across] > 0 else box.low[across]
     ends = np.sort([outer, outer + np.sign(away[across]) * config.before * metre])
     along = np.array([box.low[1 - across], box.high[1 - across]]) + np.array([-1.0, 1.0]) * config.beside * metre
+    strip = _box(across, ends, along)
+    bounds = np.asarray(outline.bounds, dtype=np.float64).reshape(2, 2)
+    all_along = np.array([bounds[0, 1 - across], bounds[1, 1 - across]])
+    everything = np.sort([outer, bounds[int(away[across] > 0), across]])
+    pieces = polygons_in(outline.intersection(_box(across, everything, all_along)))
+    spans = np.array([[p.bounds[across], p.bounds[across + 2]] for p in pieces]).reshape(-1, 2)
+    narrow = [p for p, span in zip(pieces, spans, strict=True) if np.ptp(span) <= config.before * metre]
+    return shapely.union_all([strip, *(p for p in narrow if p.intersects(strip))])
+
+
+def _box(across: int, ends: Vec2, along: Vec2) -> BaseGeometry:
+    """Returns the rectangle between two ends across, and two along the other axis of the plan."""
     x, y = (ends, along) if across == 0 else (along, ends)
     return shapely.box(float(x[0]), float(y[0]), float(x[1]), float(y[1]))
 

@@ -5,10 +5,10 @@ How much of a part goes when solids are cut out of it: of what is seen of it, an
 The path that must become free, and what stands in it.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import final
+from typing import TypeAlias, final
 
 import manifold3d
 import numpy as np
@@ -45,11 +45,17 @@ class Path:
     is_turn: bool
 
 
-def obstruction(scene: Scene, path: Path, config: RealizationConfig) -> SweepVerdict:
-    """Returns how far the static parts block the path of the moving body, and which of them do."""
+ClearanceStep: TypeAlias = Callable[[Scene, Path, Sequence[str], RealizationConfig], tuple[Scene, list[Clearance]]]
+
+
+def obstruction(
+    scene: Scene, path: Path, config: RealizationConfig, ignored: frozenset[str] = frozenset()
+) -> SweepVerdict:
+    """Returns how far the static parts block the path of the moving body, and which of them do, `ignored` left out."""
     mesh = scene.moving_mesh(path.moving)
     body = scene.swept_body(path.moving, config.depth * scene.extent, path.axes)
-    near = in_the_way(scene.static_obstacles, swept_box(mesh.box, path.motion, path.reach))
+    obstacles = [obstacle for obstacle in scene.static_obstacles if obstacle.id not in ignored]
+    near = in_the_way(obstacles, swept_box(mesh.box, path.motion, path.reach))
     return sweep(body, path.motion, path.reach, near, config.fine_poses)
 
 

@@ -4,7 +4,7 @@ What lies enclosed in the moving part moves with it; the moving part is trimmed;
 clearance is shrunk; a static part that intrudes into the path is carved. A step stays only if it helps.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import final
@@ -14,7 +14,8 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.transform import from_rotation
-from grafu.joints.clearance.carve import Path, box_in, carve, obstruction
+from grafu.joints.clearance.behind import narrow_behind
+from grafu.joints.clearance.carve import ClearanceStep, Path, box_in, carve, obstruction
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import SweepVerdict
@@ -30,9 +31,6 @@ class Cleared:
     scene: Scene
     clearances: tuple[Clearance, ...]
     blockers: tuple[str, ...]
-
-
-_Step = Callable[[Scene, Path, Sequence[str], RealizationConfig], tuple[Scene, list[Clearance]]]
 
 
 def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Cleared:
@@ -122,9 +120,10 @@ def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
 
 _FINELY = 2000  # solids with which a path is cut by triangles where hulls would cut away too much
 _GAPS = (2.5, 4.0, 6.0)  # on each side, in tolerated penetrations
-_STEPS: tuple[_Step, ...] = (
+_STEPS: tuple[ClearanceStep, ...] = (
     adopt,
     trim,
+    narrow_behind,
     narrow,
     partial(shrink, 1.0),
     carve,
@@ -133,5 +132,6 @@ _STEPS: tuple[_Step, ...] = (
     carve,
     partial(trim, at_back=True),
     carve,
+    partial(narrow_behind, then=carve),
     partial(carve, most=_FINELY),
 )

@@ -51,7 +51,7 @@ class _Press:
 
 @final
 @dataclass(frozen=True, slots=True)
-class _Front:
+class DrawerFront:
     """Where a drawer's front ends: at `plane` along its own axis `axis`, which it opens along (`sign`).
 
     Behind `back`, a coordinate like `plane`, the drawer is narrower or lower than its front: there, all of it lies in
@@ -86,7 +86,7 @@ class _Limits:
 
     most: Scalars
     hidden: Scalars
-    front: _Front | None
+    front: DrawerFront | None
     back: tuple[int, int] | None
     most_at_back: float
     behind: float
@@ -105,7 +105,7 @@ class _Limits:
         return self.front.plane - float(ends[self.front.axis]) >= self.behind
 
 
-def _front_of(points: Points, path: Path, step: float) -> _Front | None:
+def drawer_front(points: Points, path: Path, step: float) -> DrawerFront | None:
     """Returns the front of what slides; None for what turns: all of it is seen.
 
     `points` are the part's vertices in its own axes; from `step` metres on, what is narrower is narrower.
@@ -125,8 +125,8 @@ def _front_of(points: Points, path: Path, step: float) -> _Front | None:
     back = float(along[order[min(count, len(order) - 1)]])
     is_body = along < back - _ON_BACK
     if not is_body.any():
-        return _Front(axis, sign, plane, None, Box.around(points))
-    return _Front(axis, sign, plane, back, Box.around(points[is_body]))
+        return DrawerFront(axis, sign, plane, None, Box.around(points))
+    return DrawerFront(axis, sign, plane, back, Box.around(points[is_body]))
 
 
 def _back_of(part: Part, path: Path) -> tuple[int, int] | None:
@@ -157,7 +157,7 @@ def trim(
     most = config.max_trim * box_in(path.axes, part.mesh).size
     hidden = np.maximum(most, config.max_hidden_trim)
     thinnest = config.thinnest_front
-    front = _front_of(part.mesh.vertices @ path.axes, path, thinnest)
+    front = drawer_front(part.mesh.vertices @ path.axes, path, thinnest)
     back = _back_of(part, path) if at_back else None
     limits = _Limits(most, hidden, front, back, config.max_back_trim, thinnest, config.kept)
     play = config.clearance.play * config.depth * scene.extent

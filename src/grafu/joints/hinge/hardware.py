@@ -81,7 +81,10 @@ FLOOR = "the floor"
 """What strikes a hinge that reaches below what the furniture stands on; no part has this name."""
 PACKED, HANGING, LOOSE = "a thick block", "a leaf in the air", "a disc beside what carries it"
 """What speaks against a hinge as if others struck it: a block too thick, too little below a leaf, a pivot too wide."""
-FLAWS = frozenset((FLOOR, PACKED, HANGING, LOOSE))
+ONE_END = "a disc at one end alone"
+"""The same of a door that a pivot carries at one of its ends, and nothing at the other."""
+FLAWS = frozenset((FLOOR, PACKED, HANGING, LOOSE, ONE_END))
+WEAK = frozenset((LOOSE, ONE_END))  # worse than all other flaws: it hardly carries a door
 OF_PLACE = frozenset((PACKED, HANGING))  # the same for all templates of a class
 
 

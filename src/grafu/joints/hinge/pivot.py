@@ -5,7 +5,7 @@ for leaves. Discs grow from the part that they belong to; where part and body ar
 end of an overlay door, where nothing stands, the static disc sits on a plate that reaches back to the case.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.joints.config import BlockConfig, RealizationConfig
 from grafu.joints.hinge.candidates import PinCandidate
-from grafu.joints.hinge.hardware import LOOSE, HingeSite, InstalledHinge
+from grafu.joints.hinge.hardware import LOOSE, ONE_END, HingeSite, InstalledHinge
 from grafu.joints.hinge_config import PivotConfig
 from grafu.joints.support_block import METAL, Footing, block
 from grafu.scene.border import BorderFrame
@@ -184,6 +184,13 @@ def with_flaw(hinge: InstalledHinge, pin: PinCandidate, site: HingeSite) -> Inst
     is_wide = float(np.ptp(points[:, 0])) > 2 * site.config.pivot.widest * pin.radius
     is_carried = site.scene.is_near_static(merge_meshes(hinge.static_meshes), site.anchor, site.holders)
     return hinge if is_carried and not is_wide else replace(hinge, struck_by=(*hinge.struck_by, LOOSE))
+
+
+def with_both_ends(hinges: Sequence[InstalledHinge]) -> list[InstalledHinge]:
+    """Returns the pivots of a door, the only one with that as its flaw: it leaves the other end without hold."""
+    if len(hinges) != 1:
+        return [*hinges]
+    return [replace(hinges[0], struck_by=(*hinges[0].struck_by, ONE_END))]
 
 
 def is_on_mount(hinge: InstalledHinge, site: HingeSite) -> bool:

@@ -24,15 +24,15 @@ from grafu.joints.hinge.candidates import (
 from grafu.joints.hinge.hardware import (
     FLAWS,
     FLOOR,
-    LOOSE,
     OF_PLACE,
+    WEAK,
     HingeSite,
     InstalledHinge,
     install,
     judged_hinge,
     resting_leaf,
 )
-from grafu.joints.hinge.pivot import is_on_mount, pivot_ends, with_flaw
+from grafu.joints.hinge.pivot import is_on_mount, pivot_ends, with_both_ends, with_flaw
 from grafu.joints.hinge.search import DoorSearch, JudgedPin
 from grafu.joints.limits import in_the_way
 from grafu.joints.plan import PIVOT
@@ -114,7 +114,7 @@ def _is_narrow(placement: Placement, search: DoorSearch) -> bool:
 def _drawbacks(placement: Placement, search: DoorSearch) -> _Drawbacks:
     """Returns how many joints that stand run into it, whether it opens too little or is loose, and how many flaws."""
     flaws, hits = FLAWS & {*placement.struck_by}, _built_ones(placement.struck_by, search)
-    return len(hits), _is_narrow(placement, search), LOOSE in flaws, len(flaws)
+    return len(hits), _is_narrow(placement, search), bool(WEAK & flaws), len(flaws)
 
 
 def _built_ones(moving_bodies: Sequence[str], search: DoorSearch) -> list[str]:
@@ -178,16 +178,15 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
     door = search.scene.parts[search.request.moving].mesh
     ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
+    is_spindle = turns_about_itself(search.frame, search.request.axis, search.config.hinge)
     held = [
-        hinge
-        if turns_about_itself(search.frame, search.request.axis, search.config.hinge)
-        else with_flaw(hinge, judged.pin, site)
+        hinge if is_spindle else with_flaw(hinge, judged.pin, site)
         for hinge in judgements
         if hinge is not None and is_on_mount(hinge, site)
     ]
     if held:
-        free = [hinge for hinge in held if not {*hinge.struck_by} - FLAWS]
-        placement = _placement(judged, PIVOT, upper, free or held, search)
+        free = [hinge for hinge in held if not {*hinge.struck_by} - FLAWS] or held
+        placement = _placement(judged, PIVOT, upper, free if is_spindle else with_both_ends(free), search)
         yield _Try(placement, lambda: placement)
 
 
