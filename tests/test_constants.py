@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grafu.articulation.mass import MassConfig
-from grafu.asset.body_kinds import SlidingDoorConfig
+from grafu.asset.body_kinds import BodyKindConfig
 from grafu.asset.cutting import CutConfig
 from grafu.asset.drafts import GroupConfig
 from grafu.asset.foreign.agreement import AgreementConfig
@@ -174,7 +174,7 @@ CONFIGS = (
     AgreementConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig,
     FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LooseConfig, MassConfig, MatchConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
-    SegmentationConfig, SlidingDoorConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
+    SegmentationConfig, BodyKindConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
 )  # fmt: skip
 NUMBERS = [
     (kind, f.name)

@@ -11,8 +11,8 @@ from grafu.geometry.config_checks import require_ratios
 
 @final
 @dataclass(frozen=True, slots=True)
-class SlidingDoorConfig:
-    """What counts as a sliding door where no name tells.
+class BodyKindConfig:
+    """What a moving body counts as where no name tells.
 
     Raises:
         ValueError: if a fraction is not between 0 and 1.
@@ -20,28 +20,14 @@ class SlidingDoorConfig:
 
     flat: float = 0.35
     """Largest thickness of an upright plate that slides along itself (fraction of its next larger side)."""
+    lever: float = 0.25
+    """Largest side of a handle that turns by itself (fraction of the largest side of what it turns on)."""
 
     def __post_init__(self) -> None:
         require_ratios(self, *self.__dataclass_fields__)
 
 
-@final
-@dataclass(frozen=True, slots=True)
-class LeverConfig:
-    """What is the handle of a door, where it turns by itself.
-
-    Raises:
-        ValueError: if the fraction is not between 0 and 1.
-    """
-
-    most: float = 0.25
-    """Largest side of a handle (fraction of the largest side of what it turns on)."""
-
-    def __post_init__(self) -> None:
-        require_ratios(self, "most")
-
-
-def is_lever(size: Vec3, whole: Vec3, config: LeverConfig = LeverConfig()) -> bool:
+def is_lever(size: Vec3, whole: Vec3, config: BodyKindConfig = BodyKindConfig()) -> bool:
     """Whether what turns on a moving body is small against that: the lever or knob of a building's door.
 
     Args:
@@ -49,10 +35,10 @@ def is_lever(size: Vec3, whole: Vec3, config: LeverConfig = LeverConfig()) -> bo
         whole: those of what it turns on.
         config: what is small.
     """
-    return float(size.max()) <= config.most * float(whole.max())
+    return float(size.max()) <= config.lever * float(whole.max())
 
 
-def slides_in_its_plane(size: Vec3, direction: Vec3, up: int, config: SlidingDoorConfig = SlidingDoorConfig()) -> bool:
+def slides_in_its_plane(size: Vec3, direction: Vec3, up: int, config: BodyKindConfig = BodyKindConfig()) -> bool:
     """Whether the motion shifts an upright plate along itself: a sliding door, not a drawer or a tray.
 
     Args:
