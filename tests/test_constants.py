@@ -20,7 +20,9 @@ from grafu.asset.loose import LooseConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
 from grafu.asset.plausibility import PlausibilityConfig
+from grafu.asset.resting import RestConfig
 from grafu.asset.scale import ScaleConfig
+from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.ways_out import WayOutConfig
@@ -171,10 +173,10 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig, FrameConfig,
-    FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LooseConfig, MassConfig, MatchConfig,
-    MemberConfig, PieceConfig, PlausibilityConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
-    SegmentationConfig, BodyKindConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
+    AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
+    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LooseConfig, MassConfig, MatchConfig,
+    MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
+    SeenSideConfig, SegmentationConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
 )  # fmt: skip
 NUMBERS = [
     (kind, f.name)
