@@ -56,8 +56,8 @@ def smaller_behind(scene: Scene, path: Path, why: str, config: RealizationConfig
         for gap in (ratio * config.max_hidden_trim for ratio in _STEPS):
             smaller = _smaller(part, front, path, gap, is_all)
             if smaller is not None:
-                share = gap / float(front.body.size.max())
-                yield scene.replaced([smaller]), Clearance(part.id, "trimmed", gap, share, why)
+                ratio_of_size = gap / float(front.body.size.max())
+                yield scene.replaced([smaller]), Clearance(part.id, "trimmed", gap, ratio_of_size, why)
 
 
 def _smaller(part: Part, front: DrawerFront, path: Path, gap: float, is_all: bool) -> Part | None:
