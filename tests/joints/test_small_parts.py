@@ -13,7 +13,7 @@ from grafu.articulation.sweep import cycle_tracks
 from grafu.asset.edit import yawed
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
-from grafu.asset.part import AnnotatedJoint
+from grafu.asset.part import AnnotatedJoint, PartSource
 from grafu.export.files import write_files
 from grafu.export.glb import export_glb
 from grafu.export.mjcf import export_mjcf
@@ -100,9 +100,33 @@ def test_a_knob_with_a_mark_turns_on_its_door_and_the_door_keeps_its_handle():
     assert not swept_collisions(made.object, made.object.joint_of["door"], 20)
 
 
-def test_without_being_asked_for_nothing_small_moves():
-    made = made_of(*CASE, DOOR, knob(), mark(), small=False)
+@pytest.mark.parametrize("small", [None, False])
+def test_without_being_asked_for_nothing_small_moves(small):
+    made = made_of(*CASE, DOOR, knob(), mark(), small=small)
     assert [joint.child for joint in made.object.joints] == ["door"]
+
+
+def in_link(link, *parts):
+    return [replace(part, source=PartSource(part.id, link=link)) for part in parts]
+
+
+@pytest.mark.parametrize(("small", "moving"), [(None, {"handle"}), (False, set()), (True, {"handle", "dial"})])
+def test_by_default_what_is_a_link_of_its_own_in_a_robot_description_turns(small, moving):
+    body = in_link("body", *CASE, PANEL, DIAL)
+    made = made_of(*body, *in_link("door", DOOR), *in_link("knob", knob(), mark()), small=small)
+    assert set(small_joints(made)) == moving
+
+
+def test_by_default_a_knob_in_the_link_of_its_door_stays_a_piece():
+    made = made_of(*in_link("body", *CASE), *in_link("door", DOOR, knob(), mark()), small=None)
+    assert small_joints(made) == {}
+
+
+def test_a_knob_with_a_mark_in_one_mesh_turns():
+    surfaces = (*knob("handle_stem", ends=(-0.02, -0.03), radius=0.008).surfaces, *ball(y=-0.048).surfaces)
+    one = replace(knob(), surfaces=(*surfaces, *mark(before=-0.068).surfaces))
+    (joint,) = small_joints(made_of(*CASE, DOOR, one)).values()
+    assert np.allclose(joint.axis.direction, (0, -1, 0))
 
 
 def test_the_pieces_of_one_knob_turn_together():
@@ -335,8 +359,10 @@ def test_a_urdf_with_small_joints_gives_them_again(files):
     (joint,) = small_joints(again).values()
     assert joint.type is JointType.CONTINUOUS
     assert np.allclose(joint.axis.direction, (0, -1, 0), atol=1e-6)
-    assert set(small_joints(made_of(asset, source=MotionSource.ANNOTATION, small=False))) == {joint.child}
-    assert small_joints(made_of(asset, source=MotionSource.RULE, small=False)) == {}
+    assert set(small_joints(made_of(asset, source=MotionSource.ANNOTATION, small=None))) == {joint.child}
+    assert set(small_joints(made_of(asset, source=MotionSource.RULE, small=None))) == {joint.child}
+    for source in (MotionSource.ANNOTATION, MotionSource.RULE):
+        assert small_joints(made_of(asset, source=source, small=False)) == {}
 
 
 def test_a_stated_button_is_pressed_as_far_as_its_range_spans():
@@ -345,7 +371,7 @@ def test_a_stated_button_is_pressed_as_far_as_its_range_spans():
         "door_button", JointType.PRISMATIC, Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0)), -0.009, -0.004
     )
     asset = replace(scene(*CASE, DOOR, PANEL, button, joints=(hinged(),)), small_joints=(pressed,))
-    made = made_of(asset, source=MotionSource.ANNOTATION, small=False)
+    made = made_of(asset, source=MotionSource.ANNOTATION, small=None)
     (joint,) = small_joints(made).values()
     assert joint.limits.upper == pytest.approx(0.005)
     assert joint.axis.direction[1] == pytest.approx(1.0)

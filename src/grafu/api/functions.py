@@ -99,7 +99,7 @@ def functionalize(
     interior: str = "predicted",
     carcass: bool = False,
     trim: bool = True,
-    small_parts: bool = False,
+    small_parts: bool | None = None,
     templates: PathLikeStr | None = None,
     **reading: Any,
 ) -> Result:
@@ -117,7 +117,8 @@ def functionalize(
         interior: shelves and dividers: `predicted`, `auto`, `none`, or counts such as `shelves=2,dividers=1`.
         carcass: whether missing backs and bottoms are added.
         trim: whether material may be taken away to give a part clearance.
-        small_parts: whether knobs, buttons, wheels and casters get joints of their own.
+        small_parts: whether knobs, buttons, wheels and casters get joints of their own; None: those that are links of
+            their own in a robot description.
         templates: a folder of your own hinge, rail and handle templates.
         **reading: `up`, `front`, `scale`, `height`, `labels`, `parts`, `pieces` and `piece` of `grafu.load`, where
             `source` is a path.
@@ -141,7 +142,7 @@ def functionalize(
         MotionSource.AUTO if choice.source.is_foreign else choice.source,
         read,
         require(trim, bool, "trim", "True or False"),
-        require(small_parts, bool, "small_parts", "True or False"),
+        None if small_parts is None else require(small_parts, bool, "small_parts", "True, False or None"),
         motions=_motions(motions),
         additions=additions,
         weights=None if weights is None else as_path(weights, "weights"),

@@ -269,7 +269,7 @@ def stated_settings(options: argparse.Namespace) -> "Settings":
         reading=with_limits(load_options(options, base.reading), options),
         additions=addition_config(options, open_handles(options.templates), base.additions),
         trim=base.trim and not options.no_trim,
-        small_parts=base.small_parts or options.small_parts,
+        small_parts=base.small_parts if options.small_parts is None else options.small_parts,
         weights=options.weights or base.weights,
     )
     if options.motion is None or options.motion.source.is_foreign:

@@ -87,7 +87,10 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
         "(default: predicted)",
     )
     group.add_argument(
-        "--small-parts", action="store_true", help="knobs, buttons, wheels and casters get joints of their own"
+        "--small-parts",
+        action=argparse.BooleanOptionalAction,
+        help="knobs, buttons, wheels and casters get joints of their own "
+        "(default: those that are links of their own in a robot description)",
     )
     group.add_argument("--complete", choices=("carcass",), help="carcass: add backs and bottoms that are missing")
 

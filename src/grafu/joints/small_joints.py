@@ -22,7 +22,7 @@ from grafu.joints.plan import JointRequest
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import Clearance, Installed, Outcome
 from grafu.joints.small_knobs import SOURCE as FOUND
-from grafu.joints.small_parts import small_parts, stated_small_parts
+from grafu.joints.small_parts import are_links, small_parts, stated_small_parts
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, metre_on
@@ -40,10 +40,19 @@ class _Taken:
     others: tuple[Visual, ...]
 
 
-def with_small_parts(realized: Realized, asset: Asset, config: RealizationConfig = RealizationConfig()) -> Realized:
-    """Returns what was realized with joints for small parts: those that the asset states, else those found by shape."""
+def with_small_parts(
+    realized: Realized, asset: Asset, config: RealizationConfig = RealizationConfig(), *, only_links: bool = False
+) -> Realized:
+    """Returns what was realized with joints for small parts: those that the asset states, else those found by shape.
+
+    With `only_links`, of the latter those that are links of their own in the asset.
+    """
     made, scaled = realized.object, at_scale(config, metre_on(asset.extent))
-    requests = stated_small_parts(asset, config.plan) or small_parts(made, scaled.small)
+    requests = stated_small_parts(asset, config.plan)
+    if not requests:
+        requests = small_parts(made, scaled.small)
+        if only_links:
+            requests = tuple(r for r in requests if are_links(asset, (r.moving, *r.attached)))
     changed, outcomes = with_small_joints(made, requests, scaled)
     built = {outcome.moving for outcome in outcomes if isinstance(outcome, Installed)}
     before = (o for o in realized.report.outcomes if not (isinstance(o, Refusal) and o.part in built))

@@ -1,11 +1,12 @@
 """Knobs that turn: dials on a body, and knobs of doors on which a mark shows how far they are turned.
 
 A knob has a round outline, stands on something with one end, and has nothing before the other; pieces that touch one
-another are one knob. What nothing shows to turn is a pull: the plain knob of a door, and every knob of a drawer.
+another are one knob, and so are the shells of a piece. What nothing shows to turn is a pull: the plain knob of a door,
+and every knob of a drawer.
 """
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
 from typing import final
@@ -14,9 +15,11 @@ import numpy as np
 import shapely
 
 from grafu.articulation.articulated_object import Joint, Visual, VisualRole
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.touching import near_pairs
@@ -43,6 +46,15 @@ class Piece:
     def collider(self) -> MeshCollider:
         """Its mesh as an obstacle."""
         return MeshCollider(self.visual.mesh)
+
+    @cached_property
+    def shells(self) -> "tuple[Piece, ...]":
+        """Its connected shells, each as a piece of the same name."""
+        number = shell_numbers(self.mesh)
+        if not len(number) or not number.any():
+            return (self,)
+        meshes = (self.mesh.with_faces(number == k) for k in range(int(number.max()) + 1))
+        return tuple(Piece(self.link, replace(self.visual, surfaces=(Surface(mesh),))) for mesh in meshes)
 
     @property
     def name(self) -> str:
@@ -147,11 +159,12 @@ def _turned(
 
     A ball is round about any axis, so it states none. None where nothing does, or the shape is no knob's.
     """
-    levels = [level for piece in cluster if (level := _only_level(piece, config)) is not None]
+    shells = [shell for piece in cluster for shell in piece.shells]
+    levels = [level for shell in shells if (level := _only_level(shell, config)) is not None]
     if not levels:
         return None
     axis = max(levels, key=lambda one: one.diameter).axis
-    on_axis = [one for piece in cluster for one in _rounds(piece, config) if _lies_on(one, axis, config)]
+    on_axis = [one for shell in shells for one in _rounds(shell, config) if _lies_on(one, axis, config)]
     widest = max(on_axis, key=lambda one: one.diameter)
     vertices = np.vstack([piece.mesh.vertices for piece in cluster])
     along = vertices @ axis.direction
@@ -195,7 +208,8 @@ def _turns(
     joint = joint_of.get(cluster[0].link)
     if joint is None:
         return not any(piece.visual.label.is_movable for piece in stand)
-    marked = any(not any(_lies_on(one, axis, config) for one in _rounds(piece, config)) for piece in cluster)
+    shells = [shell for piece in cluster for shell in piece.shells]
+    marked = any(not any(_lies_on(one, axis, config) for one in _rounds(shell, config)) for shell in shells)
     return joint.kind.turns and marked
 
 

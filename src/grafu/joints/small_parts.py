@@ -41,11 +41,22 @@ def stated_small_parts(asset: Asset, config: PlanConfig = PlanConfig()) -> tuple
     return tuple(found)
 
 
+def are_links(asset: Asset, names: Sequence[str]) -> bool:
+    """Whether parts are whole links of a robot description, which are rigid bodies."""
+    links = {part.source.link for part in asset.parts if part.id in names}
+    return "" not in links and links.isdisjoint(p.source.link for p in asset.parts if p.id not in names)
+
+
 def without_turntables(
-    plan: RealizationPlan, asset: Asset, config: SmallPartConfig = SmallPartConfig()
+    plan: RealizationPlan, asset: Asset, config: SmallPartConfig = SmallPartConfig(), *, only_links: bool = False
 ) -> RealizationPlan:
-    """Returns the plan without the trays that are round: these turn and do not slide (`small_parts`)."""
+    """Returns the plan without the trays that are round: these turn and do not slide (`small_parts`).
+
+    With `only_links`, without those that are links of their own in the asset.
+    """
     trays = {p.id for p in asset.parts if _turntable(Piece("", Visual(p.id, p.surfaces, label=p.label)), config)}
+    if only_links:
+        trays = {name for name in trays if are_links(asset, (name,))}
     return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in trays or not r.kind.slides))
 
 

@@ -193,9 +193,12 @@ def functionalize(
     completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
-    with_small = settings.small_parts or (motion.reads_annotation and bool(asset.small_joints))
     if not motion.reads_annotation:
-        plan = _shown_by_shape(plan, asset, completion, joints, with_small)
+        plan = _shown_by_shape(plan, asset, completion, joints)
+        if _may_have_small_parts(asset, motion, settings.small_parts):
+            from grafu.joints.small_parts import without_turntables  # local: most runs do without
+
+            plan = without_turntables(plan, asset, only_links=settings.small_parts is None)
     plan = with_choices(
         plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
     )
@@ -210,10 +213,11 @@ def functionalize(
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     realized = replace(realized, object=fitted_object(realized.object, fittings))
-    if with_small:  # most runs do without
+    if _may_have_small_parts(asset, motion, settings.small_parts):  # most runs do without
         from grafu.joints.small_joints import with_small_parts
 
-        realized = stages.timed("small parts", partial(with_small_parts, realized, asset, joints), lambda _: realized)
+        small = partial(with_small_parts, realized, asset, joints, only_links=settings.small_parts is None)
+        realized = stages.timed("small parts", small, lambda _: realized)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(
@@ -234,16 +238,20 @@ def functionalize(
 
 
 def _shown_by_shape(
-    plan: RealizationPlan, asset: Asset, completion: GraphCompletion, joints: RealizationConfig, with_small: bool
+    plan: RealizationPlan, asset: Asset, completion: GraphCompletion, joints: RealizationConfig
 ) -> RealizationPlan:
     """Returns a predicted plan with what shape and names alone show of how parts move."""
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
-    plan = with_lifts(plan, completion.completed, at_scale(joints.lift, metre_on(asset.extent)))
-    if not with_small:
-        return plan
-    from grafu.joints.small_parts import without_turntables
+    return with_lifts(plan, completion.completed, at_scale(joints.lift, metre_on(asset.extent)))
 
-    return without_turntables(plan, asset)
+
+def _may_have_small_parts(asset: Asset, motion: MotionMethod, wanted: bool | None) -> bool:
+    """Whether joints of small parts are built; by default (None) where they are stated and read, or parts are links."""
+    if wanted is not None:
+        return wanted
+    if asset.small_joints:
+        return motion.reads_annotation
+    return any(part.source.link for part in asset.parts)
 
 
 def _with_source(

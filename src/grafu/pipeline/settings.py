@@ -32,7 +32,8 @@ SCHEMA = "grafu.settings/1"
 class Settings(ShortRepr):
     """Where motions come from, how the input is read, what is added, and what is decided of single parts and joints.
 
-    With `small_parts` knobs, buttons and wheels get joints of their own. `labels` and `motions` go by the ids of parts,
+    With `small_parts` knobs, buttons and wheels get joints of their own; without (None) only those that are links of
+    their own in a robot description, with False none. `labels` and `motions` go by the ids of parts,
     `joints` by those of moving parts. `weights` is a file of trained weights (ONNX) for the network; None: those that
     came with the package. A motion source that reads another system's file is no setting: it needs the file.
     """
@@ -40,7 +41,7 @@ class Settings(ShortRepr):
     motion: MotionSource = MotionSource.AUTO
     reading: LoadOptions = LoadOptions()
     trim: bool = True
-    small_parts: bool = False
+    small_parts: bool | None = None
     labels: Mapping[str, PartLabel] = field(default_factory=dict)
     motions: Mapping[str, MotionChoice] = field(default_factory=dict)
     joints: Mapping[str, JointChoice] = field(default_factory=dict)
