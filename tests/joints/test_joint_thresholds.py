@@ -9,6 +9,7 @@ import pytest
 
 from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
+from grafu.joints.drop_leaves import DropLeafConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.plan import PlanConfig
@@ -40,6 +41,7 @@ REASONS = {
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
+    "drop_leaves.py": {"_UP": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
@@ -63,8 +65,8 @@ REASONS = {
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, DrawerConfig, DrawnConfig, FlankConfig,
-    FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig,
+    BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, DrawerConfig, DrawnConfig, DropLeafConfig,
+    FlankConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig,
     RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 

@@ -275,6 +275,13 @@ def test_a_round_tray_turns_with_its_ring_and_does_not_slide():
     assert {joint.child for joint in made.object.joints} == {"door", "drawer_tray"}
 
 
+@pytest.mark.parametrize(("small", "type_"), [(None, JointType.CONTINUOUS), (False, JointType.PRISMATIC)])
+def test_by_default_a_round_tray_turns_that_would_slide(small, type_):
+    tray = cylinder("drawer_tray", ((0.2, 0.2, 0.31), (0.2, 0.2, 0.32)), 0.15)
+    made = made_of(*CASE, DOOR, SHELF, RING, tray, small=small)
+    assert [joint.type for joint in made.object.joints if joint.child == "drawer_tray"] == [type_]
+
+
 def test_a_tray_with_corners_is_no_turntable():
     tray = box("drawer_tray", (0.05, 0.05, 0.31), (0.35, 0.35, 0.32))
     assert small_joints(made_of(*CASE, DOOR, SHELF, RING, tray)) == {}

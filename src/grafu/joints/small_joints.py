@@ -1,6 +1,6 @@
 """Joints of small parts: each becomes a link of its own, taken out of the one whose piece it was, without hardware."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -41,18 +41,21 @@ class _Taken:
 
 
 def with_small_parts(
-    realized: Realized, asset: Asset, config: RealizationConfig = RealizationConfig(), *, only_links: bool = False
+    realized: Realized,
+    asset: Asset,
+    config: RealizationConfig = RealizationConfig(),
+    chosen: Collection[str] | None = None,
 ) -> Realized:
     """Returns what was realized with joints for small parts: those that the asset states, else those found by shape.
 
-    With `only_links`, of the latter those that are links of their own in the asset.
+    Of the latter all, or, where parts are `chosen`, these and those that are links of their own in the asset.
     """
     made, scaled = realized.object, at_scale(config, metre_on(asset.extent))
     requests = stated_small_parts(asset, config.plan)
     if not requests:
         requests = small_parts(made, scaled.small)
-        if only_links:
-            requests = tuple(r for r in requests if are_links(asset, (r.moving, *r.attached)))
+        if chosen is not None:
+            requests = tuple(r for r in requests if r.moving in chosen or are_links(asset, (r.moving, *r.attached)))
     changed, outcomes = with_small_joints(made, requests, scaled)
     built = {outcome.moving for outcome in outcomes if isinstance(outcome, Installed)}
     before = (o for o in realized.report.outcomes if not (isinstance(o, Refusal) and o.part in built))

@@ -4,7 +4,7 @@ They are found by their shape, and by what they touch, on an object whose doors 
 go by their names. Knobs are in `small_knobs.py`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from math import pi
 
@@ -18,7 +18,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.joints.config import SmallPartConfig
 from grafu.joints.make_plan import request_of_joint
-from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
+from grafu.joints.plan import JointRequest, PlanConfig
 from grafu.joints.small_knobs import SOURCE, Piece, Round, knobs, largest_side, round_about, standing
 from grafu.scene.border import part_axes
 from grafu.vocabulary import JointType, PartLabel
@@ -47,17 +47,11 @@ def are_links(asset: Asset, names: Sequence[str]) -> bool:
     return "" not in links and links.isdisjoint(p.source.link for p in asset.parts if p.id not in names)
 
 
-def without_turntables(
-    plan: RealizationPlan, asset: Asset, config: SmallPartConfig = SmallPartConfig(), *, only_links: bool = False
-) -> RealizationPlan:
-    """Returns the plan without the trays that are round: these turn and do not slide (`small_parts`).
-
-    With `only_links`, without those that are links of their own in the asset.
-    """
-    trays = {p.id for p in asset.parts if _turntable(Piece("", Visual(p.id, p.surfaces, label=p.label)), config)}
-    if only_links:
-        trays = {name for name in trays if are_links(asset, (name,))}
-    return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in trays or not r.kind.slides))
+def round_trays(asset: Asset, names: Collection[str], config: SmallPartConfig = SmallPartConfig()) -> frozenset[str]:
+    """Returns which of some parts are trays that are round: these turn and do not slide (`small_parts`)."""
+    parts = [asset.part(name) for name in names]
+    pieces = [Piece("", Visual(part.id, part.surfaces, label=part.label)) for part in parts]
+    return frozenset(piece.name for piece in pieces if _turntable(piece, config) is not None)
 
 
 def small_parts(made: ArticulatedObject, config: SmallPartConfig = SmallPartConfig()) -> tuple[JointRequest, ...]:

@@ -12,27 +12,24 @@ from grafu.asset.part import Asset
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
 from grafu.geometry.budget import UNLIMITED, Budget
-from grafu.geometry.config_checks import at_scale
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
-from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.joint_choice import with_choices
-from grafu.joints.lifts import with_lifts
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
 from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
-from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
 from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
+from grafu.pipeline.shown_by_shape import may_have_small_parts, shown_by_shape, without_turntables
 from grafu.pipeline.stages import (
     Stages,
     by_contacts,
@@ -42,7 +39,7 @@ from grafu.pipeline.stages import (
     without_network,
 )
 from grafu.processes.cache import NO_CACHE, Cache
-from grafu.scene.scene import Scene, metre_on
+from grafu.scene.scene import Scene
 from grafu.templates.template import Gallery, HandleTemplate
 from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
@@ -193,12 +190,10 @@ def functionalize(
     completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
+    turning: frozenset[str] = frozenset()
     if not motion.reads_annotation:
-        plan = _shown_by_shape(plan, asset, completion, joints)
-        if _may_have_small_parts(asset, motion, settings.small_parts):
-            from grafu.joints.small_parts import without_turntables  # local: most runs do without
-
-            plan = without_turntables(plan, asset, only_links=settings.small_parts is None)
+        plan = shown_by_shape(plan, asset, completion.completed, joints)
+        plan, turning = without_turntables(plan, asset, settings.small_parts)
     plan = with_choices(
         plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
     )
@@ -213,10 +208,11 @@ def functionalize(
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     realized = replace(realized, object=fitted_object(realized.object, fittings))
-    if _may_have_small_parts(asset, motion, settings.small_parts):  # most runs do without
+    if turning or may_have_small_parts(asset, motion.reads_annotation, settings.small_parts):  # most runs do without
         from grafu.joints.small_joints import with_small_parts
 
-        small = partial(with_small_parts, realized, asset, joints, only_links=settings.small_parts is None)
+        chosen_small = turning if settings.small_parts is None else None
+        small = partial(with_small_parts, realized, asset, joints, chosen_small)
         realized = stages.timed("small parts", small, lambda _: realized)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
@@ -235,23 +231,6 @@ def functionalize(
         stated,
         frozenset(settings.motions),
     )
-
-
-def _shown_by_shape(
-    plan: RealizationPlan, asset: Asset, completion: GraphCompletion, joints: RealizationConfig
-) -> RealizationPlan:
-    """Returns a predicted plan with what shape and names alone show of how parts move."""
-    plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
-    return with_lifts(plan, completion.completed, at_scale(joints.lift, metre_on(asset.extent)))
-
-
-def _may_have_small_parts(asset: Asset, motion: MotionMethod, wanted: bool | None) -> bool:
-    """Whether joints of small parts are built; by default (None) where they are stated and read, or parts are links."""
-    if wanted is not None:
-        return wanted
-    if asset.small_joints:
-        return motion.reads_annotation
-    return any(part.source.link for part in asset.parts)
 
 
 def _with_source(

@@ -1,0 +1,48 @@
+"""What shape and names alone show of how parts move, whatever was predicted."""
+
+from dataclasses import replace
+
+from grafu.asset.part import Asset
+from grafu.geometry.config_checks import at_scale
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.joints.config import RealizationConfig
+from grafu.joints.drawn_hinges import with_drawn_hinges
+from grafu.joints.drop_leaves import with_drop_leaves
+from grafu.joints.lifts import with_lifts
+from grafu.joints.plan import RealizationPlan
+from grafu.joints.sliding_doors import with_sliding_doors
+from grafu.scene.scene import metre_on
+from grafu.vocabulary import PartLabel
+
+
+def shown_by_shape(
+    plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, joints: RealizationConfig
+) -> RealizationPlan:
+    """Returns a predicted plan with drawn hinges, sliding doors, drop leaves and lifting columns."""
+    plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
+    return with_lifts(with_drop_leaves(plan, asset), graph, at_scale(joints.lift, metre_on(asset.extent)))
+
+
+def without_turntables(
+    plan: RealizationPlan, asset: Asset, small: bool | None
+) -> tuple[RealizationPlan, frozenset[str]]:
+    """Returns the plan without trays that are round, and these: they turn, and are built as small parts.
+
+    `small` is as in the settings; with False they slide as they were predicted.
+    """
+    sliding = {r.moving for r in plan.joints if r.kind.slides and asset.part(r.moving).label is PartLabel.DRAWER}
+    if small is False or not sliding:
+        return plan, frozenset()
+    from grafu.joints.small_parts import round_trays  # local: most runs do without
+
+    turning = round_trays(asset, sliding)
+    return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in turning)), turning
+
+
+def may_have_small_parts(asset: Asset, reads_annotation: bool, wanted: bool | None) -> bool:
+    """Whether joints of small parts are built; by default (None) where they are stated and read, or parts are links."""
+    if wanted is not None:
+        return wanted
+    if asset.small_joints:
+        return reads_annotation
+    return any(part.source.link for part in asset.parts)
