@@ -148,13 +148,15 @@ def test_behind_a_door_a_handle_is_flat_enough():
             assert all(part.distance(MeshCollider(d.mesh)) > 0 for d in doors)
 
 
-def test_one_lost_handle_is_like_the_others():
+@pytest.mark.parametrize("hinted", [False, True])
+def test_one_lost_handle_is_like_the_others_wherever_one_was_predicted(hinted):
     asset = cabinet(CellRow((Door("left"), Door("right"), Door("left"))), width=1.2)
     lost, kept = (
         next(p for p in asset.parts if p.label is PartLabel.HANDLE and p.carried_by == f"door_{k}") for k in (1, 3)
     )
     rest = replace(asset, parts=tuple(p for p in asset.parts if p is not lost))
-    handles = added(rest)
+    predicted = lost.box.center - vec3(0.0, 0.0, 0.2)
+    handles = added(rest, hints={"door_1": predicted} if hinted else None)
     (addition,) = handles.additions
     np.testing.assert_allclose(addition.part.box.center, lost.box.center, atol=0.012)
     assert addition.part.box.size.max() == pytest.approx(lost.box.size.max(), rel=0.02)
@@ -168,7 +170,10 @@ def test_a_sensible_hint_is_followed_and_a_senseless_one_is_not():
     by_hinge = vec3(float(door.low[0]) + 0.05, float(door.low[1]), float(door.center[2]))
     at = handle_of(added(asset, hints={"door": high}), "door").box.center
     np.testing.assert_allclose(at[[0, 2]], high[[0, 2]], atol=0.005)
-    assert handle_of(added(asset, hints={"door": by_hinge}), "door").box.center[0] > door.center[0]
+    in_the_middle = np.array(door.center) - (0, 0.5 * door.size[1], 0)
+    for senseless in (by_hinge, in_the_middle):
+        at = handle_of(added(asset, hints={"door": senseless}), "door").box.center
+        assert at[0] > door.low[0] + 0.8 * door.size[0]
 
 
 def test_a_door_too_small_for_anything_is_refused():

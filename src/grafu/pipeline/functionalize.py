@@ -211,8 +211,7 @@ def functionalize(
     if turning or may_have_small_parts(asset, motion.reads_annotation, settings.small_parts):  # most runs do without
         from grafu.joints.small_joints import with_small_parts
 
-        chosen_small = turning if settings.small_parts is None else None
-        small = partial(with_small_parts, realized, asset, joints, chosen_small)
+        small = partial(with_small_parts, realized, asset, joints, turning if settings.small_parts is None else None)
         realized = stages.timed("small parts", small, lambda _: realized)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))

@@ -114,6 +114,8 @@ class HandleConfig(ShortRepr):
     """Fraction of a drawer's width that two handles take at most."""
     inset_ratio: float = 0.2
     """Fraction of a front's side within which a handle lies from the free edge, where there is room for more."""
+    free: float = 0.7
+    """A predicted place counts from this fraction of the front's side on, from the edge that is held to the free one."""
     from_end: float = 0.1
     """From the end of a door to the near end of its handle, metres ..."""
     from_end_ratio: float = 0.15
@@ -144,7 +146,7 @@ class HandleConfig(ShortRepr):
         require_positive(self, "least", "uneven", "steepest", "foot_depth", "touch", "from_end")
         require_positive(self, "knob", "knob_ratio", "shortest_bar", "longest_bar")
         require_positive(self, "from_top")
-        require_ratios(self, "both", "inset_ratio", "bar_ratio", "lid", "from_top_ratio")
+        require_ratios(self, "both", "inset_ratio", "free", "bar_ratio", "lid", "from_top_ratio")
         require_ratios(self, "from_end_ratio", "tall_end_ratio", "end_inset_ratio", "central")
         require_not_negative(self, "length", "margin", "weak")
         if not 0 <= self.count <= MOST_HANDLES:

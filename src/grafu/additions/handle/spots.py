@@ -54,7 +54,7 @@ def spots_on(
 ) -> Iterator[Spot]:
     """Yields spots for a handle of an extent on a front, best first; the handle fits in the outline at each.
 
-    `hint` is where a handle was predicted, in the object frame.
+    `hint` is where a handle was predicted, in the object frame; a door whose siblings have handles is like them instead.
     """
     usual = _by_habit(relief, extent, siblings, hint, config)
     if not config.count and config.offset == (0.0, 0.0):
@@ -68,7 +68,8 @@ def _by_habit(
     relief: Relief, extent: Extent, siblings: Sequence[Sibling], hint: Vec3 | None, config: HandleConfig
 ) -> Iterator[Spot]:
     side = relief.front.held
-    if hint is not None:
+    copied = side in ("left", "right") and any(q.front.held in ("left", "right") for q in siblings)
+    if hint is not None and not copied:
         yield from _hinted(relief, extent, hint, side, config)
     if side is None:
         yield from _on_drawer(relief, extent, siblings, config)
@@ -104,7 +105,7 @@ def _hinted(relief: Relief, extent: Extent, hint: Vec3, side: Side | None, confi
         return
     ratio = {"left": box.high[0] - u, "right": u - box.low[0]}.get(side or "", np.inf) / box.size[0]
     ratio = min(ratio, {"bottom": box.high[2] - v, "top": v - box.low[2]}.get(side or "", np.inf) / box.size[2])
-    if ratio >= 0.5:
+    if ratio >= config.free:
         upright = extent.turns and side in ("left", "right")
         yield from _fitting(relief, extent, [(u, v)], _above(side, upright, extent), "where it was predicted", config)
 
