@@ -13,6 +13,7 @@ from grafu.joints.drop_leaves import DropLeafConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.plan import PlanConfig
+from grafu.joints.pull_outs import PullOutConfig
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
@@ -59,6 +60,7 @@ REASONS = {
     "motion_choice.py": {"_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
+    "pull_outs.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "sliding_doors.py": {"_UP": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
@@ -66,8 +68,8 @@ REASONS = {
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, DrawerConfig, DrawnConfig, DropLeafConfig,
-    FlankConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig,
-    RealizationConfig, SurveyConfig, TimeConfig,
+    FlankConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RailConfig,
+    RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 
 

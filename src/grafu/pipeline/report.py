@@ -7,6 +7,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.joints.report import Installed
+from grafu.joints.sliding_doors import SOURCE as RULE
 from grafu.pipeline.certainty import guesses_of
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.move_options import move_options
@@ -64,11 +65,17 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
             for refusal in (*result.report.skipped, *result.body.refusals, *result.fittings.refusals)
         ),
         notes=result.notes,
-        guesses=guesses_of(result.completion, result.decided),
+        guesses=guesses_of(result.completion, result.decided | _shown_by_shape(result)),
         moves=move_options(result),
         timings={stage: round(seconds, 4) for stage, seconds in timings.items()},
     )
     return report.model_copy(update={"verdict": verdict_of(report)})
+
+
+def _shown_by_shape(result: Functionalized) -> frozenset[str]:
+    """Returns the parts whose motion shape or name shows, whatever the source stated: it is no guess of the source."""
+    stated = result.completion.source
+    return frozenset(r.moving for r in result.plan.joints if r.source == RULE != stated)
 
 
 def skipped_record(refusal: Refusal) -> SkippedRecord:

@@ -10,6 +10,7 @@ from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_leaves import with_drop_leaves
 from grafu.joints.lifts import with_lifts
 from grafu.joints.plan import RealizationPlan
+from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
@@ -18,8 +19,8 @@ from grafu.vocabulary import PartLabel
 def shown_by_shape(
     plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, joints: RealizationConfig
 ) -> RealizationPlan:
-    """Returns a predicted plan with drawn hinges, sliding doors, drop leaves and lifting columns."""
-    plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
+    """Returns a predicted plan with drawn hinges, sliding doors, pull-out units, drop leaves and lifting columns."""
+    plan = with_pull_outs(with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset), asset, graph)
     return with_lifts(with_drop_leaves(plan, asset), graph, at_scale(joints.lift, metre_on(asset.extent)))
 
 

@@ -128,6 +128,8 @@ def find_loose(request: JointRequest, closed: ClosedScene, config: DrawerBoxConf
 
 def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig) -> BoxVerdict:
     """Returns what a drawer, closed, has of a box behind its front, and what is missing."""
+    if closed.scene.parts[request.moving].label is PartLabel.DOOR:
+        return BoxVerdict(request.moving, "no drawer", why="it is a door, which has what it carries")
     framed = closed.framed(request)
     if framed is None:
         return BoxVerdict(request.moving, "no drawer", why="it does not slide out of a case")

@@ -115,7 +115,7 @@ class HandleConfig(ShortRepr):
     inset_ratio: float = 0.2
     """Fraction of a front's side within which a handle lies from the free edge, where there is room for more."""
     free: float = 0.7
-    """A predicted place counts from this fraction of the front's side on, from the edge that is held to the free one."""
+    """A predicted place counts from this fraction of a front's side on, beginning at the edge that is held."""
     from_end: float = 0.1
     """From the end of a door to the near end of its handle, metres ..."""
     from_end_ratio: float = 0.15

@@ -54,7 +54,7 @@ def spots_on(
 ) -> Iterator[Spot]:
     """Yields spots for a handle of an extent on a front, best first; the handle fits in the outline at each.
 
-    `hint` is where a handle was predicted, in the object frame; a door whose siblings have handles is like them instead.
+    `hint` is where a handle was predicted, in the object frame; a door is like its siblings instead, if they have any.
     """
     usual = _by_habit(relief, extent, siblings, hint, config)
     if not config.count and config.offset == (0.0, 0.0):

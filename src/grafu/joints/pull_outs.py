@@ -1,0 +1,122 @@
+"""Pull-out units: a slim front with a rack behind it that nothing else holds. Both slide out as one.
+
+They are found by boxes and contacts, so fronts that stand turned about Z stay as they were predicted.
+"""
+
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Asset, Part
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
+from grafu.graph.edges import Slide
+from grafu.graph.functional_graph import FunctionalGraph, joined_groups
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.scene.scene import metre_on
+
+SOURCE = "rule"
+"""`JointRequest.source` of a pull-out unit: the rack behind the front shows that it slides."""
+_UP, _DEPTH = 2, 1
+_OUT = vec3(0.0, -1.0, 0.0)
+
+
+@final
+@dataclass(frozen=True)
+class PullOutConfig:
+    """What counts as a front with a rack behind it; lengths are metres on furniture of usual size.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    LENGTHS = ("reach", "clear")
+    slim: float = 0.6
+    """Greatest width of the front (fraction of its height)."""
+    upright: float = 0.9
+    """From this cosine on to the vertical the predicted hinge is at a side of the front."""
+    pieces: int = 3
+    """How many parts a rack has at least: one board may be a shelf whose pins are not drawn."""
+    tall: float = 0.5
+    """Least height of a rack (fraction of the front's height)."""
+    deep: float = 0.5
+    """Least depth of a rack (fraction of the depth of the whole)."""
+    reach: float = 0.04
+    """How far behind the front, or in it, the rack's near end lies at most (metres)."""
+    clear: float = 0.02
+    """A rack stays this far within the outline of its front (metres): what comes nearer to it is the case."""
+    wall: float = 0.7
+    """A board across the depth that fills this fraction of the outline, both ways, is the back of the case."""
+    back: float = 0.1
+    """What stands behind all but this far part of the rack's depth may touch it: the back of the case (fraction)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "reach", "clear", "pieces")
+        require_ratios(self, "slim", "upright", "tall", "deep", "wall", "back")
+
+
+def with_pull_outs(
+    plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, config: PullOutConfig = PullOutConfig()
+) -> RealizationPlan:
+    """Returns the plan in which a front with a rack behind it slides out with the rack, and does not turn."""
+    config = at_scale(config, metre_on(asset.extent))
+    moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
+    static = [part for part in asset.parts if part.id not in moving]
+    return replace(plan, joints=tuple(_pulled_out(r, asset, static, graph, config) for r in plan.joints))
+
+
+def _pulled_out(
+    request: JointRequest, asset: Asset, static: list[Part], graph: FunctionalGraph, config: PullOutConfig
+) -> JointRequest:
+    """Returns the request of a door with a rack behind it as one that slides out; any other as it is."""
+    front = asset.part(request.moving).box
+    hinged = request.kind.turns and abs(float(request.axis.direction[_UP])) >= config.upright
+    slim = front.thin_axis == _DEPTH and front.size[0] <= config.slim * front.size[_UP]
+    if not (hinged and slim) or request.parent or request.coupling:
+        return request
+    rack = _rack(request, front, asset, static, graph, config)
+    if not rack:
+        return request
+    return JointRequest(
+        request.moving,
+        Slide.joint_type,
+        Axis(front.center, _OUT),
+        SOURCE,
+        attached=(*request.attached, *rack),
+        choice=request.choice,
+    )
+
+
+def _rack(
+    request: JointRequest, front: Box, asset: Asset, static: list[Part], graph: FunctionalGraph, config: PullOutConfig
+) -> list[str]:
+    """Returns the parts behind a front that hang together and that nothing beside, above or below them holds."""
+    own = {request.moving, *request.attached}
+    inside = {part.id: part.box for part in static if _is_behind(part.box, front, config)}
+    touching = {name: [other for other in graph.neighbours[name] if other in inside] for name in inside}
+    for found in joined_groups(touching):
+        box = Box.enclosing(inside[name] for name in found)
+        near = abs(float(box.low[_DEPTH] - front.high[_DEPTH])) <= config.reach
+        large = (
+            box.size[_UP] >= config.tall * front.size[_UP] and box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
+        )
+        if len(found) < config.pieces or not (near and large):
+            continue
+        touched = {name for member in found for name in graph.neighbours[member]} - set(found) - own
+        far = float(box.high[_DEPTH]) - config.back * float(box.size[_DEPTH])
+        if all(float(asset.part(name).box.low[_DEPTH]) >= far for name in touched):
+            return sorted(found)
+    return []
+
+
+def _is_behind(box: Box, front: Box, config: PullOutConfig) -> bool:
+    """Whether a part may be one of a rack: well within a front's outline, behind it, and no back of the case."""
+    low, high = front.low + config.clear, front.high - config.clear
+    across = [0, _UP]
+    inside = np.all(box.low[across] >= low[across]) and np.all(box.high[across] <= high[across])
+    behind = box.low[_DEPTH] >= front.low[_DEPTH] and box.high[_DEPTH] > front.high[_DEPTH]
+    wall = box.thin_axis == _DEPTH and np.all(box.size[across] >= config.wall * front.size[across])
+    return bool(inside and behind and not wall)

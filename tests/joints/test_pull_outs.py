@@ -1,0 +1,94 @@
+"""A slim front with a rack behind it that nothing else holds slides out with the rack; other doors stay hinged."""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.graph.parse import parse_graph
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.pull_outs import with_pull_outs
+from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType, PartLabel
+from judging import swept_collisions
+from small_scenes import box, cylinder, scene
+
+FRONT = box("door", (0.0, -0.021, 0.1), (0.3, -0.001, 0.8))
+HANDLE = cylinder("handle", ((0.1, -0.05, 0.72), (0.2, -0.05, 0.72)))
+POSTS = [cylinder(f"handle_post_{k}", ((x, -0.05, 0.72), (x, -0.02, 0.72))) for k, x in enumerate((0.11, 0.19))]
+CASE = [
+    replace(part, label=label)
+    for part, label in (
+        (box("left", (0.0, 0.0, 0.1), (0.018, 0.5, 0.8)), PartLabel.SIDE_PANEL),
+        (box("right", (0.282, 0.0, 0.1), (0.3, 0.5, 0.8)), PartLabel.SIDE_PANEL),
+        (box("floor", (0.018, 0.0, 0.1), (0.282, 0.5, 0.118)), PartLabel.BOTTOM_PANEL),
+        (box("top", (0.018, 0.0, 0.782), (0.282, 0.5, 0.8)), PartLabel.TOP_PANEL),
+        (box("back", (0.018, 0.482, 0.118), (0.282, 0.5, 0.782)), PartLabel.BACK_PANEL),
+    )
+]
+RACK = [
+    box("post_near", (0.14, 0.0, 0.15), (0.16, 0.02, 0.75)),
+    box("post_far", (0.14, 0.44, 0.15), (0.16, 0.46, 0.75)),
+    box("tray_low", (0.05, 0.0, 0.15), (0.25, 0.46, 0.16)),
+    box("tray_high", (0.05, 0.0, 0.45), (0.25, 0.46, 0.46)),
+    *(box(f"bar_{k}", (x, 0.0, 0.16), (x + 0.012, 0.46, 0.23)) for k, x in enumerate((0.05, 0.238))),
+]
+
+
+def requests(*parts):
+    hinge = JointRequest("door", JointType.REVOLUTE, Axis(vec3(0.0, -0.02, 0.45), vec3(0.0, 0.0, -1.0)), "network")
+    asset = scene(*parts)
+    return with_pull_outs(RealizationPlan((hinge,), ()), asset, parse_graph(asset)).joints
+
+
+def test_a_rack_slides_out_with_its_front():
+    asset = scene(FRONT, HANDLE, *POSTS, *CASE, *RACK)
+    made = functionalize(asset, MotionSource.NETWORK, builtin_gallery())
+    (joint,) = made.object.joints
+    assert (joint.child, joint.type) == ("door", JointType.PRISMATIC)
+    assert joint.axis.direction[1] == pytest.approx(-1.0)
+    moving = {visual.name for visual in made.object.link("door").visuals}
+    assert {"door", *(part.id for part in RACK)} <= moving
+    assert not moving & {part.id for part in CASE}
+    assert not swept_collisions(made.object, joint, 20)
+    assert joint.limits.upper > 0.3
+    report = report_of(made)
+    assert [guess.part for guess in report.guesses if guess.part == "door"] == []
+    assert [one.part for one in report.added if one.style == "drawer box"] == []
+
+
+OTHERS = {
+    "nothing behind it": (FRONT, *CASE),
+    "shelves between the sides": (FRONT, *CASE, box("shelf", (0.018, 0.02, 0.45), (0.282, 0.48, 0.46))),
+    "a rack on the floor of the case": (FRONT, *CASE, *RACK, box("foot", (0.1, 0.1, 0.118), (0.2, 0.2, 0.15))),
+    "a rack that ends far behind the front": (
+        FRONT,
+        *CASE,
+        box("post", (0.14, 0.1, 0.15), (0.16, 0.12, 0.75)),
+        RACK[1],
+        box("tray_low", (0.05, 0.1, 0.15), (0.25, 0.46, 0.16)),
+        box("tray_high", (0.05, 0.1, 0.45), (0.25, 0.46, 0.46)),
+    ),
+    "one loose board": (FRONT, *CASE, box("board", (0.05, 0.0, 0.15), (0.25, 0.46, 0.75))),
+    "a wide front": (
+        box("door", (-0.3, -0.02, 0.1), (0.6, 0.0, 0.8)),
+        *(part for part in CASE if part.id not in ("left", "right")),
+        *RACK,
+    ),
+}
+
+
+@pytest.mark.parametrize("what", OTHERS)
+def test_other_doors_stay_hinged(what):
+    (request,) = requests(*OTHERS[what])
+    assert (request.type, request.attached) == (JointType.REVOLUTE, ())
+
+
+def test_the_rack_behind_a_front_is_attached_to_it():
+    (request,) = requests(FRONT, *CASE, *RACK)
+    assert request.type is JointType.PRISMATIC
+    assert set(request.attached) == {part.id for part in RACK}
