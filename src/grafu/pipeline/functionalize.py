@@ -15,6 +15,7 @@ from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.joints.building_doors import with_door_labels
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
 from grafu.joints.joint_choice import with_choices
@@ -244,7 +245,7 @@ def _with_source(
         return stages.timed("match", lambda: attach_motions(asset, source)), MotionSource(source.source)
     chosen = choose_source(asset, source, settings.weights)
     _require_attached(asset, chosen)
-    return asset if MOTIONS[chosen].reads_annotation else asset.without_annotation(), chosen
+    return asset if MOTIONS[chosen].reads_annotation else with_door_labels(asset.without_annotation()), chosen
 
 
 def _as_built(

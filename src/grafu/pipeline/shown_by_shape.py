@@ -5,6 +5,7 @@ from dataclasses import replace
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.joints.building_doors import with_building_doors
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_leaves import with_drop_leaves
@@ -20,6 +21,7 @@ def shown_by_shape(
     plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, joints: RealizationConfig
 ) -> RealizationPlan:
     """Returns a predicted plan with drawn hinges, sliding doors, pull-out units, drop leaves and lifting columns."""
+    plan = with_building_doors(plan, asset)
     plan = with_pull_outs(with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset), asset, graph)
     return with_lifts(with_drop_leaves(plan, asset), graph, at_scale(joints.lift, metre_on(asset.extent)))
 

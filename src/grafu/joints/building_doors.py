@@ -1,0 +1,221 @@
+"""Doors of buildings: leaves in a frame that stands on the floor. They turn about the edge away from their handles.
+
+They are found by shape alone: a slim piece of a door's height, a frame around it that is open at the floor, and upright
+boards that reach down to it within.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Asset, Part
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.geometry.raycast import RayCaster
+from grafu.graph.edges import Hinge, Slide
+from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.scene.border import part_axes
+from grafu.vocabulary import PartLabel
+
+SOURCE = "rule"
+"""`JointRequest.source` of a leaf in a frame: its shape tells."""
+_WIDTH, _DEPTH, _UP = 0, 1, 2
+_RAYS = 12  # along each side of a leaf
+
+
+@final
+@dataclass(frozen=True)
+class BuildingDoorConfig:
+    """What counts as a door of a building.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    tall: float = 1.6
+    """Least height of the whole (metres)."""
+    slim: float = 0.35
+    """Greatest depth of the whole (fraction of its height)."""
+    around: float = 0.7
+    """What of the width of the whole the frame spans at least (fraction); of its height it spans nearly all."""
+    high: float = 0.95
+    """What of the height of the whole the frame spans at least (fraction)."""
+    open: float = 0.1
+    """What of a leaf the frame covers at most, seen from before it (fraction)."""
+    leaf: float = 0.6
+    """Least height of a leaf (fraction of the height of the whole)."""
+    thin: float = 0.3
+    """Greatest thickness of a leaf (fraction of its width)."""
+    threshold: float = 0.05
+    """How high above the floor a leaf ends at most (fraction of the height of the whole)."""
+    small: float = 0.3
+    """Greatest side of a handle or lock (fraction of its leaf's height)."""
+    aside: float = 0.2
+    """A handle or lock is this far to one side of its leaf's middle at least (fraction of the leaf's width)."""
+    flush: float = 0.1
+    """A leaf is nearer to one face of the frame if the two gaps differ by this much (fraction of the frame's depth)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "tall")
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name != "tall"))
+
+
+def with_door_labels(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> Asset:
+    """Returns the asset in which the leaves of a door in its frame are doors, and the frame is none; else itself.
+
+    Labels that the user gave stay.
+    """
+    frame = _frame(asset, config)
+    leaves = [] if frame is None else list(_leaves(frame, asset, config))
+    if frame is None or not leaves:
+        return asset
+    labels = {frame.id: PartLabel.FACE_FRAME, **{leaf.id: PartLabel.DOOR for leaf in leaves}}
+    parts = (
+        part
+        if labels.get(part.id, part.label) is part.label or part.labelled_by == "user"
+        else replace(part, label=labels[part.id], labelled_by="shape")
+        for part in asset.parts
+    )
+    return replace(asset, parts=tuple(parts))
+
+
+def with_building_doors(
+    plan: RealizationPlan, asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()
+) -> RealizationPlan:
+    """Returns the plan in which the leaves of a door in its frame turn; the plan itself for any other piece.
+
+    A leaf that the plan slides keeps its motion. What is small and touches no frame goes with the leaf that it is on.
+    """
+    frame = _frame(asset, config)
+    if frame is None:
+        return plan
+    leaves = list(_leaves(frame, asset, config))
+    if not leaves:
+        return plan
+    kept = [r for r in plan.joints if r.moving != frame.id and r.moving not in {leaf.id for leaf in leaves}]
+    sliding = {r.moving: r for r in plan.joints if r.kind.slides}
+    requests = [sliding.get(leaf.id) or _request(leaf, leaves, frame, asset, config) for leaf in leaves]
+    riding = {part for request in requests for part in request.attached}
+    kept = [r for r in kept if r.moving not in riding]
+    settled = {frame.id, *riding, *(leaf.id for leaf in leaves)}
+    refused = tuple(refusal for refusal in plan.refused if refusal.part not in settled)
+    return replace(plan, joints=(*kept, *requests), refused=refused)
+
+
+def _frame(asset: Asset, config: BuildingDoorConfig) -> Part | None:
+    """Returns the part that stands around a door; None where the whole is no door's size, or no part does."""
+    size = asset.box.size
+    if size[_UP] < config.tall or size[_DEPTH] > config.slim * size[_UP]:
+        return None
+    frames = (
+        part
+        for part in asset.parts
+        if part.box.size[_WIDTH] >= config.around * size[_WIDTH] and part.box.size[_UP] >= config.high * size[_UP]
+    )
+    return max(frames, key=lambda part: float(np.prod(part.box.size[[_WIDTH, _UP]])), default=None)
+
+
+def _leaves(frame: Part, asset: Asset, config: BuildingDoorConfig) -> Iterator[Part]:
+    """Yields the upright boards within a frame that end near the floor, without those that lie within another."""
+    whole, found = asset.box, list[Part]()
+    rays = RayCaster(frame.mesh)
+    for part in sorted(asset.parts, key=lambda part: -float(np.prod(part.box.size[[_WIDTH, _UP]]))):
+        if part is frame or not _is_board(part, whole, config) or any(_within(part.box, one.box) for one in found):
+            continue
+        if _covered(rays, part.box, whole) <= config.open:
+            found.append(part)
+    yield from found
+
+
+def _is_board(part: Part, whole: Box, config: BuildingDoorConfig) -> bool:
+    """Whether a part is an upright board that ends near the floor; one drawn ajar is measured along its own sides."""
+    box = Box.around(part.mesh.vertices @ part_axes(part.mesh))
+    upright = part.box.size[_UP] >= config.leaf * whole.size[_UP]
+    thin = np.sort(box.size)[0] <= config.thin * np.sort(box.size)[1]
+    return bool(upright and thin and part.box.low[_UP] <= whole.low[_UP] + config.threshold * whole.size[_UP])
+
+
+def _within(box: Box, other: Box) -> bool:
+    return bool(np.all(box.low[[_WIDTH, _UP]] >= other.low[[_WIDTH, _UP]]) and np.all(box.high <= other.high))
+
+
+def _covered(rays: RayCaster, leaf: Box, whole: Box) -> float:
+    """Returns what of a leaf lies behind or before the frame, seen from before it (fraction)."""
+    steps = (np.arange(_RAYS) + 0.5) / _RAYS
+    across, up = (leaf.low[k] + steps * leaf.size[k] for k in (_WIDTH, _UP))
+    grid = np.stack(np.meshgrid(across, up), -1).reshape(-1, 2)
+    before = np.full(len(grid), whole.low[_DEPTH] - whole.size[_DEPTH])
+    origins = np.column_stack([grid[:, 0], before, grid[:, 1]])
+    return float(np.isfinite(rays.along(origins, np.array([0.0, 1.0, 0.0]))).mean())
+
+
+def _request(leaf: Part, leaves: Sequence[Part], frame: Part, asset: Asset, config: BuildingDoorConfig) -> JointRequest:
+    riders = [part for part in asset.parts if part is not frame and part not in leaves and _is_on(part, leaf, config)]
+    attached = tuple(part.id for part in riders)
+    shift = float(leaf.box.center[_WIDTH] - frame.box.center[_WIDTH])
+    beyond = max(frame.box.low[_WIDTH] - leaf.box.low[_WIDTH], leaf.box.high[_WIDTH] - frame.box.high[_WIDTH])
+    if len(leaves) == 1 and beyond > config.aside * leaf.box.size[_WIDTH]:
+        axis = Axis(leaf.box.center, vec3(np.copysign(1.0, shift), 0.0, 0.0))
+        wide = float(leaf.box.size[_WIDTH])
+        return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, wide, (), attached, abs(shift))
+    side = _hinged_side(leaf, leaves, riders, config)
+    outwards = axis_of_motion(leaf, MotionChoice(Moves.TURNS, side), asset.box)
+    inwards = axis_of_motion(leaf, MotionChoice(Moves.TURNS, side, inwards=True), asset.box)
+    backwards = _opens_backwards(leaf, frame, riders, config)
+    axis = outwards if (_sets_off(outwards, side) > 0) == backwards else inwards
+    return JointRequest(leaf.id, Hinge.joint_type, axis, SOURCE, attached=attached)
+
+
+def _opens_backwards(leaf: Part, frame: Part, riders: Sequence[Part], config: BuildingDoorConfig) -> bool:
+    """Whether a leaf opens away from the viewer: to the face of the frame that it is nearer to.
+
+    In the middle of its frame it opens to the viewer, unless what it is grasped by is on the viewer's side alone: that
+    is the outer side of an entrance.
+    """
+    low, high = leaf.box.low[_DEPTH], leaf.box.high[_DEPTH]
+    nearer = (low - frame.box.low[_DEPTH]) - (frame.box.high[_DEPTH] - high)
+    if abs(nearer) > config.flush * frame.box.size[_DEPTH]:
+        return bool(nearer > 0)
+    before = any(one.box.low[_DEPTH] < low - config.flush * leaf.box.size[_DEPTH] for one in riders)
+    behind = any(one.box.high[_DEPTH] > high + config.flush * leaf.box.size[_DEPTH] for one in riders)
+    return before and not behind
+
+
+def _sets_off(axis: Axis, side: Side) -> float:
+    """Returns the depth component of the direction in which a leaf's free edge sets off."""
+    towards = vec3(1.0 if side is Side.LEFT else -1.0, 0.0, 0.0)
+    return float(np.cross(axis.direction, towards)[_DEPTH])
+
+
+def _is_on(part: Part, leaf: Part, config: BuildingDoorConfig) -> bool:
+    """Whether a part lies within the outline of a leaf, seen from before it: its pane, its handle, its lock."""
+    box, outline = part.box, leaf.box
+    if np.any(box.low[[_WIDTH, _UP]] < outline.low[[_WIDTH, _UP]] - _slack(outline, config)):
+        return False
+    if np.any(box.high[[_WIDTH, _UP]] > outline.high[[_WIDTH, _UP]] + _slack(outline, config)):
+        return False
+    return bool(box.grown(_slack(outline, config)).overlaps(outline))
+
+
+def _slack(outline: Box, config: BuildingDoorConfig) -> float:
+    return config.threshold * float(outline.size[_WIDTH])
+
+
+def _hinged_side(leaf: Part, leaves: Sequence[Part], riders: Sequence[Part], config: BuildingDoorConfig) -> Side:
+    """Returns the edge away from handles and locks; without these the outer edge of several leaves, else the left."""
+    box = leaf.box
+    small = [part.box for part in riders if part.box.size.max() <= config.small * box.size[_UP]]
+    aside = sum(
+        float(np.sign(offset))
+        for offset in (float(one.center[_WIDTH] - box.center[_WIDTH]) for one in small)
+        if abs(offset) >= config.aside * box.size[_WIDTH]
+    )
+    if not aside:
+        middle = float(np.mean([one.box.center[_WIDTH] for one in leaves]))
+        aside = middle - float(box.center[_WIDTH])
+    return Side.RIGHT if aside < 0 else Side.LEFT
