@@ -123,7 +123,8 @@ class JointRequest:
 
     `parent` is the moving part that carries the joint ("": the static body); the part is among what is `attached` to
     it. With a `coupling` the joint follows that of another part, which it names; both count values from closed.
-    `carriers` are the parts that alone may hold the hardware (empty: every static part).
+    `carriers` are the parts that alone may hold the hardware (empty: every static part). A leaf that `folds` turns on
+    pivots if they find room, or, where it follows another leaf, runs in a track above it.
     """
 
     moving: str
@@ -138,6 +139,7 @@ class JointRequest:
     parent: str = ""
     coupling: Coupling | None = None
     carriers: tuple[str, ...] = ()
+    folds: bool = False
 
     def __post_init__(self) -> None:
         if not self.kind.moves:
@@ -149,6 +151,11 @@ class JointRequest:
     def kind(self) -> MotionKind:
         """How it moves, and what everyone asks about it."""
         return motion_kind(self.type)
+
+    @property
+    def on_pivots(self) -> bool:
+        """Whether discs at its ends are tried before hinges: it is the outer leaf of a pair that folds."""
+        return self.folds and self.coupling is None
 
     @property
     def holders(self) -> tuple[str, ...]:

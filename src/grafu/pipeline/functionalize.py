@@ -19,6 +19,7 @@ from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
+from grafu.joints.folding import as_turning, folds_in, with_folds
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.lifts import with_lifts
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
@@ -184,21 +185,22 @@ def functionalize(
     """
     stages, settings, joints = Stages(on_stage, budget), config.settings, config.joints
     stated, drawers = len(asset.stated_joints), joints.drawer
-    asset, chosen = _with_source(asset, source, settings, drawers, stages)
+    folds = folds_in(settings.motions, asset, at_scale(joints.fold, metre_on(asset.extent)))
+    motions = as_turning(settings.motions, folds)
+    asset, chosen = _with_source(asset, source, replace(settings, motions=motions), drawers, stages)
     motion = _motion(chosen, settings.weights)
     parse = partial(cache.value, "parse", parse_graph, asset)  # contacts only
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
     complete = partial(cache.value, f"complete by {chosen} of {settings.weights}", motion.complete, asset, graph)
     completion = stages.timed("complete", complete, partial(without_network, graph))
-    completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
+    completion = with_mounts(with_motions(completion, motions, asset), settings.joints)
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
     with_small = settings.small_parts or (motion.reads_annotation and bool(asset.small_joints))
     if not motion.reads_annotation:
         plan = _shown_by_shape(plan, asset, completion, joints, with_small)
-    plan = with_choices(
-        plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
-    )
+    plan = with_folds(plan_with_motions(plan, motions, completion, asset), folds, joints.fold)
+    plan = with_choices(plan, settings.joints, asset, gallery, joints.plan)
     close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
     plan = stages.timed("close", close, lambda _: plan)
     add = partial(cache.value, "body", add_before_joints, asset, completion, plan, settings.additions.of_body, drawers)
@@ -229,7 +231,7 @@ def functionalize(
         tuple(stages.laps),
         tuple(stages.notes),
         stated,
-        frozenset(settings.motions),
+        frozenset(motions),
     )
 
 

@@ -128,6 +128,9 @@ class DoorSearch:
         """The axis of the first hinge class about which the door, without hardware, is free; else the requested one."""
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return self.request.axis
+        first = (other for other in self.others if other.pin.is_pivot and other.is_clear)
+        if self.request.on_pivots and (pivot := next(first, None)):
+            return pivot.axis
         judged = (self._judge(pin) for pin in self._allowed)
         return next((j.axis for j in judged if j.is_clear), self.request.axis)
 
@@ -187,16 +190,15 @@ class DoorSearch:
     def _all_in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins: those of a hinge class that leave the door free, slim ones, pivots, then everything by rank.
 
-        What is no board turns about the axis that was asked for, if anything can carry it there. Inset leaves come
-        after the pivots, except between doors that meet.
+        What is no board turns about the axis that was asked for, if anything can carry it there. So does the outer leaf
+        of two that fold, or near it. Inset leaves come after the pivots, except between doors that meet.
         """
         slim = (judged for judged in self.slim if not judged.pin.inset)
         first = [judged for judged in (*self.ruled, *slim) if judged.is_clear and judged.pin.preference < PIVOTS]
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             first = [judged for judged in self.others if judged.pin.is_pivot]
-        yield from first
         pivots = [judged for judged in self.others if judged.is_clear and judged.pin.is_pivot and judged not in first]
-        yield from pivots
+        yield from (*pivots, *first) if self.request.on_pivots else (*first, *pivots)
         rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in pivots)
         yield from sorted(rest, key=lambda j: j.rank)
 
