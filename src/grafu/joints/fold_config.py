@@ -16,7 +16,7 @@ class FoldConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("seam", "corner", "flush", "track", "strip", "play", "room", "bearing", "widest_gap")
+    LENGTHS = ("seam", "corner", "flush", "pivot", "pivot_edge", "track", "strip", "least", "play", "room", "bearing", "widest_gap")
     thin: float = 0.3
     """Greatest thickness of a leaf (fraction of its shorter other side): a handle may be part of its mesh."""
     width: float = 0.05
@@ -37,15 +37,21 @@ class FoldConfig:
     """How far the second leaf in a corner turns on the first at most (radians): it then lies before it."""
     beyond: float = 0.1
     """How far above and below a corner's leaves nothing stands between them (fraction of their height)."""
+    pivot: float = 0.002
+    """Radius of the outer leaf's pivots (metres): slim ones stand close to its outer edge ..."""
+    pivot_edge: float = 0.0008
+    """... this far from it (metres): as far the inner leaf's free edge departs from the plane that it is guided in."""
     track: float = 0.012
     """Width of the track above a pair (metres)."""
     strip: float = 0.002
     """Thickness of the track, at most half of the gap that it lies in (metres)."""
+    least: float = 0.0005
+    """Least gap above the leaves that a track under what stands there takes (metres)."""
     play: float = 0.001
     """Distance between the leaf's upper end and a track that nothing stands above (metres)."""
     room: float = 0.02
     """How far above the leaf's upper end the track may be fixed to what stands there (metres)."""
-    bearing: float = 0.004
+    bearing: float = 0.003
     """Radius of the guide that runs in the track (metres)."""
     widest_gap: float = 0.03
     """How far behind the track the case may stand that holds it (metres)."""

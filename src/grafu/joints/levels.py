@@ -18,6 +18,7 @@ from grafu.joints.build import Built
 from grafu.joints.build_all import build_fairly
 from grafu.joints.config import RealizationConfig
 from grafu.joints.coupled import Coupled
+from grafu.joints.fold_track import NO_TRACK, with_track
 from grafu.joints.measuring import Figures, Measured, measure_all
 from grafu.joints.nesting import above, brought_back, riding, seen_from
 from grafu.joints.order import BuiltJoint, OpeningOrder, order_joints, stand_aside
@@ -86,6 +87,8 @@ class Builder:
             levels = self._with_nested(levels, request)
         for request in requests:
             levels = self._with_coupling(levels, request)
+        for request in requests:
+            levels = self._with_track(levels, request)
         return levels
 
     def _level(self, requests: Sequence[JointRequest], scene: Scene) -> Measured:
@@ -168,6 +171,17 @@ class Builder:
         if upper < self.config.restricted * wanted:
             levels = levels.noted(coupling.leader, f"opens as far as {moving} can follow")
         return _joined(levels, moving, coupling, upper)
+
+
+    def _with_track(self, levels: Levels, request: JointRequest) -> Levels:
+        """Returns the levels with a track for a leaf that folds and follows another; a note states where none fits."""
+        moving = request.moving
+        if not request.folds or moving not in levels.couplings:
+            return levels
+        leader = levels.couplings[moving].leader
+        pair, upper = (levels.built[leader], levels.built[moving]), levels.orders[leader].upper
+        scene = with_track(levels.scene, *pair, upper, self.config)
+        return levels.noted(moving, NO_TRACK) if scene is None else replace(levels, scene=scene)
 
 
 def _riding(levels: Levels, moving: str, carrier: str) -> Levels:

@@ -176,7 +176,8 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
         return
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
-    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config)
+    is_bracketed = search.request.on_pivots
+    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config, is_bracketed)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
     is_spindle = turns_about_itself(search.frame, search.request.axis, search.config.hinge)
     held = [

@@ -19,6 +19,7 @@ from grafu.joints.hinge.candidates import (
     PinCandidate,
     Tolerances,
     barrel_radius,
+    fold_pin,
     hinge_count,
     makeshift_pins,
     pivot_pins,
@@ -109,9 +110,9 @@ class DoorSearch:
     def others(self) -> list[JudgedPin]:
         """Pivots and makeshift pins, best first."""
         tol, config = self._tolerances, self.config.hinge
-        return self._judged(
-            [*pivot_pins(self.frame, self.request.axis, tol, config), *makeshift_pins(self.frame, tol, config.pin)]
-        )
+        slim = [fold_pin(self.config.fold)] if self.request.on_pivots else []
+        pivots = pivot_pins(self.frame, self.request.axis, tol, config)
+        return self._judged([*slim, *pivots, *makeshift_pins(self.frame, tol, config.pin)])
 
     @cached_property
     def slim(self) -> list[JudgedPin]:
