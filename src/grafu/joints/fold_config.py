@@ -51,7 +51,7 @@ class FoldConfig:
     """Distance between the leaf's upper end and a track that nothing stands above (metres)."""
     room: float = 0.02
     """How far above the leaf's upper end the track may be fixed to what stands there (metres)."""
-    bearing: float = 0.003
+    bearing: float = 0.002
     """Radius of the guide that runs in the track (metres)."""
     widest_gap: float = 0.03
     """How far behind the track the case may stand that holds it (metres)."""

@@ -29,7 +29,7 @@ from grafu.vocabulary import PartLabel
 
 _POSES = 9  # of the leaves, in which nothing of them may cut into the track
 _RAYS = 7  # along the track
-_ACROSS = (-1.0, 0.0, 1.0)  # rays across it, in half its width
+_ACROSS = (0.1, 0.5, 0.9)  # where rays start across it (fractions of its width)
 
 NO_TRACK = "its free edge is guided by no track: there is no room for one above it"
 
@@ -39,7 +39,7 @@ NO_TRACK = "its free edge is guided by no track: there is no room for one above 
 class _Line:
     """Where the guide runs, in the outer leaf's border frame: from `low` to `high` along X, at `y`, above `top`.
 
-    Heights count from the frame's middle towards the leaves' upper ends, which is `sign` along Z. It stands at `rest`
+    The leaves' fronts lie at y = 0. Heights count from the frame's middle towards the leaves' upper ends, which is `sign` along Z. It stands at `rest`
     while the leaves are closed.
     """
 
@@ -113,24 +113,24 @@ _Track = tuple[list[tuple[str, Visual]], float]
 def _tracks(line: _Line, scene: Scene, config: RealizationConfig) -> Iterator[_Track]:
     """Yields the tracks that something holds, the best first."""
     fold = config.fold
-    half, back = fold.track / 2, -line.frame.thickness
-    box = line.strip(line.y + half, back - fold.widest_gap, line.top - fold.room, line.top + fold.room).box
+    back = -line.frame.thickness
+    box = line.strip(0.0, back - fold.widest_gap, line.top - fold.room, line.top + fold.room).box
     static = RayCaster(scene.static_mesh_near(box, fold.room))
     xs = [float(x) for x in np.linspace(line.low, line.high, _RAYS)]
-    above = line.heights(static, [(x, line.y + k * half) for x in xs for k in _ACROSS], line.top, 1.0)
+    above = line.heights(static, [(x, -k * fold.track) for x in xs for k in _ACROSS], line.top, 1.0)
     gap = float(above.min()) - line.top
     if _is_level(above, fold.flush) and fold.least < gap <= fold.room:
         under = line.top + gap - min(fold.strip, gap / 2)
-        yield [("rail", _visual("", line.strip(line.y + half, line.y - half, under, line.top + gap)))], under
+        yield [("rail", _visual("", line.strip(0.0, -fold.track, under, line.top + gap)))], under
     under = line.top + fold.play
     front = _on_front(line, static, under, config)
     if front is not None:
-        strip = line.strip(line.y + half, back, under, under + fold.strip)
+        strip = line.strip(0.0, back, under, under + fold.strip)
         yield [("rail", _visual("", strip)), ("support", front)], under
     behind = line.heights(static, [(x, back - fold.widest_gap / 2) for x in xs], line.top + fold.room, -1.0)
     if _is_level(behind, fold.flush) and abs(float(behind.max()) - line.top) <= fold.room:
         under = max(under, float(behind.max()))
-        strip = line.strip(line.y + half, back - fold.widest_gap, under, under + fold.strip)
+        strip = line.strip(0.0, back - fold.widest_gap, under, under + fold.strip)
         yield [("rail", _visual("", strip))], under
 
 

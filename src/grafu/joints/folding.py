@@ -102,7 +102,7 @@ def _why_not(leaf: Leaf, pairs: Sequence[tuple[Leaf, Leaf]], side: Side, config:
 def _leaves(asset: Asset, without: Collection[str], config: FoldConfig) -> list[Leaf]:
     whole = asset.box
     parts = (p for p in asset.parts if p.id not in without and p.label not in (PartLabel.HANDLE, PartLabel.DRAWER))
-    found = (leaf_of(part, whole, config) for part in parts if not part.carried_by)
+    found = (leaf_of(part, whole, config) for part in parts if part.label is PartLabel.DOOR or not part.carried_by)
     return [leaf for leaf in found if leaf is not None]
 
 
