@@ -1,4 +1,4 @@
-"""A judge of folding doors: where the inner leaf's free edge goes, what cuts into what, and what hardware hangs loose."""
+"""A judge of folding doors: where the inner leaf's free edge goes, what cuts into what, what hardware is loose."""
 
 from itertools import combinations
 

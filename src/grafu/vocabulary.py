@@ -100,5 +100,5 @@ MOTION_WORDS = (
     *("slides", "pull", "slide-left", "slide-right", "slide-up", "fold-left", "fold-right", "fixed"),
 )
 """How a user states a motion: the border that a part turns about (`lift`: the top, `drop`: the bottom); `slides` or
-`pull`: out of the front; `slide-left` and the like: along itself; `fold-left` and `fold-right`: as one of two leaves that fold to that side;
-`fixed`: it does not move."""
+`pull`: out of the front; `slide-left` and the like: along itself; `fold-left` and `fold-right`: as one of two leaves
+that fold to that side; `fixed`: it does not move."""

@@ -16,7 +16,20 @@ class FoldConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("seam", "corner", "flush", "pivot", "pivot_edge", "track", "strip", "least", "play", "room", "bearing", "widest_gap")
+    LENGTHS = (
+        "seam",
+        "corner",
+        "flush",
+        "pivot",
+        "pivot_edge",
+        "track",
+        "strip",
+        "least",
+        "play",
+        "room",
+        "bearing",
+        "widest_gap",
+    )
     thin: float = 0.3
     """Greatest thickness of a leaf (fraction of its shorter other side): a handle may be part of its mesh."""
     width: float = 0.05

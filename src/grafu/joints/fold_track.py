@@ -39,8 +39,8 @@ NO_TRACK = "its free edge is guided by no track: there is no room for one above 
 class _Line:
     """Where the guide runs, in the outer leaf's border frame: from `low` to `high` along X, at `y`, above `top`.
 
-    The leaves' fronts lie at y = 0. Heights count from the frame's middle towards the leaves' upper ends, which is `sign` along Z. It stands at `rest`
-    while the leaves are closed.
+    The leaves' fronts lie at y = 0. Heights count from the frame's middle towards the leaves' upper ends, which is
+    `sign` along Z. The guide stands at `rest` while the leaves are closed.
     """
 
     frame: BorderFrame
@@ -52,7 +52,7 @@ class _Line:
     top: float
 
     def heights(self, target: RayCaster, rays: list[tuple[float, float]], start: float, sense: float) -> Scalars:
-        """Returns where rays from a height, at each (x, y), up or down (`sense`), meet a target; infinite if nowhere."""
+        """Returns where rays from a height, at each (x, y), up or down (`sense`), meet a target; infinite: nowhere."""
         starts = np.array([(x, y, self.sign * start) for x, y in rays])
         way = self.frame.direction(0.0, 0.0, self.sign * sense)
         return start + sense * target.along(self.frame.to_object(starts), way)

@@ -172,7 +172,6 @@ class Builder:
             levels = levels.noted(coupling.leader, f"opens as far as {moving} can follow")
         return _joined(levels, moving, coupling, upper)
 
-
     def _with_track(self, levels: Levels, request: JointRequest) -> Levels:
         """Returns the levels with a track for a leaf that folds and follows another; a note states where none fits."""
         moving = request.moving

@@ -18,22 +18,20 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
-from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.folding import as_turning, folds_in, with_folds
 from grafu.joints.joint_choice import with_choices
-from grafu.joints.lifts import with_lifts
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
 from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
-from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
 from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
+from grafu.pipeline.shown_motions import with_shown_motions
 from grafu.pipeline.stages import (
     Stages,
     by_contacts,
@@ -198,7 +196,7 @@ def functionalize(
     plan = stages.timed("plan", first)
     with_small = settings.small_parts or (motion.reads_annotation and bool(asset.small_joints))
     if not motion.reads_annotation:
-        plan = _shown_by_shape(plan, asset, completion, joints, with_small)
+        plan = with_shown_motions(plan, asset, completion, joints, with_small)
     plan = with_folds(plan_with_motions(plan, motions, completion, asset), folds, joints.fold)
     plan = with_choices(plan, settings.joints, asset, gallery, joints.plan)
     close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
@@ -233,19 +231,6 @@ def functionalize(
         stated,
         frozenset(motions),
     )
-
-
-def _shown_by_shape(
-    plan: RealizationPlan, asset: Asset, completion: GraphCompletion, joints: RealizationConfig, with_small: bool
-) -> RealizationPlan:
-    """Returns a predicted plan with what shape and names alone show of how parts move."""
-    plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
-    plan = with_lifts(plan, completion.completed, at_scale(joints.lift, metre_on(asset.extent)))
-    if not with_small:
-        return plan
-    from grafu.joints.small_parts import without_turntables
-
-    return without_turntables(plan, asset)
 
 
 def _with_source(

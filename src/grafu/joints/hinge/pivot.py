@@ -2,8 +2,7 @@
 
 They carry whatever turns about an axis through itself (a tap, a revolving shelf), and doors whose seams leave no room
 for leaves. Discs grow from the part that they belong to; where part and body are apart they become posts. Beside the
-end of an overlay door, where nothing stands, the static disc sits on a plate that reaches back to the case. The outer
-leaf of two that fold gets no posts, but brackets: plates on the front of the case, or on its top.
+end of an overlay door, where nothing stands, the static disc sits on a plate that reaches back to the case.
 """
 
 from collections.abc import Iterator, Sequence
@@ -13,7 +12,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Vec3, vec3
+from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.joints.config import BlockConfig, RealizationConfig
@@ -28,106 +27,25 @@ PivotEnd = tuple[tuple[Visual, ...], tuple[Visual, ...]]
 
 
 def pivot_ends(
-    frame: BorderFrame,
-    pin: PinCandidate,
-    door: TriangleMesh,
-    static: TriangleMesh,
-    realization: RealizationConfig,
-    is_bracketed: bool = False,
+    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, realization: RealizationConfig
 ) -> list[PivotEnd]:
-    """Returns (static, dynamic) discs at each end of the pin where the door and the body near it are met.
-
-    With `is_bracketed` there are no posts: where the body is not close beyond an end, a plate on it carries the disc.
-    """
-    if is_bracketed:
-        return bracketed_ends(frame, pin, door, static, realization)
+    """Returns (static, dynamic) discs at each end of the pin where the door and the body near it are met."""
     config = realization.hinge.pivot
     found: list[PivotEnd] = []
     casters, reach = (RayCaster(door), RayCaster(static)), config.reach * frame.length
     for sign in (1.0, -1.0):
-        met = _met_by_rays(frame, pin, casters, sign, reach, config) or _met_by_corners(
+        met = met_by_rays(frame, pin, casters, sign, reach, config) or _met_by_corners(
             frame, pin, (door, static), sign, reach, config
         )
         if met is None:
             plated = _plated_end(frame, pin, casters, sign, config, realization.block)
             found += [plated] if plated else []
             continue
-        found.append(_two_discs(frame, pin, met, sign, config))
+        found.append(two_discs(frame, pin, met, sign, config))
     return found
 
 
-def bracketed_ends(
-    frame: BorderFrame, pin: PinCandidate, door: TriangleMesh, static: TriangleMesh, realization: RealizationConfig
-) -> list[PivotEnd]:
-    """Returns the ends at discs on the body right beyond the door's end, else on a plate on its front or on its top."""
-    config, blocks, casters = realization.hinge.pivot, realization.block, (RayCaster(door), RayCaster(static))
-    found: list[PivotEnd] = []
-    for sign in (1.0, -1.0):
-        met = _met_by_rays(frame, pin, casters, sign, config.plate_end, config)
-        if met is not None:
-            found.append(_two_discs(frame, pin, met, sign, config))
-            continue
-        on_door = _door_end(frame, pin, casters[0], sign, config)
-        tries = (_bracket(frame, pin, casters[1], sign, on_door, is_behind, config, blocks) for is_behind in (0, 1))
-        plated = next((end for end in tries if end is not None), None) if np.isfinite(on_door) else None
-        found += [plated] if plated else []
-    return found
-
-
-def _bracket(
-    frame: BorderFrame,
-    pin: PinCandidate,
-    static: RayCaster,
-    sign: float,
-    on_door: float,
-    is_behind: int,
-    config: PivotConfig,
-    blocks: BlockConfig,
-) -> PivotEnd | None:
-    """Returns the discs beside a door's end, the static one on a plate that a block joins to the body's front.
-
-    With `is_behind` the plate lies on the body's end behind the door instead; it may have to lie higher for that.
-    """
-    inner, back, blocked = on_door + config.plate_play, -frame.thickness, ()
-    if is_behind:
-        back -= config.plate_reach
-        start = vec3(pin.x, back + config.foot * config.plate_reach, sign * (frame.length / 2 + config.start))
-        on_body = sign * float(start[2]) - _along(frame, static, start, -sign)
-        if not abs(on_body - on_door) <= config.plate_end:
-            return None
-        inner = max(inner, on_body)
-    plate = Footing(
-        frame.to_object(vec3(pin.x, (pin.y + pin.radius + back) / 2, sign * inner)[None])[0],
-        frame.direction(0.0, 0.0, sign),
-        frame.direction(pin.radius, 0.0, 0.0),
-        frame.direction(0.0, (pin.y + pin.radius - back) / 2, 0.0),
-    )
-    if not is_behind:
-        foot = Footing(
-            frame.to_object(vec3(pin.x, back, sign * (inner + config.plate / 2))[None])[0],
-            frame.direction(0.0, -1.0, 0.0),
-            frame.direction(config.foot_width * pin.radius, 0.0, 0.0),
-            frame.direction(0.0, 0.0, config.plate / 2),
-        )
-        gap = foot.gap(static, config.plate_reach, blocks)
-        if not np.isfinite(gap):
-            return None
-        blocked = (block("support_hinge", foot, gap, blocks, METAL),)
-    outer, middle = inner + config.plate, sign * (on_door + config.plate_play / 2)
-    still = (
-        _visual("hinge_static", _disc(frame, pin, middle, sign * outer, config.sides)),
-        block("hinge_plate", plate, config.plate, blocks, METAL),
-        *blocked,
-    )
-    moving = _disc(frame, pin, sign * (on_door - config.disc_inset), middle, config.sides)
-    return still, (_visual("hinge_dynamic", moving),)
-
-
-def _along(frame: BorderFrame, static: RayCaster, start: Vec3, sign: float) -> float:
-    return float(static.along(frame.to_object(start[None]), frame.direction(0.0, 0.0, sign))[0])
-
-
-def _door_end(frame: BorderFrame, pin: PinCandidate, door: RayCaster, sign: float, config: PivotConfig) -> float:
+def door_end(frame: BorderFrame, pin: PinCandidate, door: RayCaster, sign: float, config: PivotConfig) -> float:
     """Returns how far from the frame's middle the door ends by the pin, metres; minus infinity where it is not met."""
     outside = frame.length / 2 + config.start
     start = np.array([[x, y, sign * outside] for x, y in _ring(pin, config)])
@@ -135,7 +53,7 @@ def _door_end(frame: BorderFrame, pin: PinCandidate, door: RayCaster, sign: floa
     return outside - robust_median(met, config.plate_end, config.met)
 
 
-def _two_discs(
+def two_discs(
     frame: BorderFrame, pin: PinCandidate, met: tuple[float, float, float], sign: float, config: PivotConfig
 ) -> PivotEnd:
     """Returns the discs on a door's end and on the body beyond it, at the heights and with the radius that are met."""
@@ -145,9 +63,9 @@ def _two_discs(
     wide = replace(pin, radius=radius)
     on_static = max(sign * on_body, sign * middle) * sign + sign * config.disc_inset
     on_dynamic = min(sign * on_door, sign * middle) * sign - sign * config.disc_inset
-    static_disc = _disc(frame, wide, middle, on_static, config.sides)
-    dynamic_disc = _disc(frame, wide, on_dynamic, middle, config.sides)
-    return (_visual("hinge_static", static_disc),), (_visual("hinge_dynamic", dynamic_disc),)
+    static_disc = disc_at(frame, wide, middle, on_static, config.sides)
+    dynamic_disc = disc_at(frame, wide, on_dynamic, middle, config.sides)
+    return (pivot_visual("hinge_static", static_disc),), (pivot_visual("hinge_dynamic", dynamic_disc),)
 
 
 def _plated_end(
@@ -163,7 +81,7 @@ def _plated_end(
     The plate lies beside the door's end and reaches back along it; a block joins it to what stands behind the door.
     """
     door, static = casters
-    on_door = _door_end(frame, pin, door, sign, config)
+    on_door = door_end(frame, pin, door, sign, config)
     if not np.isfinite(on_door):
         return None
     inner, outer = on_door + config.plate_play, on_door + config.plate_play + config.plate
@@ -185,15 +103,15 @@ def _plated_end(
     if not np.isfinite(gap):
         return None
     still = (
-        _visual("hinge_static", _disc(frame, pin, middle, sign * outer, config.sides)),
+        pivot_visual("hinge_static", disc_at(frame, pin, middle, sign * outer, config.sides)),
         block("hinge_plate", plate, config.plate, blocks, METAL),
         block("support_hinge", foot, gap, blocks, METAL),
     )
-    moving = _disc(frame, pin, sign * (on_door - config.disc_inset), middle, config.sides)
-    return still, (_visual("hinge_dynamic", moving),)
+    moving = disc_at(frame, pin, sign * (on_door - config.disc_inset), middle, config.sides)
+    return still, (pivot_visual("hinge_dynamic", moving),)
 
 
-def _met_by_rays(
+def met_by_rays(
     frame: BorderFrame,
     pin: PinCandidate,
     casters: tuple[RayCaster, RayCaster],
@@ -253,7 +171,8 @@ def _ring(pin: PinCandidate, config: PivotConfig) -> Iterator[tuple[float, float
         yield pin.x + radius * np.cos(angle), pin.y + radius * np.sin(angle)
 
 
-def _disc(frame: BorderFrame, pin: PinCandidate, start: float, end: float, sides: int) -> TriangleMesh:
+def disc_at(frame: BorderFrame, pin: PinCandidate, start: float, end: float, sides: int) -> TriangleMesh:
+    """Returns the watertight cylinder about a pin between two heights of a border frame, in the object frame."""
     return upright_disc(frame, (pin.x, pin.y), pin.radius, (start, end), sides)
 
 
@@ -273,7 +192,8 @@ def upright_disc(
     return TriangleMesh(frame.to_object(vertices), np.vstack([*walls, *caps]))
 
 
-def _visual(name: str, mesh: TriangleMesh) -> Visual:
+def pivot_visual(name: str, mesh: TriangleMesh) -> Visual:
+    """Returns a piece of metal hardware."""
     return Visual(name, (Surface(mesh, METAL),), VisualRole.HARDWARE, PartLabel.MISC)
 
 

@@ -27,6 +27,7 @@ from grafu.vocabulary import JointType, PartLabel
 
 Side = Literal["left", "right"]
 WARDROBE = Case(1.0, 2.1, 0.58)
+SLIM_POST = InnerCorner(post=0.022)  # the leaves clear one another there
 _OPENING = radians(85)  # of the outer leaf; the inner one turns back by twice as much
 _SECOND = radians(80)  # of the second leaf in a corner, on the first
 _BAR = (0.012, 0.03, 0.16)  # metres: a handle's width, depth and height
@@ -126,7 +127,7 @@ class FoldingCorner:
     """
 
     name: str = "folding_corner"
-    case: InnerCorner = InnerCorner(post=0.022)
+    case: InnerCorner = SLIM_POST
     side: Side = "right"
 
 
