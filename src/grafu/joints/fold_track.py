@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
+from jaxtyping import Float
 
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.appearance import Surface
@@ -21,6 +22,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
+from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.pivot import upright_disc
 from grafu.joints.support_block import METAL, Footing, block
 from grafu.scene.border import BorderFrame, border_frame
@@ -29,7 +31,7 @@ from grafu.vocabulary import PartLabel
 
 _POSES = 9  # of the leaves, in which nothing of them may cut into the track
 _RAYS = 7  # along the track
-_ACROSS = (0.1, 0.5, 0.9)  # where rays start across it (fractions of its width)
+_ACROSS = tuple((k + 0.5) / 12 for k in range(12))  # where rays start across it, from the front (fractions of it)
 
 NO_TRACK = "its free edge is guided by no track: there is no room for one above it"
 
@@ -118,20 +120,31 @@ def _tracks(line: _Line, scene: Scene, config: RealizationConfig) -> Iterator[_T
     static = RayCaster(scene.static_mesh_near(box, fold.room))
     xs = [float(x) for x in np.linspace(line.low, line.high, _RAYS)]
     above = line.heights(static, [(x, -k * fold.track) for x in xs for k in _ACROSS], line.top, 1.0)
-    gap = float(above.min()) - line.top
-    if _is_level(above, fold.flush) and fold.least < gap <= fold.room:
+    gap, front_at = float(above.min()) - line.top, _covered(above.reshape(len(xs), -1), fold)
+    if front_at >= line.y and fold.least < gap <= fold.room:
         under = line.top + gap - min(fold.strip, gap / 2)
-        yield [("rail", _visual("", line.strip(0.0, -fold.track, under, line.top + gap)))], under
+        yield [("rail", _visual("", line.strip(front_at, -fold.track, under, line.top + gap)))], under
     under = line.top + fold.play
     front = _on_front(line, static, under, config)
-    if front is not None:
+    if front is not None and above.min() >= under + fold.strip:
         strip = line.strip(0.0, back, under, under + fold.strip)
         yield [("rail", _visual("", strip)), ("support", front)], under
     behind = line.heights(static, [(x, back - fold.widest_gap / 2) for x in xs], line.top + fold.room, -1.0)
     if _is_level(behind, fold.flush) and abs(float(behind.max()) - line.top) <= fold.room:
         under = max(under, float(behind.max()))
+        if above.min() < under + fold.strip:
+            return
         strip = line.strip(0.0, back - fold.widest_gap, under, under + fold.strip)
         yield [("rail", _visual("", strip))], under
+
+
+def _covered(above: Float[np.ndarray, "n k"], fold: FoldConfig) -> float:
+    """Returns the y from which on something level stands above a line, to the track's rear; minus infinity: none.
+
+    `above` holds the heights along the line, and across it from the front.
+    """
+    level = [k for k in range(len(_ACROSS)) if _is_level(above[:, k:], fold.flush)]
+    return -(_ACROSS[level[0]] - _ACROSS[0]) * fold.track if level else -np.inf
 
 
 def _is_level(heights: Scalars, within: float) -> bool:
