@@ -9,6 +9,7 @@ import pytest
 
 from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
+from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.plan import PlanConfig
@@ -30,6 +31,7 @@ TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture
 EFFORT = "after how many tries, or beyond how many pieces, a search ends or is done in a simpler way"
 NUMBERING = "the rank of a row in a table, or a direction"
 LOOK = "the colour of hardware"
+GEOMETRY = "a number of geometry: what folds ends in the plane of the opening"
 CHOICE = "the range of what a user may choose"
 
 REASONS = {
@@ -43,6 +45,10 @@ REASONS = {
     "lifts.py": {"_LEVEL": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
+    "folding.py": {"_TWICE": GEOMETRY},
+    "fold_track.py": {"_POSES": SAMPLES, "_RAYS": SAMPLES, "_ACROSS": SAMPLES},
+    "leaves.py": {"UP": NUMBERING, "_UP": NUMBERING},
+    "shown_folds.py": {"_PAIRS": NUMBERING},
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING, "_HEIGHT_SHIFTS": SAMPLES},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
@@ -64,7 +70,7 @@ REASONS = {
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, DrawerConfig, DrawnConfig, FlankConfig,
-    FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig,
+    FoldConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig,
     RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 

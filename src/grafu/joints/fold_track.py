@@ -56,8 +56,8 @@ class _Line:
     def heights(self, target: RayCaster, rays: list[tuple[float, float]], start: float, sense: float) -> Scalars:
         """Returns where rays from a height, at each (x, y), up or down (`sense`), meet a target; infinite: nowhere."""
         starts = np.array([(x, y, self.sign * start) for x, y in rays])
-        way = self.frame.direction(0.0, 0.0, self.sign * sense)
-        return start + sense * target.along(self.frame.to_object(starts), way)
+        direction = self.frame.direction(0.0, 0.0, self.sign * sense)
+        return start + sense * target.along(self.frame.to_object(starts), direction)
 
     def strip(self, front: float, back: float, low: float, high: float) -> TriangleMesh:
         """Returns the strip along the line between two heights, from one y to another."""

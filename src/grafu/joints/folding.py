@@ -74,13 +74,13 @@ def fold_of(part: str, side: Side, asset: Asset, taken: Collection[str], config:
     if leaf is None:
         raise OptionError(f"`{part}` cannot fold: it is no upright board; turn it about a border or let it slide")
     others = [other for other in _leaves(asset, {part, *taken}, config) if _is_near(leaf, other, config)]
-    outer_way = _way(leaf, side)
-    pairs = [(leaf, other) for other in others if is_beside(leaf, other, -outer_way, config)]
-    pairs += [(other, leaf) for other in others if is_beside(leaf, other, outer_way, config)]
+    outwards = _outwards(leaf, side)
+    pairs = [(leaf, other) for other in others if is_beside(leaf, other, -outwards, config)]
+    pairs += [(other, leaf) for other in others if is_beside(leaf, other, outwards, config)]
     alike = [pair for pair in pairs if is_as_wide(*pair, config)]
     if alike:
         every = _leaves(asset, (), config)
-        return _pair(*min(alike, key=lambda pair: _has_neighbour(pair[0], every, outer_way, config)), side, outer_way)
+        return _pair(*min(alike, key=lambda pair: _has_neighbour(pair[0], every, outwards, config)), side, outwards)
     corners = (in_corner(leaf, other, asset, config) for other in others)
     corner = next((found for found in corners if found is not None), None)
     if corner is not None:
@@ -110,7 +110,7 @@ def _is_near(leaf: Leaf, other: Leaf, config: FoldConfig) -> bool:
     return leaf.mesh.box.overlaps(other.mesh.box, max(config.corner, config.seam))
 
 
-def _way(leaf: Leaf, side: Side) -> Vec3:
+def _outwards(leaf: Leaf, side: Side) -> Vec3:
     """Returns the level direction along a leaf to a side: of the object, else as seen from before the leaf."""
     along = float(leaf.right @ DIRECTIONS[side])
     if abs(along) > abs(float(leaf.front @ DIRECTIONS[side])):
@@ -118,19 +118,19 @@ def _way(leaf: Leaf, side: Side) -> Vec3:
     return leaf.right if side is Side.RIGHT else -leaf.right
 
 
-def _has_neighbour(leaf: Leaf, leaves: Sequence[Leaf], way: Vec3, config: FoldConfig) -> bool:
+def _has_neighbour(leaf: Leaf, leaves: Sequence[Leaf], outwards: Vec3, config: FoldConfig) -> bool:
     """Whether another leaf stands beside a leaf where its pivot would be."""
-    return any(other.part != leaf.part and is_beside(leaf, other, way, config) for other in leaves)
+    return any(other.part != leaf.part and is_beside(leaf, other, outwards, config) for other in leaves)
 
 
-def _pair(outer: Leaf, inner: Leaf, side: Side, way: Vec3) -> Fold:
-    """Returns the fold of two leaves in one plane; `way` is the direction to the outer leaf's outer edge."""
-    opens = np.cross(-way, outer.front)
-    seam = (outer.span(-way)[1] + inner.span(-way)[0]) / 2
-    behind = inner.at(way, inner.back)
-    behind = behind - way * (seam + float(behind @ way))
-    outer_axis = Axis(outer.at(way, outer.span(outer.front)[1]), opens)
-    edge = side_towards(way)
+def _pair(outer: Leaf, inner: Leaf, side: Side, outwards: Vec3) -> Fold:
+    """Returns the fold of two leaves in one plane; `outwards` is the direction to the outer leaf's outer edge."""
+    opens = np.cross(-outwards, outer.front)
+    seam = (outer.span(-outwards)[1] + inner.span(-outwards)[0]) / 2
+    behind = inner.at(outwards, inner.back)
+    behind = behind - outwards * (seam + float(behind @ outwards))
+    outer_axis = Axis(outer.at(outwards, outer.span(outer.front)[1]), opens)
+    edge = side_towards(outwards)
     return Fold(outer.part, inner.part, side, outer_axis, Axis(behind, -opens), edge, edge)
 
 
@@ -138,10 +138,10 @@ def _corner(a: Leaf, b: Leaf, side: Side) -> Fold:
     """Returns the fold of two leaves in an inner corner: the left one, or the right one, hangs on the case."""
     left, right = (a, b) if float(a.right @ b.front) < 0 else (b, a)
     outer, inner = (left, right) if side is Side.LEFT else (right, left)
-    way, to_corner = np.asarray(inner.front), -outer.front
-    outer_axis = Axis(outer.at(way, outer.span(outer.front)[1]), np.cross(-way, outer.front))
+    outwards, to_corner = np.asarray(inner.front), -outer.front
+    outer_axis = Axis(outer.at(outwards, outer.span(outer.front)[1]), np.cross(-outwards, outer.front))
     inner_axis = Axis(inner.at(to_corner, inner.span(inner.front)[1]), np.cross(-to_corner, inner.front))
-    edges = side_towards(way), side_towards(to_corner)
+    edges = side_towards(outwards), side_towards(to_corner)
     return Fold(outer.part, inner.part, side, outer_axis, inner_axis, *edges, is_corner=True)
 
 

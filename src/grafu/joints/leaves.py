@@ -123,7 +123,7 @@ def _is_room(a: Leaf, b: Leaf, asset: Asset, config: FoldConfig) -> bool:
     reach = height / 2 + config.beyond * height
     origin = np.array([middle])
     near = [RayCaster(part.mesh) for part in asset.parts if len(part.mesh.faces) and _covers(part.box, middle)]
-    return all(float(caster.along(origin, way).min()) > reach for caster in near for way in (UP, -UP))
+    return all(float(caster.along(origin, direction).min()) > reach for caster in near for direction in (UP, -UP))
 
 
 def _covers(box: Box, point: Vec3) -> bool:

@@ -3,7 +3,7 @@
 Nothing else is taken for one: a pair of doors that is taken for a folding one would be worse than a pair that turns.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import final
@@ -39,7 +39,7 @@ _PAIRS: dict[int, tuple[tuple[int, int, Side], ...]] = {
 @final
 @dataclass(frozen=True, eq=False)
 class _Doors:
-    """The doors of a plan that turn by themselves, as leaves; `config` is in the model's scale."""
+    """What moves by itself in a plan and is an upright board; `config` is in the model's scale."""
 
     plan: RealizationPlan
     asset: Asset
@@ -54,10 +54,19 @@ class _Doors:
         return next(request for request in self.plan.joints if request.moving == leaf.part)
 
 
-def shown_folds(plan: RealizationPlan, asset: Asset, config: RealizationConfig = RealizationConfig()) -> list[Fold]:
-    """Returns the folding doors of a predicted plan that names show, or hinges drawn behind the seam of two leaves."""
+def shown_folds(
+    plan: RealizationPlan,
+    asset: Asset,
+    config: RealizationConfig = RealizationConfig(),
+    settled: Collection[str] = (),
+) -> list[Fold]:
+    """Returns the folding doors of a predicted plan that names show, or hinges drawn behind the seam of two leaves.
+
+    Parts that are `settled` move as the user states.
+    """
     config, whole = at_scale(config, metre_on(asset.extent)), asset.box
-    alone = (r for r in plan.joints if r.kind.turns and not (r.parent or r.coupling or str(r.choice) or r.drawn_at))
+    free = (r for r in plan.joints if r.moving not in settled)
+    alone = (r for r in free if not (r.parent or r.coupling or str(r.choice) or r.drawn_at))
     found = (leaf_of(asset.part(request.moving), whole, config.fold) for request in alone)
     doors = _Doors(plan, asset, tuple(leaf for leaf in found if leaf is not None), config)
     if len(doors.leaves) < 2:
@@ -66,7 +75,8 @@ def shown_folds(plan: RealizationPlan, asset: Asset, config: RealizationConfig =
     named = [leaf for leaf in doors.leaves if is_named or is_called_folding(asset.part(leaf.part).source.name)]
     folds = [*_named(named, doors)]
     taken = {leaf for fold in folds for leaf in fold.leaves}
-    return [*folds, *_drawn([leaf for leaf in doors.leaves if leaf.part not in taken], doors)]
+    left = (leaf for leaf in doors.leaves if leaf.part not in taken)
+    return [*folds, *_drawn([leaf for leaf in left if doors.request(leaf).kind.turns], doors)]
 
 
 def is_called_folding(name: str, *words: str) -> bool:
@@ -111,7 +121,10 @@ def _drawn(leaves: Sequence[Leaf], doors: _Doors) -> Iterator[Fold]:
     joined = [(a, b) for a in leaves for b in leaves if a is not b and _is_hinged(a, b, doors)]
     for left, right in joined:
         if sum(leaf in pair for pair in joined for leaf in (left, right)) == 2:
-            alone = [not any(is_beside(leaf, o, way, doors.fold) for o in leaves) for leaf, way in _outer(left, right)]
+            alone = [
+                not any(is_beside(leaf, o, outwards, doors.fold) for o in leaves)
+                for leaf, outwards in _outer(left, right)
+            ]
             side = {(True, False): Side.LEFT, (False, True): Side.RIGHT}.get((alone[0], alone[1]))
             yield from _folded(left, right, side, doors)
 

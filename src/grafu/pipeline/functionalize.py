@@ -196,7 +196,7 @@ def functionalize(
     plan = stages.timed("plan", first)
     with_small = settings.small_parts or (motion.reads_annotation and bool(asset.small_joints))
     if not motion.reads_annotation:
-        plan = with_shown_motions(plan, asset, completion, joints, with_small)
+        plan = with_shown_motions(plan, asset, completion, joints, with_small, motions)
     plan = with_folds(plan_with_motions(plan, motions, completion, asset), folds, joints.fold)
     plan = with_choices(plan, settings.joints, asset, gallery, joints.plan)
     close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
