@@ -8,6 +8,7 @@ import grafu
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual, VisualRole
 from grafu.articulation.kinematics import link_poses
 from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.scene.border import part_axes
 
 TOUCH = 0.0005  # metres on each side by which a mesh is made smaller before it may cut into another
 
@@ -23,20 +24,25 @@ def pairs_of(made: ArticulatedObject) -> list[tuple[Joint, Joint]]:
     return [(by_id[j.coupling.leader], j) for j in made.joints if j.coupling is not None]
 
 
-def guide_of(outer: Joint, inner: Joint) -> np.ndarray:
+def along_leaf(made: ArticulatedObject, inner: Joint, direction: np.ndarray) -> np.ndarray:
+    """The level unit direction along the inner leaf, closed, that is nearest to one."""
+    leaf = next(v for v in made.link(inner.child).visuals if v.name == inner.child).mesh
+    axes = part_axes(leaf)
+    nearest = max(range(2), key=lambda k: abs(float(axes[:, k] @ direction)))
+    return np.asarray(axes[:, nearest] * np.sign(float(axes[:, nearest] @ direction)))
+
+
+def guide_of(made: ArticulatedObject, outer: Joint, inner: Joint) -> np.ndarray:
     """The point of the inner leaf that mirrors the outer leaf's pivot across the seam, closed."""
     pivot, hinge = np.asarray(outer.axis.point), np.asarray(inner.axis.point)
-    along = hinge - pivot
-    along[2] = 0.0
-    # the leaves lie along the level side of the object that is nearest to the line from pivot to hinge
-    side = np.eye(3)[int(np.argmax(np.abs(along)))]
-    return pivot + 2 * float(along @ side) * side
+    side = along_leaf(made, inner, hinge - pivot)
+    return np.asarray(pivot + 2 * float((hinge - pivot) @ side) * side)
 
 
 def off_plane(made: ArticulatedObject, outer: Joint, inner: Joint, point: np.ndarray, poses: int = 25) -> float:
     """How far a point of the inner leaf leaves the plane that it lies in, closed, metres: level, across the opening."""
-    along = guide_of(outer, inner) - np.asarray(outer.axis.point)
-    across = np.cross(along / np.linalg.norm(along), (0.0, 0.0, 1.0))
+    side = along_leaf(made, inner, np.asarray(inner.axis.point - outer.axis.point))
+    across = np.cross(side, (0.0, 0.0, 1.0))
     start, most = np.append(point, 1.0), 0.0
     for value in np.linspace(0.0, outer.limits.upper, poses):
         moved = link_poses(made, {outer.id: float(value)})[inner.child] @ start
@@ -46,9 +52,8 @@ def off_plane(made: ArticulatedObject, outer: Joint, inner: Joint, point: np.nda
 
 def free_edge(made: ArticulatedObject, outer: Joint, inner: Joint) -> np.ndarray:
     """The point of the inner leaf's free edge at the depth of the outer leaf's pivot, closed."""
-    guide = guide_of(outer, inner)
-    side = guide - np.asarray(outer.axis.point)
-    side /= np.linalg.norm(side)
+    guide = guide_of(made, outer, inner)
+    side = along_leaf(made, inner, guide - np.asarray(outer.axis.point))
     leaf = next(v for v in made.link(inner.child).visuals if v.name == inner.child).mesh
     return guide + side * (float((leaf.vertices @ side).max()) - float(guide @ side))
 

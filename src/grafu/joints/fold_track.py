@@ -143,7 +143,7 @@ def _covered(above: Float[np.ndarray, "n k"], fold: FoldConfig) -> float:
 
     `above` holds the heights along the line, and across it from the front.
     """
-    level = [k for k in range(len(_ACROSS)) if _is_level(above[:, k:], fold.flush)]
+    level = [k for k in range(len(_ACROSS)) if _is_level(above[:, k:].ravel(), fold.flush)]
     return -(_ACROSS[level[0]] - _ACROSS[0]) * fold.track if level else -np.inf
 
 

@@ -64,8 +64,17 @@ class Fold:
         return {leaf: MotionChoice(Moves.TURNS, edge) for leaf, edge in edges}
 
 
-def fold_of(part: str, side: Side, asset: Asset, taken: Collection[str], config: FoldConfig) -> Fold:
+def fold_of(
+    part: str,
+    side: Side,
+    asset: Asset,
+    config: FoldConfig,
+    taken: Collection[str] = (),
+    stated: Collection[str] = (),
+) -> Fold:
     """Returns how a leaf folds to a side with the leaf beside it, or with the one in the corner; `taken` are no leaves.
+
+    In a corner only what is labelled a door, or is `stated` to fold, is a leaf: sides of cases stand so, too.
 
     Raises:
         OptionError: if it is no leaf, or no leaf that suits it stands beside it.
@@ -81,7 +90,8 @@ def fold_of(part: str, side: Side, asset: Asset, taken: Collection[str], config:
     if alike:
         every = _leaves(asset, (), config)
         return _pair(*min(alike, key=lambda pair: _has_neighbour(pair[0], every, outwards, config)), side, outwards)
-    corners = (in_corner(leaf, other, asset, config) for other in others)
+    is_door = {p.id for p in asset.parts if p.label is PartLabel.DOOR} | {*stated}
+    corners = (in_corner(leaf, other, asset, config) for other in others if other.part in is_door)
     corner = next((found for found in corners if found is not None), None)
     if corner is not None:
         return _corner(*corner, side)
@@ -159,8 +169,8 @@ def folds_in(motions: Mapping[str, MotionChoice], asset: Asset, config: FoldConf
         if part in found:
             _require_one_side(part, choice.side, found[part])
             continue
-        taken = {*found, *(other for other, its in motions.items() if its.moves is not Moves.FOLDS)}
-        fold = fold_of(part, choice.side, asset, taken, config)
+        stated = {other for other, its in motions.items() if its.moves is Moves.FOLDS}
+        fold = fold_of(part, choice.side, asset, config, {*found, *(motions.keys() - stated)}, stated)
         found |= dict.fromkeys(fold.leaves, fold)
     return tuple({id(fold): fold for fold in found.values()}.values())
 

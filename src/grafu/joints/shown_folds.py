@@ -139,7 +139,7 @@ def _is_hinged(left: Leaf, right: Leaf, doors: _Doors) -> bool:
     if not (is_beside(left, right, left.right, fold) and is_as_wide(left, right, fold)):
         return False
     request = doors.request(right)
-    axis = fold_of(left.part, Side.LEFT, asset, (), fold).inner_axis
+    axis = fold_of(left.part, Side.LEFT, asset, fold).inner_axis
     scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, bodies_of(doors.plan.joints), asset.extent)
     frame = border_frame(right.mesh, axis)
     barrels = barrels_at(frame, request, scene, doors.config)
@@ -165,8 +165,8 @@ def _folded(left: Leaf, right: Leaf, side: Side | None, doors: _Doors) -> Iterat
     """Yields the fold of two leaves; where the side is open, the leaf that alone is pulled is the inner one."""
     pulled = [bool(doors.request(leaf).attached) for leaf in (left, right)]
     side = side or (Side.RIGHT if pulled == [True, False] else Side.LEFT)
-    others = {leaf.part for leaf in doors.leaves} - {left.part, right.part}
+    pair = {left.part, right.part}
     try:
-        yield fold_of(left.part, side, doors.asset, others, doors.fold)
+        yield fold_of(left.part, side, doors.asset, doors.fold, {leaf.part for leaf in doors.leaves} - pair, pair)
     except OptionError:
         return  # what cannot fold turns
