@@ -17,11 +17,12 @@ from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
+from grafu.graph.edges import Hinge
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.leaves import Leaf, in_corner, is_as_wide, is_beside, leaf_of
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, side_towards
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _TWICE = 2.0  # the inner leaf turns back by twice what the outer one opens, so that it ends in the opening's plane
 
@@ -220,4 +221,4 @@ def _requests(outer: JointRequest, inner: JointRequest, fold: Fold, config: Fold
 
 
 def _plain(request: JointRequest) -> JointRequest:
-    return replace(request, type=JointType.REVOLUTE, parent="", coupling=None, drawn_at=0.0)
+    return replace(request, type=Hinge.joint_type, parent="", coupling=None, drawn_at=0.0)

@@ -147,6 +147,8 @@ class Builder:
         ]
         bodies = [name for name in beside if carrier or name == moving or name in levels.built]
         view = seen_from(carrier, bodies, scene, levels.parent_of, T, is_alone)
+        if is_alone and request.folds:
+            view = replace(view, behind=scene.static_parts)
         carriers = scene.moving_bodies[carrier].members if carrier else ()
         measured = self._level([replace(request, carriers=carriers)], view)
         whole = brought_back(measured.scene, view, carrier, scene, T_others_carrier) if measured.built else scene

@@ -134,7 +134,7 @@ def label_of_motion(part: Part, choice: MotionChoice, drawers: DrawerConfig = Dr
     """Returns the category of a part that moves so: a board that slides along itself is a door, too."""
     if choice.moves is Moves.FIXED:
         return part.label
-    if choice.type is JointType.REVOLUTE or slides_in_its_plane(part.mesh, _direction(choice), drawers):
+    if motion_kind(choice.type).turns or slides_in_its_plane(part.mesh, _direction(choice), drawers):
         return PartLabel.DOOR
     return PartLabel.DRAWER
 
