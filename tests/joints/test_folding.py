@@ -1,4 +1,4 @@
-"""Folding doors on made furniture: pairs and corners, as the user states them and as names and hinges show."""
+"""Folding doors on synthetic furniture: pairs and corners, as the user states them and as names and hinges show."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -192,3 +192,14 @@ def test_one_leaf_of_those_called_folding_can_turn_by_itself():
     made = folded(asset, {"door_1": "left"}).object
     assert {joint.child: (joint.parent, joint.coupling) for joint in made.joints}["door_1"] == ("body", None)
     assert all(joint.coupling is None for joint in made.joints)
+
+
+def test_hinges_between_leaves_keep_clear_of_what_stands_behind_them():
+    asset = with_seam_hinges(-0.198, post=True)
+    shelf = box("shelf", (-0.38, -0.2, 0.25), (0.38, 0.19, 0.3))  # at the height of a hinge
+    parts = [part for part in asset.parts if part.id != "post" and not part.id.startswith("barrel")]
+    result = folded(scene(*parts, shelf), {"door_1": "fold-left"})
+
+    require_sound(result, 1)
+    assert result.graph.hinges[1].coupling.leader == "door_1"
+    assert result.made.completion.refused == ()
