@@ -15,6 +15,7 @@ from grafu.errors import OptionError
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.pipeline.motion_choices import motions_of
 from grafu.pipeline.move_options import move_options
+from grafu.synth.cabinets.corner import InnerCorner
 from grafu.synth.cabinets.folding import FoldingCorner, FoldingDoors, make_folding_corner, make_folding_doors
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base, Top
@@ -147,6 +148,15 @@ def test_two_leaves_in_a_corner_swing_out_one_on_the_other(side, stated):
     assert all(degrees(joint.limits.upper) > 75 for joint in made.joints)
     assert cutting_over_sweep(made) | cuts(made, opened(made, 0.0)) == set()
     assert loose(result) == set()
+
+
+def test_the_leaf_on_the_case_opens_as_far_as_a_wider_one_on_it_clears_the_case():
+    corner = InnerCorner(along_x=0.95, along_y=0.75, depth=0.45, height=0.6, post=0.022)
+    asset = unstated(make_folding_corner(FoldingCorner(case=corner, side="left")))
+    made = folded(asset, {"door_1": "fold-left"}).object
+
+    assert cutting_over_sweep(made) == set()
+    assert degrees(made.joint_of["door_2"].limits.upper) > 60
 
 
 LEFT_OF_TWO = box("door_1", (-0.4, -0.02, 0.0), (-0.1, 0.0, 0.6))

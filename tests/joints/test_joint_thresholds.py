@@ -47,6 +47,7 @@ REASONS = {
     "coupled.py": {"_ALIKE": TOLERANCE},
     "folding.py": {"_TWICE": GEOMETRY},
     "fold_track.py": {"_POSES": SAMPLES, "_RAYS": SAMPLES, "_ACROSS": SAMPLES},
+    "corner_leaves.py": {"_OF_SECOND": SAMPLES},
     "leaves.py": {"UP": NUMBERING, "_UP": NUMBERING},
     "shown_folds.py": {"_PAIRS": NUMBERING},
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING, "_HEIGHT_SHIFTS": SAMPLES},

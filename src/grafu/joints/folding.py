@@ -21,7 +21,7 @@ from grafu.graph.edges import Hinge
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.leaves import Leaf, in_corner, is_as_wide, is_beside, leaf_of
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, side_towards
-from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
 from grafu.vocabulary import PartLabel
 
 _TWICE = 2.0  # the inner leaf turns back by twice what the outer one opens, so that it ends in the opening's plane
@@ -205,7 +205,7 @@ def _requests(outer: JointRequest, inner: JointRequest, fold: Fold, config: Fold
         axis=fold.outer_axis,
         reference=opening,
         attached=attached,
-        folds=not fold.is_corner,
+        leaf=LeafOf.NONE if fold.is_corner else LeafOf.OUTER,
     )
     coupling = None if fold.is_corner else Coupling(fold.outer, _TWICE)
     yield replace(
@@ -216,7 +216,7 @@ def _requests(outer: JointRequest, inner: JointRequest, fold: Fold, config: Fold
         attached=own,
         parent=fold.outer,
         coupling=coupling,
-        folds=not fold.is_corner,
+        leaf=LeafOf.CORNER if fold.is_corner else LeafOf.INNER,
     )
 
 
