@@ -47,7 +47,7 @@ class FoldConfig:
     opening: float = radians(88)
     """How far the outer leaf of a pair opens at most (radians); the inner one turns back by twice as much."""
     corner_opening: float = radians(85)
-    """How far the second leaf in a corner turns on the first at most (radians): it then lies before it."""
+    """How far the second leaf in a corner is wanted to turn on the first (radians): it then lies before it."""
     beyond: float = 0.1
     """How far above and below a corner's leaves nothing stands between them (fraction of their height)."""
     pivot: float = 0.002
