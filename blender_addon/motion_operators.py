@@ -1,4 +1,4 @@
-"""How a part moves, said by hand: it turns about a border, slides, or is static, whatever was read or predicted."""
+"""How a part moves, said by hand: it turns, slides, folds, or is static, whatever was read or predicted."""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
@@ -7,15 +7,16 @@ from .objects import ID
 from .run_operators import Applies
 from .state import session_of, settings_of
 
-TURNS, SLIDES, FIXED = "turns", "slides", "fixed"
+TURNS, SLIDES, FOLDS, FIXED = "turns", "slides", "folds", "fixed"
 MOVES = [
     (TURNS, "Turns", "A door, flap or lid: it turns about the border that is chosen"),
     (SLIDES, "Slides", "A drawer, or a sliding door: it slides to the side that is chosen"),
+    (FOLDS, "Folds", "One of two leaves of a folding door: it folds to the left or to the right with the other"),
     (FIXED, "Fixed", "It is no door and no drawer: it gets no joint"),
 ]
 USUAL = "usual"
 SIDES = [
-    (USUAL, "As usual", "Slides to the front; what turns needs a border"),
+    (USUAL, "As usual", "Slides to the front; what turns needs a border, what folds a side"),
     ("left", "Left", "As you stand before it"),
     ("right", "Right", "As you stand before it"),
     ("top", "Top", "The upper border"),
@@ -80,6 +81,8 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
             raise ValueError("choose a part: select its object")
         if self.moves == TURNS and self.side == USUAL:
             raise ValueError(f"choose the border that `{self.part}` turns about")
+        if self.moves == FOLDS and self.side not in ("left", "right"):
+            raise ValueError(f"choose the side that `{self.part}` folds to: left or right")
         side = None if self.side == USUAL or self.moves == FIXED else Side(self.side)
         choice = MotionChoice(Moves(self.moves), side, self.inwards and self.moves == TURNS)
         return settings.with_motion(self.part, choice)

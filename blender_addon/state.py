@@ -44,7 +44,7 @@ class GRAFU_Joint(bpy.types.PropertyGroup):
     changed: BoolProperty()
     front_changed: BoolProperty()
     motion_changed: BoolProperty()
-    moves: StringProperty(description="How it moves: turns, slides; empty: about no border of its own")
+    moves: StringProperty(description="How it moves: turns, slides, folds; empty: about no border of its own")
     side: StringProperty(description="The border that it turns about, the side that it slides to")
     inwards: BoolProperty()
 

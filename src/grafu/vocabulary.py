@@ -97,7 +97,8 @@ RAIL_CLASSES = (MechanismClass.CENTRE, MechanismClass.CORNER)
 
 MOTION_WORDS = (
     *("left", "right", "top", "bottom", "lift", "drop"),
-    *("slides", "pull", "slide-left", "slide-right", "slide-up", "fixed"),
+    *("slides", "pull", "slide-left", "slide-right", "slide-up", "fold-left", "fold-right", "fixed"),
 )
 """How a user states a motion: the border that a part turns about (`lift`: the top, `drop`: the bottom); `slides` or
-`pull`: out of the front; `slide-left` and the like: along itself; `fixed`: it does not move."""
+`pull`: out of the front; `slide-left` and the like: along itself; `fold-left` and `fold-right`: as one of two leaves
+that fold to that side; `fixed`: it does not move."""

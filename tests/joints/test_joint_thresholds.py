@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from grafu.joints.building_doors import BuildingDoorConfig
 from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
+from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.plan import PlanConfig
@@ -32,6 +34,7 @@ TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture
 EFFORT = "after how many tries, or beyond how many pieces, a search ends or is done in a simpler way"
 NUMBERING = "the rank of a row in a table, or a direction"
 LOOK = "the colour of hardware"
+GEOMETRY = "a number of geometry: what folds ends in the plane of the opening"
 CHOICE = "the range of what a user may choose"
 
 REASONS = {
@@ -39,6 +42,7 @@ REASONS = {
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/make.py": {"_FINELY": EFFORT, "_GAPS": EFFORT, "_STEPS": EFFORT},
+    "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
@@ -46,6 +50,11 @@ REASONS = {
     "lifts.py": {"_LEVEL": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
+    "folding.py": {"_TWICE": GEOMETRY},
+    "fold_track.py": {"_POSES": SAMPLES, "_RAYS": SAMPLES, "_ACROSS": SAMPLES},
+    "corner_leaves.py": {"_OF_SECOND": SAMPLES},
+    "leaves.py": {"UP": NUMBERING, "_UP": NUMBERING},
+    "shown_folds.py": {"_PAIRS": NUMBERING},
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING, "_HEIGHT_SHIFTS": SAMPLES},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
@@ -67,9 +76,9 @@ REASONS = {
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, DrawerConfig, DrawnConfig, DropLeafConfig,
-    FlankConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RailConfig,
-    RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
+    BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, DrawerConfig,
+    DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig,
+    PlanConfig, PullOutConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 
 

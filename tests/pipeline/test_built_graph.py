@@ -1,5 +1,7 @@
 """The graph as it was built: added parts instead of expected nodes, and what was decided about them."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from grafu.additions.step import Addition, added_part
@@ -9,7 +11,7 @@ from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.completion import Decision, GraphCompletion
-from grafu.graph.edges import Attached, Contact
+from grafu.graph.edges import Attached, Contact, Hinge
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import parse_graph
@@ -92,6 +94,19 @@ def test_what_was_added_and_not_expected_has_no_decisions() -> None:
     built = as_built(expected(model), model, [addition("shelf", PartLabel.SHELF, vec3(0.0, 0.0, 0.4))])
     assert built.added == ("shelf",)
     assert built.decisions == ()
+
+
+def test_a_door_that_hung_on_what_was_not_built_is_refused() -> None:
+    model = asset()
+    door = model.part(door_of(model)).box
+    side = node("expected", PartLabel.SIDE_PANEL, vec3(float(door.low[0]) - 0.02, 0.0, float(door.center[2])))
+    completion = expected(model, side)
+    hinged = with_edges(completion.completed, [Hinge("expected", door_of(model), 0, 0)])
+    completion = replace(completion, completed=hinged, refused=())
+    built = as_built(completion, model, [])
+
+    assert [(one.part, one.reason) for one in built.refused] == [(door_of(model), Reason.NO_MOTION)]
+    assert built.completed.moving == frozenset()
 
 
 def test_added_parts_touch_what_they_touch() -> None:

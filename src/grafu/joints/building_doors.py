@@ -38,10 +38,14 @@ class BuildingDoorConfig:
     """
 
     tall: float = 1.6
-    """Least height of the whole (metres)."""
+    """Least height of the whole (m, by the unit of the input): doors are made for people."""
     slim: float = 0.35
-    """Greatest depth of the whole (fraction of its height)."""
-    around: float = 0.7
+    """Greatest depth of the whole, a leaf drawn ajar with it (fraction of its height)."""
+    shallow: float = 0.15
+    """Greatest depth of the frame (fraction of the height of the whole)."""
+    before: float = 0.15
+    """How far handles stand out before and behind their leaf at most (fraction of its width)."""
+    around: float = 0.65
     """What of the width of the whole the frame spans at least (fraction); of its height it spans nearly all."""
     high: float = 0.95
     """What of the height of the whole the frame spans at least (fraction)."""
@@ -65,16 +69,37 @@ class BuildingDoorConfig:
         require_ratios(self, *(name for name in self.__dataclass_fields__ if name != "tall"))
 
 
+@final
+@dataclass(frozen=True, eq=False)
+class BuildingDoor:
+    """A frame, its leaves, and what is on each leaf: panes, handles, locks."""
+
+    frame: Part
+    leaves: tuple[Part, ...]
+    on_leaf: tuple[tuple[Part, ...], ...]
+
+
+def building_door(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> BuildingDoor | None:
+    """Returns the door that an asset is; None where it is another piece, or has parts that no door has."""
+    frame = _frame(asset, config)
+    leaves = () if frame is None else tuple(_leaves(frame, asset, config))
+    if frame is None or not leaves:
+        return None
+    others = [part for part in asset.parts if part is not frame and part not in leaves]
+    on_leaf = tuple(tuple(part for part in others if _is_on(part, leaf, config)) for leaf in leaves)
+    known = {part.id for parts in on_leaf for part in parts}
+    return BuildingDoor(frame, leaves, on_leaf) if all(part.id in known for part in others) else None
+
+
 def with_door_labels(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> Asset:
     """Returns the asset in which the leaves of a door in its frame are doors, and the frame is none; else itself.
 
     Labels that the user gave stay.
     """
-    frame = _frame(asset, config)
-    leaves = [] if frame is None else list(_leaves(frame, asset, config))
-    if frame is None or not leaves:
+    found = building_door(asset, config)
+    if found is None:
         return asset
-    labels = {frame.id: PartLabel.FACE_FRAME, **{leaf.id: PartLabel.DOOR for leaf in leaves}}
+    labels = {found.frame.id: PartLabel.FACE_FRAME, **{leaf.id: PartLabel.DOOR for leaf in found.leaves}}
     parts = (
         part
         if labels.get(part.id, part.label) is part.label or part.labelled_by == "user"
@@ -89,22 +114,16 @@ def with_building_doors(
 ) -> RealizationPlan:
     """Returns the plan in which the leaves of a door in its frame turn; the plan itself for any other piece.
 
-    A leaf that the plan slides keeps its motion. What is small and touches no frame goes with the leaf that it is on.
+    A leaf that the plan slides keeps its motion. What is on a leaf goes with it.
     """
-    frame = _frame(asset, config)
-    if frame is None:
+    found = building_door(asset, config)
+    if found is None:
         return plan
-    leaves = list(_leaves(frame, asset, config))
-    if not leaves:
-        return plan
-    kept = [r for r in plan.joints if r.moving != frame.id and r.moving not in {leaf.id for leaf in leaves}]
     sliding = {r.moving: r for r in plan.joints if r.kind.slides}
-    requests = [sliding.get(leaf.id) or _request(leaf, leaves, frame, asset, config) for leaf in leaves]
-    riding = {part for request in requests for part in request.attached}
-    kept = [r for r in kept if r.moving not in riding]
-    settled = {frame.id, *riding, *(leaf.id for leaf in leaves)}
-    refused = tuple(refusal for refusal in plan.refused if refusal.part not in settled)
-    return replace(plan, joints=(*kept, *requests), refused=refused)
+    pairs = zip(found.leaves, found.on_leaf, strict=True)
+    requests = [sliding.get(leaf.id) or _request(leaf, on_it, found, asset, config) for leaf, on_it in pairs]
+    refused = tuple(refusal for refusal in plan.refused if refusal.part not in {part.id for part in asset.parts})
+    return replace(plan, joints=tuple(requests), refused=refused)
 
 
 def _frame(asset: Asset, config: BuildingDoorConfig) -> Part | None:
@@ -115,7 +134,9 @@ def _frame(asset: Asset, config: BuildingDoorConfig) -> Part | None:
     frames = (
         part
         for part in asset.parts
-        if part.box.size[_WIDTH] >= config.around * size[_WIDTH] and part.box.size[_UP] >= config.high * size[_UP]
+        if part.box.size[_WIDTH] >= config.around * size[_WIDTH]
+        and part.box.size[_UP] >= config.high * size[_UP]
+        and part.box.size[_DEPTH] <= config.shallow * size[_UP]
     )
     return max(frames, key=lambda part: float(np.prod(part.box.size[[_WIDTH, _UP]])), default=None)
 
@@ -154,24 +175,26 @@ def _covered(rays: RayCaster, leaf: Box, whole: Box) -> float:
     return float(np.isfinite(rays.along(origins, np.array([0.0, 1.0, 0.0]))).mean())
 
 
-def _request(leaf: Part, leaves: Sequence[Part], frame: Part, asset: Asset, config: BuildingDoorConfig) -> JointRequest:
-    riders = [part for part in asset.parts if part is not frame and part not in leaves and _is_on(part, leaf, config)]
-    attached = tuple(part.id for part in riders)
+def _request(
+    leaf: Part, on_it: Sequence[Part], door: BuildingDoor, asset: Asset, config: BuildingDoorConfig
+) -> JointRequest:
+    frame, leaves = door.frame, door.leaves
+    attached = tuple(part.id for part in on_it)
     shift = float(leaf.box.center[_WIDTH] - frame.box.center[_WIDTH])
     beyond = max(frame.box.low[_WIDTH] - leaf.box.low[_WIDTH], leaf.box.high[_WIDTH] - frame.box.high[_WIDTH])
     if len(leaves) == 1 and beyond > config.aside * leaf.box.size[_WIDTH]:
         axis = Axis(leaf.box.center, vec3(np.copysign(1.0, shift), 0.0, 0.0))
         wide = float(leaf.box.size[_WIDTH])
         return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, wide, (), attached, abs(shift))
-    side = _hinged_side(leaf, leaves, riders, config)
+    side = _hinged_side(leaf, leaves, on_it, config)
     outwards = axis_of_motion(leaf, MotionChoice(Moves.TURNS, side), asset.box)
     inwards = axis_of_motion(leaf, MotionChoice(Moves.TURNS, side, inwards=True), asset.box)
-    backwards = _opens_backwards(leaf, frame, riders, config)
+    backwards = _opens_backwards(leaf, frame, on_it, config)
     axis = outwards if (_sets_off(outwards, side) > 0) == backwards else inwards
     return JointRequest(leaf.id, Hinge.joint_type, axis, SOURCE, attached=attached)
 
 
-def _opens_backwards(leaf: Part, frame: Part, riders: Sequence[Part], config: BuildingDoorConfig) -> bool:
+def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: BuildingDoorConfig) -> bool:
     """Whether a leaf opens away from the viewer: to the face of the frame that it is nearer to.
 
     In the middle of its frame it opens to the viewer, unless what it is grasped by is on the viewer's side alone: that
@@ -181,8 +204,8 @@ def _opens_backwards(leaf: Part, frame: Part, riders: Sequence[Part], config: Bu
     nearer = (low - frame.box.low[_DEPTH]) - (frame.box.high[_DEPTH] - high)
     if abs(nearer) > config.flush * frame.box.size[_DEPTH]:
         return bool(nearer > 0)
-    before = any(one.box.low[_DEPTH] < low - config.flush * leaf.box.size[_DEPTH] for one in riders)
-    behind = any(one.box.high[_DEPTH] > high + config.flush * leaf.box.size[_DEPTH] for one in riders)
+    before = any(one.box.low[_DEPTH] < low - config.flush * leaf.box.size[_DEPTH] for one in on_it)
+    behind = any(one.box.high[_DEPTH] > high + config.flush * leaf.box.size[_DEPTH] for one in on_it)
     return before and not behind
 
 
@@ -193,23 +216,16 @@ def _sets_off(axis: Axis, side: Side) -> float:
 
 
 def _is_on(part: Part, leaf: Part, config: BuildingDoorConfig) -> bool:
-    """Whether a part lies within the outline of a leaf, seen from before it: its pane, its handle, its lock."""
-    box, outline = part.box, leaf.box
-    if np.any(box.low[[_WIDTH, _UP]] < outline.low[[_WIDTH, _UP]] - _slack(outline, config)):
-        return False
-    if np.any(box.high[[_WIDTH, _UP]] > outline.high[[_WIDTH, _UP]] + _slack(outline, config)):
-        return False
-    return bool(box.grown(_slack(outline, config)).overlaps(outline))
+    """Whether a part lies within the outline of a leaf, seen from before it, and close to it."""
+    width = float(leaf.box.size[_WIDTH])
+    room = width * np.array([config.threshold, config.before, config.threshold])
+    return bool(np.all(part.box.low >= leaf.box.low - room) and np.all(part.box.high <= leaf.box.high + room))
 
 
-def _slack(outline: Box, config: BuildingDoorConfig) -> float:
-    return config.threshold * float(outline.size[_WIDTH])
-
-
-def _hinged_side(leaf: Part, leaves: Sequence[Part], riders: Sequence[Part], config: BuildingDoorConfig) -> Side:
+def _hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], config: BuildingDoorConfig) -> Side:
     """Returns the edge away from handles and locks; without these the outer edge of several leaves, else the left."""
     box = leaf.box
-    small = [part.box for part in riders if part.box.size.max() <= config.small * box.size[_UP]]
+    small = [part.box for part in on_it if part.box.size.max() <= config.small * box.size[_UP]]
     aside = sum(
         float(np.sign(offset))
         for offset in (float(one.center[_WIDTH] - box.center[_WIDTH]) for one in small)

@@ -9,6 +9,7 @@ from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
+from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge_config import HingeConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import ClosingConfig, DrawerConfig, RailConfig
@@ -265,6 +266,8 @@ class RealizationConfig(ShortRepr):
     """Of requests."""
     lift: LiftConfig = LiftConfig()
     """Of lifting columns."""
+    fold: FoldConfig = FoldConfig()
+    """Of doors that fold."""
     small: SmallPartConfig = SmallPartConfig()
     """Of knobs, buttons, wheels and casters."""
     block: BlockConfig = BlockConfig()

@@ -87,6 +87,12 @@ def drawn_pin(search: DoorSearch) -> DrawnPin | None:
     return DrawnPin(search.frame.axis_at(line[0].x, line[0].y), frozenset(b.part for b in line)) if line else None
 
 
+def barrels_at(frame: BorderFrame, request: JointRequest, scene: Scene, config: RealizationConfig) -> list[Barrel]:
+    """Returns the barrels on one line that are spread along a border of a moving body; `config` is in its scale."""
+    model = _model(scene, config)
+    return _hinge_line(frame, list(_barrels(frame, request.moving, model)), model.drawn)
+
+
 def with_drawn_hinges(
     plan: RealizationPlan, asset: Asset, config: RealizationConfig = RealizationConfig()
 ) -> RealizationPlan:

@@ -78,7 +78,7 @@ class PivotConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("disc_inset", "start", "plate", "plate_play", "plate_reach", "plate_end")
+    LENGTHS = ("disc_inset", "start", "plate", "plate_play", "plate_least", "plate_reach", "plate_end")
     disc_inset: float = 0.0015
     """How deep a pivot's disc is inset into its own part (metres)."""
     sides: int = 24
@@ -105,6 +105,8 @@ class PivotConfig:
     """Thickness of a plate beside a door's end (metres)."""
     plate_play: float = 0.001
     """Distance between the door's end and the plate (metres)."""
+    plate_least: float = 0.0005
+    """Least room between a leaf's lower end and the floor that a thinner plate takes (metres)."""
     plate_reach: float = 0.025
     """How far the plate reaches behind the door's back, and how far inwards the case may stand there (metres)."""
     plate_end: float = 0.02

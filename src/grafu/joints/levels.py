@@ -17,11 +17,13 @@ from grafu.geometry.transform import invert
 from grafu.joints.build import Built
 from grafu.joints.build_all import build_fairly
 from grafu.joints.config import RealizationConfig
+from grafu.joints.corner_leaves import room_in_corner
 from grafu.joints.coupled import Coupled
+from grafu.joints.fold_track import NO_TRACK, with_track
 from grafu.joints.measuring import Figures, Measured, measure_all
 from grafu.joints.nesting import above, brought_back, riding, seen_from
 from grafu.joints.order import BuiltJoint, OpeningOrder, order_joints, stand_aside
-from grafu.joints.plan import JointRequest
+from grafu.joints.plan import JointRequest, LeafOf
 from grafu.processes.cache import Cache
 from grafu.refusal import Refusal
 from grafu.scene.scene import Scene
@@ -86,6 +88,8 @@ class Builder:
             levels = self._with_nested(levels, request)
         for request in requests:
             levels = self._with_coupling(levels, request)
+        for request in requests:
+            levels = self._with_leaf(levels, request)
         return levels
 
     def _level(self, requests: Sequence[JointRequest], scene: Scene) -> Measured:
@@ -144,6 +148,8 @@ class Builder:
         ]
         bodies = [name for name in beside if carrier or name == moving or name in levels.built]
         view = seen_from(carrier, bodies, scene, levels.parent_of, T, is_alone)
+        if is_alone and request.leaf is LeafOf.INNER:
+            view = replace(view, behind=scene.static_parts)
         carriers = scene.moving_bodies[carrier].members if carrier else ()
         measured = self._level([replace(request, carriers=carriers)], view)
         whole = brought_back(measured.scene, view, carrier, scene, T_others_carrier) if measured.built else scene
@@ -168,6 +174,33 @@ class Builder:
         if upper < self.config.restricted * wanted:
             levels = levels.noted(coupling.leader, f"opens as far as {moving} can follow")
         return _joined(levels, moving, coupling, upper)
+
+    def _with_leaf(self, levels: Levels, request: JointRequest) -> Levels:
+        """Returns the levels with what the second leaf of a folding door needs: a track, or room in a corner."""
+        if request.leaf is LeafOf.INNER and request.moving in levels.couplings:
+            return self._with_track(levels, request.moving)
+        if request.leaf is LeafOf.CORNER and levels.parent_of.get(request.moving):
+            return self._with_room(levels, request.moving)
+        return levels
+
+    def _with_room(self, levels: Levels, moving: str) -> Levels:
+        """Returns the levels in which a leaf in a corner opens as far as the one that it carries clears the case."""
+        carrier = levels.parent_of[moving]
+        first, second = levels.orders[carrier], levels.orders[moving]
+        upper = room_in_corner(
+            levels.scene, (levels.built[carrier], levels.built[moving]), (first.upper, second.upper), self.config
+        )
+        if upper >= first.upper:
+            return levels
+        noted = levels.noted(carrier, f"opens as far as {moving} clears the case, however far that is open")
+        return replace(noted, orders={**levels.orders, carrier: replace(first, upper=upper)})
+
+    def _with_track(self, levels: Levels, moving: str) -> Levels:
+        """Returns the levels with a track for a leaf that folds and follows another; a note states where none fits."""
+        leader = levels.couplings[moving].leader
+        pair, upper = (levels.built[leader], levels.built[moving]), levels.orders[leader].upper
+        scene = with_track(levels.scene, *pair, upper, self.config)
+        return levels.noted(moving, NO_TRACK) if scene is None else replace(levels, scene=scene)
 
 
 def _riding(levels: Levels, moving: str, carrier: str) -> Levels:

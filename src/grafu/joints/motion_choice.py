@@ -32,6 +32,7 @@ class Moves(StrEnum):
     FIXED = "fixed"  # it gets no joint, whatever its label
     TURNS = "turns"
     SLIDES = "slides"
+    FOLDS = "folds"  # one of two leaves that are hinged to one another
 
     @classmethod
     def _missing_(cls, value: object) -> "Moves | None":
@@ -64,11 +65,12 @@ DIRECTIONS: dict[Side, Vec3] = {
 class MotionChoice:
     """How one part moves.
 
-    `side` is the border that a part turns about, or the side that it slides to (None: the front). What turns opens
-    outwards, away from the object's middle, unless `inwards`.
+    `side` is the border that a part turns about, or the side that it slides to (None: the front), or the one that two
+    leaves fold to. What turns opens outwards, away from the object's middle, unless `inwards`.
 
     Raises:
-        ValueError: if a part that turns has no side, or one that does not turn opens inwards.
+        ValueError: if a part that turns has no side, one that does not turn opens inwards, or a leaf folds to a side
+            that is neither left nor right.
     """
 
     moves: Moves
@@ -78,6 +80,8 @@ class MotionChoice:
     def __post_init__(self) -> None:
         if self.moves is Moves.TURNS and self.side is None:
             raise ValueError("`MotionChoice.side` must name the border that a part turns about: got none")
+        if self.moves is Moves.FOLDS and self.side not in (Side.LEFT, Side.RIGHT):
+            raise ValueError(f"`MotionChoice.side` must be left or right for a leaf that folds: got {self.side}")
         if self.moves is not Moves.TURNS and self.inwards:
             raise ValueError(f"`MotionChoice.inwards` is for parts that turn: got it for one that moves {self.moves}")
         if self.moves is Moves.FIXED and self.side is not None:
@@ -86,10 +90,15 @@ class MotionChoice:
     @property
     def type(self) -> JointType:
         """The type of joint."""
-        types = {Moves.TURNS: JointType.REVOLUTE, Moves.SLIDES: JointType.PRISMATIC}
-        return types.get(self.moves, JointType.FIXED)
+        return _TYPES[self.moves]
 
 
+_TYPES: dict[Moves, JointType] = {
+    Moves.FIXED: JointType.FIXED,
+    Moves.TURNS: JointType.REVOLUTE,
+    Moves.SLIDES: JointType.PRISMATIC,
+    Moves.FOLDS: JointType.REVOLUTE,
+}
 FIXED = MotionChoice(Moves.FIXED)
 
 TURNING_SIDES = ("left", "right", "top", "bottom")
@@ -100,6 +109,7 @@ _CHOICES: dict[str, MotionChoice] = dict(
         (
             *(MotionChoice(Moves.TURNS, Side(side)) for side in (*TURNING_SIDES, "top", "bottom")),
             *(MotionChoice(Moves.SLIDES, side) for side in (None, None, Side.LEFT, Side.RIGHT, Side.TOP)),
+            *(MotionChoice(Moves.FOLDS, side) for side in (Side.LEFT, Side.RIGHT)),
             FIXED,
         ),
         strict=True,
@@ -124,7 +134,7 @@ def label_of_motion(part: Part, choice: MotionChoice, drawers: DrawerConfig = Dr
     """Returns the category of a part that moves so: a board that slides along itself is a door, too."""
     if choice.moves is Moves.FIXED:
         return part.label
-    if choice.moves is Moves.TURNS or slides_in_its_plane(part.mesh, _direction(choice), drawers):
+    if motion_kind(choice.type).turns or slides_in_its_plane(part.mesh, _direction(choice), drawers):
         return PartLabel.DOOR
     return PartLabel.DRAWER
 
@@ -157,7 +167,7 @@ def motion_as_choice(mesh: TriangleMesh, joint_type: JointType, axis: Axis, whol
     `mesh` is the part closed, `axis` that of its joint, positive opens; `whole` is the box of the object.
     """
     if motion_kind(joint_type).slides:
-        return MotionChoice(Moves.SLIDES, _side_towards(axis.direction))
+        return MotionChoice(Moves.SLIDES, side_towards(axis.direction))
     axes = part_axes(mesh)
     local = Box.around(mesh.vertices @ axes)
     along = int(np.argmax(np.abs(axes.T @ axis.direction)))
@@ -168,10 +178,11 @@ def motion_as_choice(mesh: TriangleMesh, joint_type: JointType, axis: Axis, whol
     side = wide * np.copysign(1.0, float(wide @ (axis.point - center)))
     opens = np.cross(axis.direction, -side)
     outwards = _outwards(axes[:, local.thin_axis], center - whole.center)
-    return MotionChoice(Moves.TURNS, _side_towards(side), inwards=float(opens @ outwards) < 0)
+    return MotionChoice(Moves.TURNS, side_towards(side), inwards=float(opens @ outwards) < 0)
 
 
-def _side_towards(direction: Vec3) -> Side:
+def side_towards(direction: Vec3) -> Side:
+    """Returns the side of the object that a direction points to most."""
     return max(DIRECTIONS, key=lambda side: float(DIRECTIONS[side] @ direction))
 
 

@@ -30,6 +30,15 @@ class Supports(StrEnum):
     DIVIDER = "divider"  # an upright board along the rail, from what stands below to what stands above
 
 
+class LeafOf(StrEnum):
+    """Which leaf of a folding door a part is."""
+
+    NONE = "none"  # it is no leaf of one
+    OUTER = "outer"  # it turns on pivots, if they find room, and carries the inner leaf
+    INNER = "inner"  # it follows the outer leaf, and runs in a track above it
+    CORNER = "corner"  # it hangs on another leaf in an inner corner, and turns by itself
+
+
 @final
 @dataclass(frozen=True)
 class PlanConfig:
@@ -123,7 +132,8 @@ class JointRequest:
 
     `parent` is the moving part that carries the joint ("": the static body); the part is among what is `attached` to
     it. With a `coupling` the joint follows that of another part, which it names; both count values from closed.
-    `carriers` are the parts that alone may hold the hardware (empty: every static part).
+    `carriers` are the parts that alone may hold the hardware (empty: every static part). `leaf` states which leaf of a
+    folding door it is.
     """
 
     moving: str
@@ -138,6 +148,7 @@ class JointRequest:
     parent: str = ""
     coupling: Coupling | None = None
     carriers: tuple[str, ...] = ()
+    leaf: LeafOf = LeafOf.NONE
 
     def __post_init__(self) -> None:
         if not self.kind.moves:
@@ -149,6 +160,11 @@ class JointRequest:
     def kind(self) -> MotionKind:
         """How it moves, and what everyone asks about it."""
         return motion_kind(self.type)
+
+    @property
+    def on_pivots(self) -> bool:
+        """Whether discs at its ends are tried before hinges: it is the outer leaf of a pair that folds."""
+        return self.leaf is LeafOf.OUTER
 
     @property
     def holders(self) -> tuple[str, ...]:

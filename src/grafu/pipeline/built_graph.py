@@ -19,6 +19,7 @@ from grafu.graph.edges import Attached, Contact, Edge, MotionEdge, ends_of
 from grafu.graph.edit import with_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.parse import ParsingConfig
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 
@@ -39,8 +40,16 @@ def as_built(
     decisions = tuple(
         replace(d, part=names.get(d.part, d.part)) for d in completion.decisions if d.part in bare or d.part in names
     )
-    refused = tuple(r for r in completion.refused if r.part in bare)
+    refused = _with_unheld(graph, tuple(r for r in completion.refused if r.part in bare))
     return replace(completion, completed=graph, added=tuple(p.id for p in new), decisions=decisions, refused=refused)
+
+
+def _with_unheld(graph: FunctionalGraph, refused: tuple[Refusal, ...]) -> tuple[Refusal, ...]:
+    """Returns the refusals, and one for each door and drawer that lost its motion with what it was to hang on."""
+    answered = graph.moving | {refusal.part for refusal in refused}
+    unheld = (node.id for node in graph.nodes if node.label.is_movable and node.id not in answered)
+    why = "what it was predicted to hang on was not built"
+    return (*refused, *(Refusal(part, Reason.NO_MOTION, why) for part in unheld))
 
 
 def with_joints(completion: GraphCompletion, made: ArticulatedObject, mounts: Mapping[str, str]) -> GraphCompletion:
@@ -97,7 +106,7 @@ def without_removed(completion: GraphCompletion, removed: frozenset[str], heirs:
     graph = with_edges(graph, [replace(e, parent=_nearest(heirs, e.parent, graph)) for e in carried if heirs])
     given, completed = (without_nodes(g, removed & {n.id for n in g.nodes}) for g in (completion.input, graph))
     decisions = tuple(d for d in completion.decisions if d.part not in removed)
-    refused = tuple(r for r in completion.refused if r.part not in removed)
+    refused = _with_unheld(completed, tuple(r for r in completion.refused if r.part not in removed))
     return replace(completion, input=given, completed=completed, decisions=decisions, refused=refused)
 
 

@@ -12,12 +12,14 @@ from grafu.asset.part import Asset
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
 from grafu.geometry.budget import UNLIMITED, Budget
+from grafu.geometry.config_checks import at_scale
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.building_doors import with_door_labels
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
+from grafu.joints.folding import as_turning, folds_in, with_folds
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
 from grafu.joints.plan import PlanConfig, RealizationPlan
@@ -30,7 +32,7 @@ from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, c
 from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
-from grafu.pipeline.shown_by_shape import may_have_small_parts, shown_by_shape, without_turntables
+from grafu.pipeline.shown_by_shape import may_have_small_parts, shown_by_shape
 from grafu.pipeline.stages import (
     Stages,
     by_contacts,
@@ -40,7 +42,7 @@ from grafu.pipeline.stages import (
     without_network,
 )
 from grafu.processes.cache import NO_CACHE, Cache
-from grafu.scene.scene import Scene
+from grafu.scene.scene import Scene, metre_on
 from grafu.templates.template import Gallery, HandleTemplate
 from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
@@ -182,22 +184,22 @@ def functionalize(
     """
     stages, settings, joints = Stages(on_stage, budget), config.settings, config.joints
     stated, drawers = len(asset.stated_joints), joints.drawer
-    asset, chosen = _with_source(asset, source, settings, drawers, stages)
+    folds = folds_in(settings.motions, asset, at_scale(joints.fold, metre_on(asset.extent)))
+    motions = as_turning(settings.motions, folds)
+    asset, chosen = _with_source(asset, source, replace(settings, motions=motions), drawers, stages)
     motion = _motion(chosen, settings.weights)
     parse = partial(cache.value, "parse", parse_graph, asset)  # contacts only
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
     complete = partial(cache.value, f"complete by {chosen} of {settings.weights}", motion.complete, asset, graph)
     completion = stages.timed("complete", complete, partial(without_network, graph))
-    completion = with_mounts(with_motions(completion, settings.motions, asset), settings.joints)
+    completion = with_mounts(with_motions(completion, motions, asset), settings.joints)
     first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
     plan = stages.timed("plan", first)
     turning: frozenset[str] = frozenset()
     if not motion.reads_annotation:
-        plan = shown_by_shape(plan, asset, completion.completed, joints)
-        plan, turning = without_turntables(plan, asset, settings.small_parts)
-    plan = with_choices(
-        plan_with_motions(plan, settings.motions, completion, asset), settings.joints, asset, gallery, joints.plan
-    )
+        plan, turning = shown_by_shape(plan, asset, completion.completed, joints, motions, settings.small_parts)
+    plan = with_folds(plan_with_motions(plan, motions, completion, asset), folds, joints.fold)
+    plan = with_choices(plan, settings.joints, asset, gallery, joints.plan)
     close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
     plan = stages.timed("close", close, lambda _: plan)
     add = partial(cache.value, "body", add_before_joints, asset, completion, plan, settings.additions.of_body, drawers)
@@ -229,7 +231,7 @@ def functionalize(
         tuple(stages.laps),
         tuple(stages.notes),
         stated,
-        frozenset(settings.motions),
+        frozenset(motions),
     )
 
 

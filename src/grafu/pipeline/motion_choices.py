@@ -3,11 +3,11 @@
 It searches no hardware; what the codes of a graph cannot say is refused there, and built from the plan all the same.
 """
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from math import pi
 
-from grafu.articulation.articulated_object import ArticulatedObject, VisualRole
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.completion.handles import attach_handles
 from grafu.errors import GraphError, OptionError
@@ -18,7 +18,7 @@ from grafu.graph.edges import Attached, Contact, Edge, MotionEdge, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.joints.make_plan import attached_to
-from grafu.joints.motion_choice import MotionChoice, Moves, axis_of_motion, label_of_motion, motion_as_choice
+from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion, label_of_motion, motion_as_choice
 from grafu.joints.plan import JointChoice, JointRequest, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.refusal import Reason, Refusal
@@ -32,13 +32,28 @@ Motions = Mapping[str, MotionChoice]
 
 
 def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
-    """Returns how the parts of an object move, as choices by the id of the part; see `motion_as_choice`."""
+    """Returns how the parts of an object move, as choices by the id of the part; see `motion_as_choice`.
+
+    A leaf that follows the one that carries it folds, and so does that one.
+    """
     parts = [v for link in made.links for v in link.visuals if v.role is VisualRole.PART]
     whole = Box.enclosing([visual.mesh.box for visual in parts])
     joints = {joint.child: joint for joint in made.moving_joints}
     moving_bodies = [(visual.mesh, joints[visual.name]) for visual in parts if visual.name in joints]
     found = {joint.child: motion_as_choice(mesh, joint.type, joint.axis, whole) for mesh, joint in moving_bodies}
-    return {part: choice for part, choice in found.items() if choice is not None}
+    choices = {part: choice for part, choice in found.items() if choice is not None}
+    return choices | {leaf: fold for joint in made.moving_joints for leaf, fold in _folded(joint, made, choices)}
+
+
+def _folded(joint: Joint, made: ArticulatedObject, choices: Motions) -> Iterator[tuple[str, MotionChoice]]:
+    """Yields a joint's child and the leaf that carries it, where both turn and it follows that, and how both fold."""
+    outer = choices.get(joint.parent)
+    if joint.coupling is None or outer is None or joint.child not in choices:
+        return
+    leads = made.joint_of[joint.parent].id == joint.coupling.leader
+    turn = {outer.moves, choices[joint.child].moves} == {Moves.TURNS}
+    if leads and turn and outer.side in (Side.LEFT, Side.RIGHT):
+        yield from ((leaf, MotionChoice(Moves.FOLDS, outer.side)) for leaf in (joint.parent, joint.child))
 
 
 def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:

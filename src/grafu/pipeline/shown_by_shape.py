@@ -1,5 +1,6 @@
 """What shape and names alone show of how parts move, whatever was predicted."""
 
+from collections.abc import Collection
 from dataclasses import replace
 
 from grafu.asset.part import Asset
@@ -9,24 +10,36 @@ from grafu.joints.building_doors import with_building_doors
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_leaves import with_drop_leaves
+from grafu.joints.folding import with_folds
 from grafu.joints.lifts import with_lifts
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.pull_outs import with_pull_outs
+from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
 
 
 def shown_by_shape(
-    plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, joints: RealizationConfig
-) -> RealizationPlan:
-    """Returns a predicted plan with drawn hinges, sliding doors, pull-out units, drop leaves and lifting columns."""
+    plan: RealizationPlan,
+    asset: Asset,
+    graph: FunctionalGraph,
+    joints: RealizationConfig,
+    settled: Collection[str] = (),
+    small: bool | None = None,
+) -> tuple[RealizationPlan, frozenset[str]]:
+    """Returns a predicted plan with what shapes and names alone show of how parts move, and the trays that turn.
+
+    `settled` are the parts whose motions the user states; `small` is as in the settings.
+    """
     plan = with_building_doors(plan, asset)
-    plan = with_pull_outs(with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset), asset, graph)
-    return with_lifts(with_drop_leaves(plan, asset), graph, at_scale(joints.lift, metre_on(asset.extent)))
+    plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
+    plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
+    plan = with_lifts(with_drop_leaves(plan, asset), graph, at_scale(joints.lift, metre_on(asset.extent)))
+    return _without_turntables(plan, asset, small)
 
 
-def without_turntables(
+def _without_turntables(
     plan: RealizationPlan, asset: Asset, small: bool | None
 ) -> tuple[RealizationPlan, frozenset[str]]:
     """Returns the plan without trays that are round, and these: they turn, and are built as small parts.

@@ -88,7 +88,7 @@ class Scene:
     """All parts in their rest pose.
 
     `hardware` holds installed visuals by the id of the moving body, or "" for static; `joint_motions` holds what is
-    known of the moving bodies' motions.
+    known of the moving bodies' motions. What is `behind` is met by hardware alone, and only while all is closed.
     """
 
     parts: Mapping[str, Part]
@@ -96,6 +96,7 @@ class Scene:
     extent: float
     hardware: tuple[tuple[str, Visual], ...] = ()
     joint_motions: Mapping[str, JointMotion] = field(default_factory=dict)
+    behind: tuple[Part, ...] = ()
     _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(
         default_factory=dict, repr=False
     )
@@ -134,6 +135,11 @@ class Scene:
     def static_obstacles(self) -> tuple[Obstacle, ...]:
         """One obstacle per static part, at rest."""
         return tuple(Obstacle(part.id, MeshCollider(part.mesh)) for part in self.static_parts if len(part.mesh.faces))
+
+    @cached_property
+    def obstacles_behind(self) -> tuple[Obstacle, ...]:
+        """One obstacle per part that hardware must clear while all is closed, and that nothing else meets."""
+        return tuple(Obstacle(part.id, MeshCollider(part.mesh)) for part in self.behind if len(part.mesh.faces))
 
     @cached_property
     def static_hardware(self) -> tuple[Obstacle, ...]:

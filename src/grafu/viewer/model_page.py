@@ -1,8 +1,8 @@
 """The page of one model: a single file that opens from a disk, without a network. It writes no files.
 
-A header with the verdict (its colour, its sentence, a line for each fault), a 3D view with a slider per joint,
-pictures, the functional graph, and the report as tables. The view is WebGL of our own: `model-viewer` plays the
-animation of a GLB but has no slider per joint and adds 1 MB to each page; viser needs a server that runs.
+A header with the verdict (its colour, its sentence, a line for each fault), a 3D view with a slider per joint that
+moves by itself, pictures, the functional graph, and the report as tables. The view is WebGL of our own: `model-viewer`
+plays the animation of a GLB but has no slider per joint and adds 1 MB to each page; viser needs a server that runs.
 """
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
@@ -111,7 +111,7 @@ def _panel(articulated: ArticulatedObject) -> Html:
     joints = articulated.moving_joints
     actions = (("open", "Open all"), ("close", "Close all"), ("play", "Play"))
     buttons = [tag("button", word, type="button", data_action=action, disabled=True) for action, word in actions]
-    rows = [_slider(index, joint) for index, joint in enumerate(joints)]
+    rows = [_slider(index, joint) for index, joint in enumerate(joints) if joint.coupling is None]
     moving = [tag("div", *buttons, class_="actions"), tag("div", *rows, class_="joints")] if joints else []
     roles = {visual.role for link in articulated.links for visual in link.visuals}
     switches = [_switch(key, word, on=True) for role, key, word in _ROLES if role in roles]

@@ -20,6 +20,7 @@ from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.survey import BorderSurvey
 from grafu.joints.hinge_config import HingeConfig, PinConfig
 from grafu.scene.border import BorderFrame
@@ -172,6 +173,12 @@ def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances, config: HingeCon
     if not turns_about_itself(frame, axis, config):
         spots.append((config.pin.pivot_inset * radius, -config.pin.pivot_inset * radius))
     return [PinCandidate(MechanismClass.C, 0.0, x, y, radius, radius, PIVOTS, is_pivot=True) for x, y in spots]
+
+
+def fold_pin(config: FoldConfig) -> PinCandidate:
+    """Returns the pin of slim discs close to the outer edge of a leaf that folds."""
+    x, y = config.pivot_edge, -config.pivot
+    return PinCandidate(MechanismClass.C, 0.0, x, y, config.pivot, config.pivot, PIVOTS, is_pivot=True)
 
 
 def makeshift_pins(frame: BorderFrame, tol: Tolerances, config: PinConfig) -> Iterator[PinCandidate]:

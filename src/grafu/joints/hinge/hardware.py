@@ -212,8 +212,8 @@ def _static_in_the_way(static: list[TriangleMesh], site: HingeSite) -> bool:
         return True
     body = _body(static, site)
     body.place(np.eye(4))
-    others = (*(n.at_rest for n in site.neighbours), *(o.collider for o in site.scene.static_hardware))
-    return any(body.penetrates(other) for other in others)
+    hardware = (o.collider for o in (*site.scene.static_hardware, *site.scene.obstacles_behind))
+    return any(body.penetrates(other) for other in (*(n.at_rest for n in site.neighbours), *hardware))
 
 
 def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: HingeSite) -> bool:
@@ -225,7 +225,8 @@ def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: HingeSite) -> bool:
     if not is_free(body, site.motion, site.upper, near, _POSES):
         return True
     body.place(np.eye(4))
-    return any(body.penetrates(n.at_rest) for n in site.neighbours)
+    behind = (obstacle.collider for obstacle in site.scene.obstacles_behind)
+    return any(body.penetrates(other) for other in (*(n.at_rest for n in site.neighbours), *behind))
 
 
 @final

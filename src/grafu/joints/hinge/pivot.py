@@ -34,23 +34,38 @@ def pivot_ends(
     found: list[PivotEnd] = []
     casters, reach = (RayCaster(door), RayCaster(static)), config.reach * frame.length
     for sign in (1.0, -1.0):
-        met = _met_by_rays(frame, pin, casters, sign, reach, config) or _met_by_corners(
+        met = met_by_rays(frame, pin, casters, sign, reach, config) or _met_by_corners(
             frame, pin, (door, static), sign, reach, config
         )
         if met is None:
             plated = _plated_end(frame, pin, casters, sign, config, realization.block)
             found += [plated] if plated else []
             continue
-        on_door, on_body, radius = met
-        gap = sign * (on_body - on_door)
-        middle = on_door + sign * min(max(gap, 0.0) / 2, config.disc_inset)
-        wide = replace(pin, radius=radius)
-        on_static = max(sign * on_body, sign * middle) * sign + sign * config.disc_inset
-        on_dynamic = min(sign * on_door, sign * middle) * sign - sign * config.disc_inset
-        static_disc = _disc(frame, wide, middle, on_static, config.sides)
-        dynamic_disc = _disc(frame, wide, on_dynamic, middle, config.sides)
-        found.append(((_visual("hinge_static", static_disc),), (_visual("hinge_dynamic", dynamic_disc),)))
+        found.append(two_discs(frame, pin, met, sign, config))
     return found
+
+
+def door_end(frame: BorderFrame, pin: PinCandidate, door: RayCaster, sign: float, config: PivotConfig) -> float:
+    """Returns how far from the frame's middle the door ends by the pin, metres; minus infinity where it is not met."""
+    outside = frame.length / 2 + config.start
+    start = np.array([[x, y, sign * outside] for x, y in _ring(pin, config)])
+    met = door.along(frame.to_object(start), frame.direction(0.0, 0.0, -sign))
+    return outside - robust_median(met, config.plate_end, config.met)
+
+
+def two_discs(
+    frame: BorderFrame, pin: PinCandidate, met: tuple[float, float, float], sign: float, config: PivotConfig
+) -> PivotEnd:
+    """Returns the discs on a door's end and on the body beyond it, at the heights and with the radius that are met."""
+    on_door, on_body, radius = met
+    gap = sign * (on_body - on_door)
+    middle = on_door + sign * min(max(gap, 0.0) / 2, config.disc_inset)
+    wide = replace(pin, radius=radius)
+    on_static = max(sign * on_body, sign * middle) * sign + sign * config.disc_inset
+    on_dynamic = min(sign * on_door, sign * middle) * sign - sign * config.disc_inset
+    static_disc = disc_at(frame, wide, middle, on_static, config.sides)
+    dynamic_disc = disc_at(frame, wide, on_dynamic, middle, config.sides)
+    return (pivot_visual("hinge_static", static_disc),), (pivot_visual("hinge_dynamic", dynamic_disc),)
 
 
 def _plated_end(
@@ -66,13 +81,9 @@ def _plated_end(
     The plate lies beside the door's end and reaches back along it; a block joins it to what stands behind the door.
     """
     door, static = casters
-    outside = frame.length / 2 + config.start
-    start = np.array([[x, y, sign * outside] for x, y in _ring(pin, config)])
-    met = door.along(frame.to_object(start), frame.direction(0.0, 0.0, -sign))
-    to_door = robust_median(met, config.plate_end, config.met)
-    if not np.isfinite(to_door):
+    on_door = door_end(frame, pin, door, sign, config)
+    if not np.isfinite(on_door):
         return None
-    on_door = outside - to_door
     inner, outer = on_door + config.plate_play, on_door + config.plate_play + config.plate
     back = -frame.thickness - config.plate_reach
     middle = sign * (on_door + config.plate_play / 2)
@@ -92,15 +103,15 @@ def _plated_end(
     if not np.isfinite(gap):
         return None
     still = (
-        _visual("hinge_static", _disc(frame, pin, middle, sign * outer, config.sides)),
+        pivot_visual("hinge_static", disc_at(frame, pin, middle, sign * outer, config.sides)),
         block("hinge_plate", plate, config.plate, blocks, METAL),
         block("support_hinge", foot, gap, blocks, METAL),
     )
-    moving = _disc(frame, pin, sign * (on_door - config.disc_inset), middle, config.sides)
-    return still, (_visual("hinge_dynamic", moving),)
+    moving = disc_at(frame, pin, sign * (on_door - config.disc_inset), middle, config.sides)
+    return still, (pivot_visual("hinge_dynamic", moving),)
 
 
-def _met_by_rays(
+def met_by_rays(
     frame: BorderFrame,
     pin: PinCandidate,
     casters: tuple[RayCaster, RayCaster],
@@ -160,13 +171,20 @@ def _ring(pin: PinCandidate, config: PivotConfig) -> Iterator[tuple[float, float
         yield pin.x + radius * np.cos(angle), pin.y + radius * np.sin(angle)
 
 
-def _disc(frame: BorderFrame, pin: PinCandidate, start: float, end: float, sides: int) -> TriangleMesh:
-    """Returns the watertight cylinder about the pin between two heights, in the object frame."""
-    low, high = min(start, end), max(start, end)
+def disc_at(frame: BorderFrame, pin: PinCandidate, start: float, end: float, sides: int) -> TriangleMesh:
+    """Returns the watertight cylinder about a pin between two heights of a border frame, in the object frame."""
+    return upright_disc(frame, (pin.x, pin.y), pin.radius, (start, end), sides)
+
+
+def upright_disc(
+    frame: BorderFrame, middle: tuple[float, float], radius: float, ends: tuple[float, float], sides: int
+) -> TriangleMesh:
+    """Returns the watertight cylinder about (x, y) of a border frame between two heights, in the object frame."""
+    (x, y), low, high = middle, min(ends), max(ends)
     angles = np.arange(sides) * 2 * np.pi / sides
-    circle = np.column_stack([pin.x + pin.radius * np.cos(angles), pin.y + pin.radius * np.sin(angles)])
+    circle = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
     rings = [np.column_stack([circle, np.full(sides, z)]) for z in (low, high)]
-    vertices = np.vstack([*rings, vec3(pin.x, pin.y, low), vec3(pin.x, pin.y, high)])
+    vertices = np.vstack([*rings, vec3(x, y, low), vec3(x, y, high)])
     k, n = np.arange(sides), np.roll(np.arange(sides), -1)
     bottom, top = np.full(sides, 2 * sides), np.full(sides, 2 * sides + 1)
     walls = [np.column_stack(c) for c in ((k, n, n + sides), (k, n + sides, k + sides))]
@@ -174,7 +192,8 @@ def _disc(frame: BorderFrame, pin: PinCandidate, start: float, end: float, sides
     return TriangleMesh(frame.to_object(vertices), np.vstack([*walls, *caps]))
 
 
-def _visual(name: str, mesh: TriangleMesh) -> Visual:
+def pivot_visual(name: str, mesh: TriangleMesh) -> Visual:
+    """Returns a piece of metal hardware."""
     return Visual(name, (Surface(mesh, METAL),), VisualRole.HARDWARE, PartLabel.MISC)
 
 

@@ -11,6 +11,7 @@ from functools import cache, partial
 from typing import final
 
 from grafu.articulation.articulated_object import Visual
+from grafu.joints.hinge.bracket import bracketed_ends
 from grafu.joints.hinge.candidates import (
     PIVOTS,
     PinCandidate,
@@ -176,7 +177,8 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
         return
     site = _site(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
-    ends = pivot_ends(search.frame, judged.pin, door, search.carriers, search.config)
+    at, is_leaf = (search.frame, judged.pin, door, search.carriers), search.request.on_pivots
+    ends = bracketed_ends(*at, search.scene.floor, search.config) if is_leaf else pivot_ends(*at, search.config)
     judgements = [judged_hinge(InstalledHinge(static, dynamic), site) for static, dynamic in ends]
     is_spindle = turns_about_itself(search.frame, search.request.axis, search.config.hinge)
     held = [

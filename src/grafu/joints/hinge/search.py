@@ -19,6 +19,7 @@ from grafu.joints.hinge.candidates import (
     PinCandidate,
     Tolerances,
     barrel_radius,
+    fold_pin,
     hinge_count,
     makeshift_pins,
     pivot_pins,
@@ -109,9 +110,9 @@ class DoorSearch:
     def others(self) -> list[JudgedPin]:
         """Pivots and makeshift pins, best first."""
         tol, config = self._tolerances, self.config.hinge
-        return self._judged(
-            [*pivot_pins(self.frame, self.request.axis, tol, config), *makeshift_pins(self.frame, tol, config.pin)]
-        )
+        slim = [fold_pin(self.config.fold)] if self.request.on_pivots else []
+        pivots = pivot_pins(self.frame, self.request.axis, tol, config)
+        return self._judged([*slim, *pivots, *makeshift_pins(self.frame, tol, config.pin)])
 
     @cached_property
     def slim(self) -> list[JudgedPin]:
@@ -128,6 +129,9 @@ class DoorSearch:
         """The axis of the first hinge class about which the door, without hardware, is free; else the requested one."""
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return self.request.axis
+        first = (other for other in self.others if other.pin.is_pivot and other.is_clear)
+        if self.request.on_pivots and (pivot := next(first, None)):
+            return pivot.axis
         judged = (self._judge(pin) for pin in self._allowed)
         return next((j.axis for j in judged if j.is_clear), self.request.axis)
 
@@ -187,16 +191,15 @@ class DoorSearch:
     def _all_in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins: those of a hinge class that leave the door free, slim ones, pivots, then everything by rank.
 
-        What is no board turns about the axis that was asked for, if anything can carry it there. Inset leaves come
-        after the pivots, except between doors that meet.
+        What is no board turns about the axis that was asked for, if anything can carry it there. So does the outer leaf
+        of two that fold, or near it. Inset leaves come after the pivots, except between doors that meet.
         """
         slim = (judged for judged in self.slim if not judged.pin.inset)
         first = [judged for judged in (*self.ruled, *slim) if judged.is_clear and judged.pin.preference < PIVOTS]
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             first = [judged for judged in self.others if judged.pin.is_pivot]
-        yield from first
         pivots = [judged for judged in self.others if judged.is_clear and judged.pin.is_pivot and judged not in first]
-        yield from pivots
+        yield from (*pivots, *first) if self.request.on_pivots else (*first, *pivots)
         rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in pivots)
         yield from sorted(rest, key=lambda j: j.rank)
 

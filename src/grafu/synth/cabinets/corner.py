@@ -62,7 +62,12 @@ class InnerCorner:
 
 def make_inner_corner(spec: InnerCorner) -> Asset:
     """Returns the corner cabinet with its doors' true joints."""
-    return assemble(spec.name, [*_walls(spec), *_levels(spec), *_toe_kicks(spec), *_fronts(spec)])
+    return assemble(spec.name, [*corner_case(spec), *_fronts(spec)])
+
+
+def corner_case(spec: InnerCorner) -> list[PieceDraft]:
+    """Returns the pieces of an L-shaped corner cabinet without its fronts."""
+    return [*_walls(spec), *_levels(spec), *_toe_kicks(spec)]
 
 
 def _walls(spec: InnerCorner) -> Iterator[PieceDraft]:

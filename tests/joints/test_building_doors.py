@@ -1,0 +1,113 @@
+"""A leaf in a frame that stands on the floor turns about the edge away from its handle; wardrobes have none."""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.asset.edit import mirrored
+from grafu.asset.part import Asset
+from grafu.joints.building_doors import building_door, with_door_labels
+from grafu.joints.motion_choice import FIXED
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import Settings
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType, PartLabel
+from judging import swept_collisions
+from small_scenes import box, cylinder, scene
+
+
+def frame(depth=0.12, width=0.9, low=0.0):
+    """Two jambs and a head in one part, open at the floor."""
+    half, post = depth / 2, 0.05
+    pieces = [
+        box("a", (0.0, -half, low), (post, half, 2.1)),
+        box("b", (width - post, -half, low), (width, half, 2.1)),
+        box("c", (post, -half, 2.05), (width - post, half, 2.1)),
+    ]
+    return replace(
+        box("frame", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=tuple(s for p in pieces for s in p.surfaces)
+    )
+
+
+def leaf(y=(-0.06, -0.02), x=(0.053, 0.847), name="panel"):
+    return box(name, (x[0], y[0], 0.005), (x[1], y[1], 2.045))
+
+
+def knob(x=0.79, y=(-0.1, -0.06), name="grip"):
+    return cylinder(name, ((x, y[0], 1.0), (x, y[1], 1.0)), 0.02)
+
+
+def built(*parts):
+    return functionalize(scene(*parts), MotionSource.NETWORK, builtin_gallery())
+
+
+@pytest.mark.parametrize("at", [0.11, 0.79])
+@pytest.mark.parametrize(("y", "towards"), [((-0.06, -0.02), -1.0), ((0.02, 0.06), 1.0)])
+def test_a_leaf_turns_about_the_edge_away_from_its_handle_to_the_face_that_it_is_nearer_to(at, y, towards):
+    made = built(frame(), leaf(y), knob(at, (y[0] - 0.04, y[0])))
+    (joint,) = made.object.joints
+    assert (joint.child, joint.type) == ("panel", JointType.REVOLUTE)
+    assert {v.name for v in made.object.link("panel").visuals if v.role == "part"} == {"panel", "grip"}
+    assert bool(joint.axis.point[0] < 0.45) is (at > 0.45)
+    opens = joint.axis.direction[2] * (1.0 if at > 0.45 else -1.0)  # of the free edge, along Y
+    assert opens == pytest.approx(towards)
+    assert not swept_collisions(made.object, joint, 12)
+    assert joint.limits.upper > 1.5
+    report = report_of(made)
+    assert report.verdict.colour != "red"
+    assert {part.id: part.category for part in report.parts}["panel"] is PartLabel.DOOR
+
+
+def test_in_the_middle_of_its_frame_a_leaf_opens_away_from_the_only_knob():
+    for before in (True, False):
+        grip = knob(0.79, (-0.06, -0.02) if before else (-0.02, 0.02))
+        (joint,) = built(frame(), leaf((-0.02, 0.02)), grip).object.joints
+        assert bool(joint.axis.direction[2] > 0) is before
+
+
+def test_two_leaves_open_in_the_middle():
+    made = built(frame(), leaf(x=(0.053, 0.449), name="one"), leaf(x=(0.451, 0.847), name="other"))
+    places = {joint.child: joint.axis.point[0] for joint in made.object.joints}
+    assert places["one"] < 0.1
+    assert places["other"] > 0.8
+
+
+def test_a_leaf_that_stands_beside_its_frame_slides_before_it():
+    (request,) = built(frame(), leaf((-0.1, -0.062), (-0.4, 0.45))).plan.joints
+    assert request.type is JointType.PRISMATIC
+    assert request.axis.direction[0] == pytest.approx(-1.0)
+    assert request.drawn_at == pytest.approx(0.425)
+
+
+NOT_DOORS = {
+    "a mirror": (
+        replace(frame(), surfaces=(*frame().surfaces, *box("d", (0.05, -0.06, 0.0), (0.85, 0.06, 0.2)).surfaces)),
+        box("glass", (0.05, -0.01, 0.2), (0.85, 0.0, 2.05)),
+    ),
+    "a low one": tuple(
+        replace(p, surfaces=box(p.id, tuple(0.5 * p.box.low), tuple(0.5 * p.box.high)).surfaces) for p in (leaf(),)
+    ),
+    "a wardrobe": (frame(0.5), leaf((-0.27, -0.25)), box("shelf", (0.05, -0.2, 1.0), (0.85, 0.25, 1.02))),
+    "a bookcase with a back": (frame(0.25), leaf((0.11, 0.125)), box("shelf", (0.05, -0.12, 1.0), (0.85, 0.11, 1.02))),
+    "a panel before a wall": (box("wall", (0.0, 0.0, 0.0), (0.9, 0.1, 2.1)), leaf()),
+}
+
+
+@pytest.mark.parametrize("what", NOT_DOORS)
+def test_other_pieces_are_no_doors(what):
+    assert building_door(scene(*NOT_DOORS[what])) is None
+
+
+def test_labels_of_the_user_stay_and_a_mirror_image_is_found_alike():
+    asset = scene(frame(), replace(leaf(), label=PartLabel.SIDE_PANEL, labelled_by="user"), knob())
+    assert with_door_labels(asset).part("panel").label is PartLabel.SIDE_PANEL
+    assert isinstance(mirrored(asset), Asset)
+    assert building_door(mirrored(asset)) is not None
+
+
+def test_the_user_may_fix_a_leaf():
+    asset = scene(frame(), leaf(), knob())
+    config = PipelineConfig(Settings(motions={"panel": FIXED}))
+    assert functionalize(asset, MotionSource.NETWORK, builtin_gallery(), config).object.joints == ()
