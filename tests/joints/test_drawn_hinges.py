@@ -129,6 +129,11 @@ def test_what_stands_on_a_rod_in_bearings_is_a_flap(joint, own):
     assert after.reference is None or joint is LEFT
 
 
+def test_a_bar_that_is_called_a_handle_is_no_rod():
+    before, after = told(LEAF, *CASE, *BEARINGS, rod("handle_rod"), joint=LEFT)
+    assert after == before
+
+
 def test_hinges_of_a_neighbour_turn_no_drawer():
     before, after = told(LEAF, *CASE, *knuckles(0.404), joint=sliding("door", (0.0, -1.0, 0.0)))
     assert after == before

@@ -25,6 +25,7 @@ from grafu.joints.nesting import bodies_of
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.border import SNAP, BorderFrame, border_frame, part_axes
 from grafu.scene.scene import Scene
+from grafu.vocabulary import PartLabel
 
 _Shells: TypeAlias = Callable[[str], Sequence[TriangleMesh]]
 _POINT = 1e-4  # metres: half the side of the cube that stands for the end of a rod
@@ -163,9 +164,11 @@ def _hinge_line(frame: BorderFrame, barrels: Sequence[Barrel], config: DrawnConf
 def _is_rod(barrel: Barrel, frame: BorderFrame, model: _Model) -> bool:
     """Whether a barrel runs along the whole lower border of an upright leaf, and is held by static parts at both ends.
 
-    A bar to pull it by ends before the leaf, where nothing holds it.
+    A bar to pull it by ends before the leaf, where nothing holds it; what is called a handle is none.
     """
     is_lower = bool(frame.rotation[2, 0] > SNAP)
+    if model.scene.parts[barrel.part].label is PartLabel.HANDLE:
+        return False
     if not is_lower or not model.drawn.rod <= barrel.length / frame.length <= 1 / model.drawn.rod:
         return False
     if barrel.part not in model.scene.moving_ids:
