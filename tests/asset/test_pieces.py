@@ -38,6 +38,15 @@ def test_pieces_join_the_front_that_covers_them():
     assert len(notes) == 2
 
 
+@pytest.mark.parametrize(("width", "joins"), [(0.003, True), (0.3, False)])
+def test_slivers_that_stretch_a_piece_keep_it_from_no_front(width, joins):
+    front, *_, bottom, _ = drawer("", 0.6, 0.9)
+    stretched = part("stray", (-0.2, 0.3, 0.0), (-0.2 + width, 0.3, 0.6))
+    bottom = replace(bottom, surfaces=(*bottom.surfaces, *stretched.surfaces))
+    parts, _ = with_joined_pieces((front, bottom), WHOLE)
+    assert (len(parts) == 1) is joins
+
+
 def test_a_box_joins_the_plate_that_is_called_the_drawer():
     front = part("bottom_left_drawer", (0, 0, 0), (1, 0.02, 0.3))
     box = part("drawer_container", (0.05, 0.02, 0.03), (0.95, 0.6, 0.27))

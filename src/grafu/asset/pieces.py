@@ -16,7 +16,9 @@ import numpy as np
 from grafu.asset.labels import is_piece
 from grafu.asset.names import spoken
 from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.sampling import point_triangle_distances
@@ -47,6 +49,10 @@ class PieceConfig:
     alike: float = 0.1
     """Gaps that differ by less are one: a door wins over a frame that the handle touches as closely (fraction of
     `reach`)."""
+    stray: float = 0.02
+    """Shells smaller than this are slivers of a piece (fraction of its area) ..."""
+    strays: float = 0.1
+    """... if all of them together are no more than this."""
     points: int = 300
     """Points of a handle that are measured, about ..."""
     faces: int = 3000
@@ -54,7 +60,7 @@ class PieceConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "reach", "points", "faces")
-        require_ratios(self, "stand_out", "touch", "leaf", "plate", "small", "alike")
+        require_ratios(self, "stand_out", "touch", "leaf", "plate", "small", "alike", "stray", "strays")
 
 
 _DEFAULT = PieceConfig()
@@ -127,7 +133,10 @@ def _pairs(
     taken: set[str] = set()
     for piece in sorted(pieces, key=lambda p: _face_area(p.box)):
         others = [f for f in ranked if f.part.id not in taken and f.part is not piece]
-        host = _host(piece, others, size, config, touching=piece.id in fronts)
+        touching = piece.id in fronts
+        host = _host(piece, others, size, config, touching) or (
+            _host(_without_strays(piece, config), others, size, config, touching) if others else None
+        )
         if host is not None:
             pairs.append((piece, host))
             taken.add(piece.id)
@@ -172,6 +181,17 @@ def _followed(pairs: list[tuple[Part, Part]]) -> list[tuple[Part, Part]]:
 
 def _is_front(part: Part) -> bool:
     return bool({"front", "face"} & set(spoken(part.source.name)))
+
+
+def _without_strays(piece: Part, config: PieceConfig) -> Part:
+    """Returns a piece without the slivers, shells of their own, that stretch its box; itself where there are none."""
+    mesh = piece.mesh
+    number = shell_numbers(mesh)
+    areas = np.bincount(number, mesh.face_areas)
+    stray = areas < config.stray * areas.sum()
+    if not stray.any() or areas[stray].sum() > config.strays * areas.sum():
+        return piece
+    return replace(piece, surfaces=(Surface(mesh.with_faces(~stray[number])),))
 
 
 def _is_plate(box: Box, config: PieceConfig) -> bool:
