@@ -16,6 +16,7 @@ from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.pull_outs import PullOutConfig
+from grafu.joints.racks import RackConfig
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
@@ -70,6 +71,7 @@ REASONS = {
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
     "pull_outs.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING},
+    "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_ACROSS": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "sliding_doors.py": {"_UP": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
@@ -78,7 +80,7 @@ REASONS = {
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, DrawerConfig,
     DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig,
-    PlanConfig, PullOutConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
+    PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 
 

@@ -254,6 +254,8 @@ class RealizationConfig(ShortRepr):
     """A static part of more faces is not carved: every attempt would take hundreds of megabytes."""
     no_hardware_gap: float = 0.005
     """Widest gap (extent) to static parts at which a door or drawer moves without hardware: wider ones come loose."""
+    rack_gap: float = 0.05
+    """How far a rack, whose wheels and guides are seldom drawn, stands off what carries it at most (extent)."""
     kept: float = 0.4
     """Fraction of its own thickness that a trimmed piece keeps at least."""
     rail: RailConfig = RailConfig()
@@ -283,7 +285,7 @@ class RealizationConfig(ShortRepr):
         require_positive(
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
-        require_positive(self, "hinge_bridge", "lid_opening", "no_hardware_gap", "carved_faces")
+        require_positive(self, "hinge_bridge", "lid_opening", "no_hardware_gap", "rack_gap", "carved_faces")
         require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
         require_ratios(
             self, "level_axis", "upright", "short", "restricted", "max_trim", "max_carve", "max_carve_hidden"

@@ -17,6 +17,7 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, sweep, swept_box
+from grafu.joints.no_hardware import DRAWN
 from grafu.joints.order import OpeningOrder
 from grafu.joints.plan import JointRequest
 from grafu.joints.report import Placement
@@ -102,7 +103,10 @@ def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfi
 def _measure(
     request: JointRequest, placement: Placement, upper: float, scene: Scene, config: RealizationConfig
 ) -> Figures:
-    """Returns the same in a scene that holds only what is near the path of the moving body."""
+    """Returns the same in a scene that holds only what is near the path of the moving body.
+
+    What moves in what the model has, and stands off it as drawn, comes loose by as much as the gap grows.
+    """
     moving = request.moving
     motion = request.kind.along(placement.axis)
     near = list(scene.static_obstacles)
@@ -110,7 +114,8 @@ def _measure(
     ratio = sweep(body, motion, upper, near, _MEASURED_POSES).ratio
     ends = [MeshCollider(v.mesh) for v in scene.hardware_of(moving)] or [MeshCollider(scene.moving_mesh(moving))]
     held = [MeshCollider(v.mesh) for v in placement.static] or [obstacle.collider for obstacle in near]
-    return ratio, max(gap_between(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES))
+    gaps = [gap_between(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES)]
+    return ratio, max(gaps) - (gaps[0] if placement.template == DRAWN else 0.0)
 
 
 def gap_between(ends: list[MeshCollider], held: list[MeshCollider], T: Mat4) -> float:

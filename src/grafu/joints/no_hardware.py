@@ -11,6 +11,7 @@ from grafu.geometry.transform import from_rotation
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
 from grafu.joints.plan import JointRequest
+from grafu.joints.racks import is_grid
 from grafu.joints.rail.body_region import is_shallow
 from grafu.joints.rail.search import DrawerSearch, slides_in_its_plane
 from grafu.joints.report import Placement
@@ -65,6 +66,9 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     is_board = slides_in_its_plane(part.mesh, frame.slide, config.drawer)
     if is_board and part.label is PartLabel.DOOR:
         return _sliding_door(search)
+    grid = is_grid(search.scene.moving_mesh(part.id))
+    if grid:
+        return _rack(search)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
     if is_board or not _is_sure(search):
         return None
@@ -73,6 +77,17 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     if upper < config.restricted * wanted:
         return None
     return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+
+
+def _rack(search: DrawerSearch) -> Placement | None:
+    """Returns the joint of a wire basket or a grid, which runs on its own wheels and guides; they are seldom drawn."""
+    wanted = min(search.request.reference or search.wanted, search.reach)
+    upper = search.travel(search.reach)
+    if upper < search.config.restricted * wanted or str(search.request.choice):
+        return None
+    mount = _nearest(search.scene, search.request, search.config.rack_gap * search.scene.extent)
+    in_way = search.bodies_in_the_way(upper)
+    return _without(search.axis, upper, mount, in_way, DRAWN, ()) if mount else None
 
 
 def _sliding_door(search: DrawerSearch) -> Placement | None:
@@ -133,17 +148,23 @@ def _joint(
     near = search.config.no_hardware_gap * scene.extent
     if str(request.choice) or not _stays_near(scene, request, motion, upper, near):
         return None
+    return _without(axis, upper, _nearest(scene, request, near), in_way, NO_HARDWARE, (_NOTE,))
+
+
+def _without(
+    axis: Axis, upper: float, mount: str, in_way: tuple[str, ...], template: str, notes: tuple[str, ...]
+) -> Placement:
     return Placement(
         axis=axis,
         upper=upper,
         mechanism=MechanismClass.NONE,
-        template=NO_HARDWARE,
-        mount=_nearest(scene, request, near),
+        template=template,
+        mount=mount,
         count=0,
         dynamic=(),
         static=(),
         in_way=in_way,
-        notes=(_NOTE,),
+        notes=notes,
     )
 
 

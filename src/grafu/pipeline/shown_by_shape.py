@@ -14,6 +14,7 @@ from grafu.joints.folding import with_folds
 from grafu.joints.lifts import with_lifts
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.pull_outs import with_pull_outs
+from grafu.joints.racks import with_racks
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.scene.scene import metre_on
@@ -35,7 +36,8 @@ def shown_by_shape(
     plan = with_building_doors(plan, asset)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
-    plan = with_lifts(with_drop_leaves(plan, asset), graph, at_scale(joints.lift, metre_on(asset.extent)))
+    plan = with_racks(with_drop_leaves(plan, asset), asset, graph)
+    plan = with_lifts(plan, graph, at_scale(joints.lift, metre_on(asset.extent)))
     return _without_turntables(plan, asset, small)
 
 

@@ -1,10 +1,13 @@
 """How a door or drawer can be grasped as it is: by a handle, a recess, an edge, or not at all. It adds nothing."""
 
+import numpy as np
+
 from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.handle.grips import grips_on
 from grafu.additions.handle.relief import Relief, Reliefs
 from grafu.additions.step import Grasp
 from grafu.asset.part import Part
+from grafu.joints.racks import is_grid
 from grafu.joints.rail.search import is_column
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -54,6 +57,11 @@ def _without_label(scene: Scene, moving_id: str, relief: Relief, config: GraspCo
         if part.label is PartLabel.HANDLE and _sits_on(part, relief, config.sits):
             return _held_by(part, moving_id, config.unattached, "a handle sits on it that nothing attaches to it")
     best = max(grips_on(relief, config), key=lambda g: (g.confidence, g.length), default=None)
+    body = scene.moving_mesh(moving_id)
+    if best is None and is_grid(body):
+        box = body.box
+        rim = np.array([box.center[0], box.low[1], box.high[2]])
+        return Grasp(moving_id, "edge", config.unlabelled, "fingers hold its wires", rim, float(box.size[0]))
     if best is None:
         return Grasp(moving_id, "none", 1.0, "no handle, and no edge, hollow or gap with room for fingers")
     return Grasp(moving_id, best.kind, best.confidence, best.why, best.center, best.length)

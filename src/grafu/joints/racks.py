@@ -1,0 +1,123 @@
+"""Racks of dishwashers and ovens: wire baskets and grids behind a door that drops. They slide out once it is open."""
+
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Asset
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
+from grafu.graph.edges import Slide
+from grafu.graph.functional_graph import FunctionalGraph, joined_groups
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.scene.scene import metre_on
+
+SOURCE = "rule"
+"""`JointRequest.source` of a rack: its shape and the door before it show that it slides."""
+_UP, _DEPTH = 2, 1
+_ACROSS = [0, 2]
+_OUT = vec3(0.0, -1.0, 0.0)
+_RAYS = 24  # along each side of an outline
+
+
+@final
+@dataclass(frozen=True)
+class RackConfig:
+    """What counts as a rack behind a door that drops; lengths are metres on furniture of usual size.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    LENGTHS = ("clear",)
+    level: float = 0.9
+    """From this cosine on to the horizontal a door's axis is level."""
+    lower: float = 0.25
+    """A door drops whose axis lies in this lower part of it (fraction of its height)."""
+    clear: float = 0.01
+    """A rack stays this far within the outline of its door (metres): what comes nearer to it is the body."""
+    wide: float = 0.6
+    """Least width of a rack (fraction of the door's)."""
+    deep: float = 0.4
+    """Least depth of a rack (fraction of the depth of the whole)."""
+    flat: float = 0.05
+    """Greatest height of a flat grid (fraction of its shorter other side)."""
+    covered: float = 0.6
+    """What of its outline a grid covers at most, seen from above and, unless it is flat, from its sides (fraction)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "clear")
+        require_ratios(self, "level", "lower", "wide", "deep", "flat", "covered")
+
+
+def with_racks(
+    plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, config: RackConfig = RackConfig()
+) -> RealizationPlan:
+    """Returns the plan in which racks behind doors that drop slide out; joints that it has stay as they are."""
+    doors = [asset.part(r.moving).box for r in plan.joints if _drops(r, asset.part(r.moving).box, config)]
+    if not doors:
+        return plan
+    config = at_scale(config, metre_on(asset.extent))
+    moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
+    static = {part.id: part.box for part in asset.parts if part.id not in moving and not part.label.is_movable}
+    found = {rack.moving: rack for door in doors for rack in _racks(door, static, asset, graph, config)}
+    refused = tuple(refusal for refusal in plan.refused if refusal.part not in found)
+    return replace(plan, joints=(*plan.joints, *found.values()), refused=refused) if found else plan
+
+
+def is_grid(mesh: TriangleMesh, config: RackConfig = RackConfig()) -> bool:
+    """Whether a body is a grid: most of it is open, seen from above, and from all sides unless it is flat."""
+    box = mesh.box
+    if not (box.size > 0).all():
+        return False
+    rays, flat = RayCaster(mesh), box.size[_UP] <= config.flat * box.size[:_UP].min()
+    return all(_covered(rays, box, along) <= config.covered for along in ((_UP,) if flat else range(3)))
+
+
+def _covered(rays: RayCaster, box: Box, along: int) -> float:
+    """Returns what of a body's outline its surface covers, seen along an axis (fraction)."""
+    steps = (np.arange(_RAYS) + 0.5) / _RAYS
+    across = [k for k in range(3) if k != along]
+    grid = np.stack(np.meshgrid(*(box.low[k] + steps * box.size[k] for k in across)), -1).reshape(-1, 2)
+    origins, direction = np.zeros((len(grid), 3)), np.zeros(3)
+    origins[:, across] = grid
+    origins[:, along], direction[along] = box.high[along] + box.size.max(), -1.0
+    return float(np.isfinite(rays.along(origins, direction)).mean())
+
+
+def _drops(request: JointRequest, door: Box, config: RackConfig) -> bool:
+    """Whether a door at the front turns about its lower edge."""
+    level = request.kind.turns and abs(float(request.axis.direction[0])) >= config.level
+    low = float(request.axis.point[_UP] - door.low[_UP]) <= config.lower * float(door.size[_UP])
+    return bool(level and low and door.thin_axis == _DEPTH)
+
+
+def _racks(
+    door: Box, static: dict[str, Box], asset: Asset, graph: FunctionalGraph, config: RackConfig
+) -> list[JointRequest]:
+    inside = [name for name, box in static.items() if _is_behind(box, door, config)]
+    touching = {name: [other for other in graph.neighbours[name] if other in inside] for name in inside}
+    found = []
+    for group in joined_groups(touching):
+        parts = [asset.part(name) for name in sorted(group)]
+        box = Box.enclosing(part.box for part in parts)
+        wide = box.size[0] >= config.wide * door.size[0]
+        deep = box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
+        if wide and deep and is_grid(merge_meshes([part.mesh for part in parts]), config):
+            largest = max(parts, key=lambda part: float(np.prod(np.sort(part.box.size)[1:])))
+            others = tuple(part.id for part in parts if part is not largest)
+            axis = Axis(box.center, _OUT)
+            found.append(JointRequest(largest.id, Slide.joint_type, axis, SOURCE, attached=others))
+    return found
+
+
+def _is_behind(box: Box, door: Box, config: RackConfig) -> bool:
+    """Whether a part lies well within a door's outline, seen from before it, and behind it."""
+    low, high = door.low + config.clear, door.high - config.clear
+    inside = np.all(box.low[_ACROSS] >= low[_ACROSS]) and np.all(box.high[_ACROSS] <= high[_ACROSS])
+    return bool(inside and box.high[_DEPTH] > door.high[_DEPTH])

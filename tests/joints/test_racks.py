@@ -1,0 +1,109 @@
+"""Wire baskets behind a door that drops slide out once it is open; shelves, and what doors at a side close, stay."""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.mesh import merge_meshes
+from grafu.graph.parse import parse_graph
+from grafu.joints.motion_choice import choice_in_words
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.racks import is_grid, with_racks
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import Settings
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType, PartLabel
+from judging import swept_collisions
+from small_scenes import box, cylinder, scene
+
+DOOR = box("door", (0.0, -0.03, 0.1), (0.6, -0.001, 0.8))
+BAR = cylinder("handle", ((0.05, -0.07, 0.74), (0.55, -0.07, 0.74)))
+POSTS = [cylinder(f"handle_post_{k}", ((x, -0.07, 0.74), (x, -0.03, 0.74))) for k, x in enumerate((0.1, 0.5))]
+CASE = [
+    replace(part, label=label)
+    for part, label in (
+        (box("left", (0.0, 0.0, 0.0), (0.02, 0.55, 0.82)), PartLabel.SIDE_PANEL),
+        (box("right", (0.58, 0.0, 0.0), (0.6, 0.55, 0.82)), PartLabel.SIDE_PANEL),
+        (box("floor", (0.02, 0.0, 0.08), (0.58, 0.55, 0.1)), PartLabel.BOTTOM_PANEL),
+        (box("top", (0.02, 0.0, 0.8), (0.58, 0.55, 0.82)), PartLabel.TOP_PANEL),
+        (box("back", (0.02, 0.53, 0.1), (0.58, 0.55, 0.8)), PartLabel.BACK_PANEL),
+    )
+]
+
+
+def basket(name="basket", low=0.3, x=(0.025, 0.575), label=PartLabel.SHELF):
+    """A basket of wires, 0.1 m high, in one part."""
+    wires = [box("w", (at, 0.03, low), (at + 0.004, 0.5, low + 0.004)) for at in (x[0], 0.15, 0.3, 0.45, x[1] - 0.004)]
+    for z in (low, low + 0.1):
+        wires += [box("w", (x[0], y, z), (x[1], y + 0.004, z + 0.004)) for y in (0.03, 0.2, 0.35, 0.496)]
+    surfaces = tuple(surface for wire in wires for surface in wire.surfaces)
+    return replace(box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=surfaces, label=label)
+
+
+def request(level=True):
+    lower, side = Axis(vec3(0.3, -0.03, 0.1), vec3(1.0, 0.0, 0.0)), Axis(vec3(0.0, 0.0, 0.4), vec3(0.0, 0.0, -1.0))
+    return JointRequest("door", JointType.REVOLUTE, lower if level else side, "network")
+
+
+def racks(*parts, level=True):
+    asset = scene(DOOR, *CASE, *parts)
+    plan = with_racks(RealizationPlan((request(level),), ()), asset, parse_graph(asset))
+    return {one.moving: one for one in plan.joints[1:]}
+
+
+def test_baskets_slide_out_once_the_door_is_open():
+    asset = scene(DOOR, BAR, *POSTS, *CASE, basket("low_basket", 0.2), basket("high_basket", 0.5))
+    config = PipelineConfig(Settings(motions={"door": choice_in_words("drop")}))
+    made = functionalize(asset, MotionSource.NETWORK, builtin_gallery(), config)
+    joints = made.object.joint_of
+    assert {name: joint.type for name, joint in joints.items() if "basket" in name} == {
+        "low_basket": JointType.PRISMATIC,
+        "high_basket": JointType.PRISMATIC,
+    }
+    assert abs(joints["door"].axis.direction[0]) == pytest.approx(1.0)
+    for name in ("low_basket", "high_basket"):
+        assert joints[name].after == (joints["door"].id,)
+        assert joints[name].limits.upper > 0.3
+        assert not swept_collisions(made.object, joints[name], 15)
+    report = report_of(made)
+    assert {record.part: record.grasp for record in report.joints if "basket" in record.part} == {
+        "low_basket": "edge",
+        "high_basket": "edge",
+    }
+    assert [one.part for one in report.added if "basket" in (one.part or "")] == []
+    assert report.verdict.colour != "red"
+
+
+def test_the_wires_of_a_rack_in_several_parts_slide_as_one():
+    wires = [box(f"wire_{k}", (x, 0.03, 0.3), (x + 0.004, 0.5, 0.304)) for k, x in enumerate((0.03, 0.3, 0.566))]
+    rails = [box(f"rail_{k}", (0.03, y, 0.3), (0.57, y + 0.004, 0.304)) for k, y in enumerate((0.03, 0.496))]
+    ((name, found),) = racks(*wires, *rails).items()
+    assert {name, *found.attached} == {part.id for part in (*wires, *rails)}
+
+
+NO_RACKS = {
+    "a plate": (box("shelf", (0.03, 0.03, 0.3), (0.57, 0.5, 0.31)),),
+    "a basket that is narrow": (basket(x=(0.2, 0.46)),),
+    "nothing": (),
+}
+
+
+@pytest.mark.parametrize("what", NO_RACKS)
+def test_other_things_behind_the_door_stay(what):
+    assert racks(*NO_RACKS[what]) == {}
+
+
+def test_a_basket_behind_a_door_at_its_side_stays():
+    assert set(racks(basket())) == {"basket"}
+    assert racks(basket(), level=False) == {}
+
+
+def test_a_grid_is_mostly_open_from_above_and_from_its_sides():
+    assert is_grid(basket().mesh)
+    assert not is_grid(DOOR.mesh)
+    assert not is_grid(merge_meshes([DOOR.mesh, BAR.mesh]))
+    assert not is_grid(box("tray", (0.0, 0.0, 0.0), (0.5, 0.5, 0.01)).mesh)
