@@ -1,4 +1,4 @@
-"""Made furniture with lids and flaps: a blanket chest, a light one, a flap that is lifted and one that falls open."""
+"""Built by hand, with lids and flaps: a blanket chest, a light one, a flap that is lifted and one that falls open."""
 
 import numpy as np
 from small_cabinet import board

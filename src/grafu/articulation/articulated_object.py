@@ -12,6 +12,8 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.motion_kind import MotionKind, motion_kind
+from grafu.articulation.swing import Swing
+from grafu.articulation.tree_checks import require_driven, require_unique
 from grafu.errors import ArticulationError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
@@ -22,22 +24,26 @@ _ALIKE = 1e-6  # radians or metres: limits that differ by less are the same
 
 
 class VisualRole(StrEnum):
-    """Where a visual comes from."""
+    """Where a visual comes from: the input, what was added (a handle, a top, a shelf), or hinges, rails and blocks."""
 
-    PART = "part"  # a part of the input
-    ADDED = "added"  # a part that was added: a handle, a top, a shelf
-    HARDWARE = "hardware"  # a hinge, a rail or a support block
+    PART = "part"
+    ADDED = "added"
+    HARDWARE = "hardware"
 
 
 @final
 @dataclass(frozen=True, repr=False)
 class Visual:
-    """One part or piece of hardware in its rest pose. `name` is the part id, or begins with hinge_, rail_, support_."""
+    """One part or piece of hardware in its rest pose. `name` is the part id, or begins with hinge_, rail_, support_.
+
+    With a `swing` it turns against its link as a joint moves; formats of simulators leave such pieces out.
+    """
 
     name: str
     surfaces: tuple[Surface, ...]
     role: VisualRole = VisualRole.PART
     label: PartLabel = PartLabel.UNKNOWN
+    swing: Swing | None = None
 
     def __repr__(self) -> str:
         return f"<Visual {self.name}: {self.role}, {sum(len(s.mesh.faces) for s in self.surfaces):,} faces>"
@@ -58,6 +64,11 @@ class Link:
 
     def __repr__(self) -> str:
         return f"<Link {self.id}: {len(self.visuals)} visuals>"
+
+    @property
+    def rigid_visuals(self) -> tuple[Visual, ...]:
+        """What moves as one with the link: all but hardware that turns against it."""
+        return tuple(visual for visual in self.visuals if visual.swing is None)
 
     @cached_property
     def mesh(self) -> TriangleMesh:
@@ -182,8 +193,9 @@ class ArticulatedObject:
 
     Raises:
         ArticulationError: if ids repeat, a joint names a link that is not there, a link has two parents, a cycle
-            exists, or a link cannot be reached from the root; if a joint follows one that is not there, is static or
-            follows it in turn, waits for others by itself, or has limits that do not follow from its leader's.
+            exists, a link cannot be reached from the root, or hardware swings with one that does not move; if a joint
+            follows one that is not there, is static or follows it in turn, waits for others by itself, or has limits
+            that do not follow from its leader's.
     """
 
     name: str
@@ -196,12 +208,12 @@ class ArticulatedObject:
 
     def __post_init__(self) -> None:
         ids = [link.id for link in self.links]
-        _require_unique("link", ids)
-        _require_unique("joint", [joint.id for joint in self.joints])
+        require_unique("link", ids)
+        require_unique("joint", [joint.id for joint in self.joints])
         if self.root not in ids:
             raise ArticulationError(f"the root must be one of the links: got `{self.root}`, links are {ids}")
         known, children = set(ids), [joint.child for joint in self.joints]
-        _require_unique("child link", children)
+        require_unique("child link", children)
         for joint in self.joints:
             if not {joint.parent, joint.child} <= known:
                 raise ArticulationError(f"joint `{joint.id}` must join known links: got {joint.parent}, {joint.child}")
@@ -209,6 +221,8 @@ class ArticulatedObject:
         if self.root in children or reached != known:
             lost = sorted(known - reached) or [self.root]
             raise ArticulationError(f"every link must hang on the root `{self.root}`, without a cycle: {lost} do not")
+        swings = (visual.swing for link in self.links for visual in link.visuals)
+        require_driven(swings, {joint.child for joint in self.moving_joints})
         for joint in self.joints:
             if joint.coupling is not None:
                 self._check_coupling(joint, joint.coupling)
@@ -283,9 +297,3 @@ class ArticulatedObject:
     def moving_joints(self) -> tuple[Joint, ...]:
         """The joints that are not fixed."""
         return tuple(joint for joint in self.joints if joint.kind.moves)
-
-
-def _require_unique(what: str, ids: list[str]) -> None:
-    repeated = sorted({i for i in ids if ids.count(i) > 1}) if len(set(ids)) < len(ids) else []
-    if repeated:
-        raise ArticulationError(f"{what} ids must be unique: got {repeated} more than once")

@@ -84,7 +84,7 @@ class _StageBuilder:
         UsdPhysics.RigidBodyAPI.Apply(prim)
         _add_mass(prim, self._physics.masses[link.id], origin)
         visuals, siblings = UsdGeom.Xform.Define(self._stage, path.AppendChild("visuals")).GetPath(), Siblings()
-        for visual in link.visuals:
+        for visual in link.rigid_visuals:
             if len(visual.mesh.faces):
                 self._add_visual(visuals.AppendChild(siblings.unique(visual.name)), visual, origin)
         collisions = UsdGeom.Xform.Define(self._stage, path.AppendChild("collisions"))

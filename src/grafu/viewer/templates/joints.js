@@ -62,9 +62,18 @@ class Joints {
     const poses = [];
     for (const link of this.links) {
       const above = link.parent === null ? IDENTITY : poses[link.parent];
-      poses.push(link.joint === null ? above : product(above, this.motion(link.joint)));
+      const own = link.swing ? this.swing(link.swing) : link.joint === null ? IDENTITY : this.motion(link.joint);
+      poses.push(product(above, own));
     }
     return poses;
+  }
+
+  // Returns the turn of a piece on its own pin: angles are tabled by values of a joint.
+  swing({ joint, axis, values, angles }) {
+    const value = clamp(this.values[joint], values[0], values[values.length - 1]);
+    const after = Math.max(1, values.findIndex((one) => one >= value)), before = after - 1;
+    const part = (value - values[before]) / (values[after] - values[before]);
+    return turn(axis[0], axis[1], angles[before] + part * (angles[after] - angles[before]));
   }
 
   motion(index) {
