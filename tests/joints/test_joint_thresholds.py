@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.hinge.candidates import hinge_count
@@ -63,7 +64,8 @@ REASONS = {
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, DrawerConfig, DrawnConfig, FlankConfig,
+    BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, ConcealedConfig, DrawerConfig, DrawnConfig,
+    FlankConfig,
     FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig,
     RealizationConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip

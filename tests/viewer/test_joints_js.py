@@ -16,6 +16,8 @@ from grafu.articulation.kinematics import link_poses
 from grafu.articulation.swing import Swing
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.render.gallery import concealed_as_articulated
+from grafu.templates.gallery import builtin_gallery
 from grafu.viewer.scene_data import scene_data
 
 NODE = shutil.which("node")
@@ -69,6 +71,18 @@ def test_hardware_turns_on_its_own_pin():
 
     link = link_poses(made, {"leaf_1_hinge": 0.8})[leaf.id]
     assert np.allclose(np.array(pose).reshape(4, 4).T, link @ swing.motion(0.8))
+
+
+def test_a_door_on_concealed_hinges_turns_and_shifts():
+    if NODE is None:
+        pytest.skip("no Node here")
+    hinge = concealed_as_articulated(builtin_gallery().concealed[0])
+    scene = json.dumps(scene_data(hinge, made_model().report).tables)
+    code = "".join((SCRIPTS / name).read_text("utf-8") for name in ("matrices.js", "joints.js"))
+    program = f"{code} const j = new Joints({scene}); j.set(0, 0.8); console.log(JSON.stringify(j.poses()[1]));"
+    pose = json.loads(subprocess.run([NODE, "-e", program], capture_output=True, check=True, timeout=60).stdout)
+
+    assert np.allclose(np.array(pose).reshape(4, 4).T, hinge.joints[0].shown_motion(0.8))
 
 
 def leaf_axis(bifold) -> Axis:

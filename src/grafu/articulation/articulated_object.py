@@ -11,13 +11,17 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.joint_values import Coupling as Coupling
+from grafu.articulation.joint_values import JointLimits as JointLimits
 from grafu.articulation.motion_kind import MotionKind, motion_kind
+from grafu.articulation.slip import Slip
 from grafu.articulation.swing import Swing
 from grafu.articulation.tree_checks import require_driven, require_unique
 from grafu.errors import ArticulationError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.transform import translation
 from grafu.vocabulary import JointType, PartLabel
 
 _ALIKE = 1e-6  # radians or metres: limits that differ by less are the same
@@ -87,69 +91,12 @@ class Link:
 
 
 @final
-@dataclass(frozen=True, slots=True)
-class JointLimits:
-    """The range of a joint: radians or metres; 0 is closed, positive opens, never negative.
-
-    Raises:
-        ArticulationError: if not 0 <= lower <= upper, both finite.
-    """
-
-    lower: float
-    upper: float
-
-    def __post_init__(self) -> None:
-        if not (np.isfinite(self.lower) and np.isfinite(self.upper) and 0 <= self.lower <= self.upper):
-            raise ArticulationError(f"limits must satisfy 0 <= lower <= upper: got {self.lower} .. {self.upper}")
-
-    @property
-    def range(self) -> float:
-        """The opening from lower to upper."""
-        return self.upper - self.lower
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Coupling:
-    """A joint follows another, its leader: its value is `multiplier` times the leader's, plus `offset`.
-
-    `offset` is in the unit of the joint that follows, `multiplier` in that unit for each unit of the leader's.
-
-    Raises:
-        ArticulationError: if a number is not finite, or the multiplier is 0.
-    """
-
-    leader: str
-    multiplier: float = 1.0
-    offset: float = 0.0
-
-    def __post_init__(self) -> None:
-        if not (np.isfinite(self.multiplier) and np.isfinite(self.offset) and self.multiplier != 0):
-            raise ArticulationError(
-                f"a coupling needs finite numbers and a multiplier that is not 0: got {self.multiplier}, {self.offset}"
-            )
-
-    def value(self, leader_value: float) -> float:
-        """Returns the value at a value of the leader."""
-        return self.multiplier * leader_value + self.offset
-
-    def leader_value(self, value: float) -> float:
-        """Returns the leader's value at a value of the joint that follows."""
-        return (value - self.offset) / self.multiplier
-
-    def ends(self, limits: JointLimits) -> tuple[float, float]:
-        """Returns the lowest and the highest value while the leader keeps to its limits."""
-        low, high = sorted((self.value(limits.lower), self.value(limits.upper)))
-        return low, high
-
-
-@final
 @dataclass(frozen=True)
 class Joint:
     """How a child link moves against its parent: `axis` in the object frame at rest, positive values open.
 
     `after` names the joints that must be open before this one can move (a door in front of a drawer). With a `coupling`
-    the joint does not move by itself: it follows another.
+    the joint does not move by itself: it follows another. A `slip` is what the child is shown to do beside the motion.
     """
 
     id: str
@@ -160,6 +107,7 @@ class Joint:
     limits: JointLimits
     after: tuple[str, ...] = ()
     coupling: Coupling | None = None
+    slip: Slip | None = None
 
     @property
     def kind(self) -> MotionKind:
@@ -169,6 +117,11 @@ class Joint:
     def motion(self, value: float) -> np.ndarray:
         """Returns the 4x4 motion of the child from rest, at a joint value."""
         return self.kind.transform(self.axis, value)
+
+    def shown_motion(self, value: float) -> np.ndarray:
+        """Returns the motion as it is shown: the joint's own, and its slip."""
+        motion = self.motion(value)
+        return motion if self.slip is None else translation(self.slip.shift(value)) @ motion
 
     def following(self, leader: "Joint", multiplier: float = 1.0, offset: float = 0.0) -> "Joint":
         """Returns this joint coupled to another, with the limits that follow from it.

@@ -165,8 +165,9 @@ class _GlbWriter:
         if kind.turn:
             # neighbours lie on one side, so that interpolation never flips
             yield "rotation", quaternions_about(axis, kind.turn * values)
-        if kind.shift:
-            yield "translation", np.array(self._offset(joint)) + np.outer(kind.shift * values, axis)
+        if kind.shift or joint.slip is not None:
+            beside = 0.0 if joint.slip is None else to_y_up(joint.slip.shifts_at(values))
+            yield "translation", np.array(self._offset(joint)) + np.outer(kind.shift * values, axis) + beside
 
     def _sampler(self, track: JointTrack, values: np.ndarray, times: dict[bytes, int]) -> dict[str, Any]:
         key = track.times.tobytes()

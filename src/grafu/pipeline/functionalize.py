@@ -66,7 +66,8 @@ class PipelineConfig(ShortRepr):
     @property
     def joints(self) -> RealizationConfig:
         """The configuration of joints, as far as the settings allow."""
-        return replace(self.realization, trim=self.realization.trim and self.settings.trim)
+        hinge = replace(self.realization.hinge, preferred=self.settings.hinge or self.realization.hinge.preferred)
+        return replace(self.realization, trim=self.realization.trim and self.settings.trim, hinge=hinge)
 
 
 @final
@@ -204,7 +205,7 @@ def functionalize(
     add = partial(cache.value, "body", add_before_joints, asset, completion, plan, settings.additions.of_body, drawers)
     body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
     plan, grown = plan.with_attached(body.attached), replace(asset, parts=tuple(body.scene.parts.values()))
-    build = partial(realize, plan, grown, gallery, joints, cache)
+    build = partial(realize, plan, grown, gallery.preferring(settings.hinge), joints, cache)
     realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)

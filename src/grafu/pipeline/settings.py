@@ -34,7 +34,8 @@ class Settings(ShortRepr):
 
     With `small_parts` knobs, buttons and wheels get joints of their own. `labels` and `motions` go by the ids of parts,
     `joints` by those of moving parts. `weights` is a file of trained weights (ONNX) for the network; None: those that
-    came with the package. A motion source that reads another system's file is no setting: it needs the file.
+    came with the package. `hinge` is the template that doors get where it finds room. A motion source that reads
+    another system's file is no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO
@@ -46,6 +47,7 @@ class Settings(ShortRepr):
     joints: Mapping[str, JointChoice] = field(default_factory=dict)
     additions: AdditionConfig = field(default_factory=AdditionConfig)
     weights: Path | None = None
+    hinge: str = ""
 
     def __post_init__(self) -> None:
         if self.motion.is_foreign:

@@ -73,7 +73,7 @@ def posed_visuals(articulated: ArticulatedObject, values: Mapping[str, float] | 
     Raises:
         ArticulationError: if `values` names a joint that the object does not have.
     """
-    poses = link_poses(articulated, values or {})
+    poses = link_poses(articulated, values or {}, shown=True)
     values = with_coupled(articulated, values or {})
     by_link = {link: values.get(joint.id, 0.0) for link, joint in articulated.joint_of.items()}
 

@@ -225,6 +225,7 @@ class _Packer:
             "initial": None if record is None else [record.initial_axis.origin, record.initial_axis.direction],
             "lower": joint.limits.lower,
             "upper": joint.limits.upper,
+            "slip": None if joint.slip is None else [joint.slip.values.tolist(), joint.slip.shifts.tolist()],
             "after": [number[self._leader(other)] for other in joint.after],
             "coupling": None
             if joint.coupling is None

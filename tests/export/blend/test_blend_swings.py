@@ -5,7 +5,10 @@ import numpy as np
 import pytest
 from test_swings import SWING, expected, with_bar
 
-from grafu.geometry.transform import transform_points
+from grafu.articulation.kinematics import link_origins
+from grafu.geometry.transform import from_rotation, transform_points
+from grafu.render.gallery import concealed_as_articulated
+from grafu.templates.gallery import builtin_gallery
 
 
 @pytest.fixture(scope="module", params=["body", "lid"])
@@ -38,3 +41,21 @@ def require_posed(made, on, found, poses, value):
 
     assert lids_and_flaps.chest().joints[0].limits.upper < SWING.values[-1]
     assert np.abs(at_pin[:, None] - wanted[None]).max(axis=2).min(axis=1).max() < 1e-4
+
+
+@pytest.mark.parametrize("frame", [0, 12, 25, 50])
+def test_a_door_on_concealed_hinges_turns_and_shifts(reopened_hinge, frame):
+    hinge, found = reopened_hinge
+    (joint,) = hinge.joints
+    poses = found["frames"][frame]
+    turned = poses["dynamic_link"][:3, :3]
+    value = abs(float(np.arctan2(turned[1, 0], turned[0, 0])))
+
+    expected = joint.shown_motion(value) @ from_rotation(np.eye(3), link_origins(hinge)["dynamic"])
+    assert np.allclose(poses["dynamic_link"], expected, atol=1e-4)
+
+
+@pytest.fixture(scope="module")
+def reopened_hinge(reopened):
+    hinge = concealed_as_articulated(builtin_gallery().concealed[0])
+    return hinge, reopened(hinge)

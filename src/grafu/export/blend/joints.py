@@ -26,7 +26,7 @@ from grafu.export.blend.layout import (
     Key,
     Kind,
 )
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import Scalars, Vec3
 
 Empty = Any
 """A `bpy.types.Object`; Blender's own types are made when it runs."""
@@ -83,6 +83,10 @@ def drive_link(link: Empty, empty: Empty, joint: Joint) -> None:
         _drive(link, ("rotation_axis_angle", 0), empty, joint.kind.turn)
     for index in np.flatnonzero(joint.kind.shift * joint.axis.direction):
         _drive(link, ("location", int(index)), empty, joint.kind.shift * direction[index])
+    if joint.slip is not None and not joint.kind.shift:
+        for index in np.flatnonzero(np.abs(joint.slip.shifts).max(axis=0)):
+            table = joint.slip.values, joint.slip.shifts[:, index]
+            _drive_by_table(link, ("location", int(index)), empty, table)
 
 
 def drive_swing(made: Empty, swing: Swing, empty: Empty, origin: Vec3) -> None:
@@ -93,12 +97,7 @@ def drive_swing(made: Empty, swing: Swing, empty: Empty, origin: Vec3) -> None:
     made.location = [float(v) for v in origin]
     made.rotation_mode = "AXIS_ANGLE"
     made.rotation_axis_angle = (0.0, *(float(v) for v in swing.axis.direction))
-    curve = made.driver_add("rotation_axis_angle", 0)
-    for modifier in list(curve.modifiers):
-        curve.modifiers.remove(modifier)
-    for value, angle in zip(swing.values, swing.angles, strict=True):
-        curve.keyframe_points.insert(float(value), float(angle)).interpolation = "LINEAR"
-    _read_opening(curve.driver, empty)
+    _drive_by_table(made, ("rotation_axis_angle", 0), empty, (swing.values, swing.angles))
 
 
 def key_joint(empty: Empty, keys: tuple[Key, ...]) -> None:
@@ -175,6 +174,16 @@ def _drive(link: Empty, channel: tuple[str, int], empty: Empty, factor: float) -
     driver = link.driver_add(*channel).driver
     _read_opening(driver, empty)
     driver.expression = _OPENING if factor == 1.0 else f"({_OPENING}) * {factor!r}"
+
+
+def _drive_by_table(made: Empty, channel: tuple[str, int], empty: Empty, table: tuple[Scalars, Scalars]) -> None:
+    """Lets a joint's value drive a channel through the curve of its driver: `table` has values, and what they give."""
+    curve = made.driver_add(*channel)
+    for modifier in list(curve.modifiers):
+        curve.modifiers.remove(modifier)
+    for value, given in zip(*table, strict=True):
+        curve.keyframe_points.insert(float(value), float(given)).interpolation = "LINEAR"
+    _read_opening(curve.driver, empty)
 
 
 def _read_opening(driver: Any, empty: Empty) -> None:

@@ -19,6 +19,7 @@ from grafu.joints.hinge.candidates import (
     PinCandidate,
     Tolerances,
     barrel_radius,
+    concealed_pins,
     hinge_count,
     makeshift_pins,
     pivot_pins,
@@ -28,7 +29,7 @@ from grafu.joints.hinge.candidates import (
 from grafu.joints.hinge.hardware import Neighbour, neighbours_of
 from grafu.joints.hinge.survey import BorderSurvey, survey
 from grafu.joints.limits import all_blockers, free_opening, in_the_way, sweep, swept_box, widest_above, widest_free
-from grafu.joints.plan import PIVOT, JointRequest
+from grafu.joints.plan import CUP, PIVOT, JointRequest
 from grafu.scene.border import BorderFrame, border_frame, part_axes, without_handle
 from grafu.scene.scene import Obstacle, Scene
 
@@ -138,8 +139,8 @@ class DoorSearch:
 
     @property
     def has_pins(self) -> bool:
-        """Whether any pin is left to try; a choice can leave none."""
-        return next(self.in_order(), None) is not None
+        """Whether any pin is left to try."""
+        return any(True for _ in self.in_order())
 
     @cached_property
     def _allowed(self) -> list[PinCandidate]:
@@ -176,7 +177,15 @@ class DoorSearch:
 
     def in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins that the request's choice leaves, in the order of `_all_in_order`."""
+        if self.request.choice.template == CUP:
+            return iter(self.concealed)
         return (judged for judged in self._all_in_order() if self._is_left(judged.pin))
+
+    @cached_property
+    def concealed(self) -> list[JudgedPin]:
+        """The axes of a door on concealed hinges, nearest to its true motion first."""
+        pins = concealed_pins(self.frame, self.config.hinge.concealed)
+        return [] if self.request.coupling or self.request.parent else [self._judge(pin) for pin in pins]
 
     def _is_left(self, pin: PinCandidate) -> bool:
         choice = self.request.choice
