@@ -22,6 +22,7 @@ from grafu.joints.rail_config import (
     RailConfig,
     RailFootingConfig,
 )
+from grafu.joints.stay_config import StayConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
@@ -60,6 +61,7 @@ REASONS = {
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "sliding_doors.py": {"_UP": NUMBERING},
+    "stays.py": {"_SIDES": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
@@ -67,7 +69,7 @@ CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, ClearanceConfig, ClosingConfig, ConcealedConfig, DrawerConfig, DrawnConfig,
     FlankConfig,
     FootingConfig, HingeConfig, PinConfig, PivotConfig, PlanConfig, RailConfig, RailFootingConfig,
-    RealizationConfig, SurveyConfig, TimeConfig,
+    RealizationConfig, StayConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 
 

@@ -102,6 +102,7 @@ def functionalize(
     trim: bool = True,
     small_parts: bool = False,
     hinge: str = "",
+    stays: bool = True,
     templates: PathLikeStr | None = None,
     **reading: Any,
 ) -> Result:
@@ -121,6 +122,7 @@ def functionalize(
         trim: whether material may be taken away to give a part clearance.
         small_parts: whether knobs, buttons, wheels and casters get joints of their own.
         hinge: the hinge that doors get where it finds room: a template's id, such as `cup`.
+        stays: whether lids and flaps get stays where there is room.
         templates: a folder of your own hinge, rail and handle templates.
         **reading: `up`, `front`, `scale`, `height`, `labels`, `parts`, `pieces` and `piece` of `grafu.load`, where
             `source` is a path.
@@ -149,6 +151,7 @@ def functionalize(
         additions=additions,
         weights=None if weights is None else as_path(weights, "weights"),
         hinge=require_word(hinge, "hinge", "the id of a hinge template, as str"),
+        stays=require(stays, bool, "stays", "True or False"),
     )
     foreign = prediction_for(choice, asset.name) if choice.source.is_foreign else None
     return Result.of(Request(asset, settings, foreign, folder))

@@ -272,6 +272,7 @@ def stated_settings(options: argparse.Namespace) -> "Settings":
         small_parts=base.small_parts or options.small_parts,
         weights=options.weights or base.weights,
         hinge=options.hinge or base.hinge,
+        stays=base.stays and not options.no_stays,
     )
     if options.motion is None or options.motion.source.is_foreign:
         return settings

@@ -80,6 +80,7 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
         help="hinges of doors, where these find room: a template of `grafu templates`, such as cup (default: the first "
         "that fits)",
     )
+    group.add_argument("--no-stays", action="store_true", help="add no stays to lids and flaps")
     group.add_argument(
         "--handle",
         metavar="STYLE",

@@ -12,6 +12,7 @@ from grafu.geometry.config_checks import require_not_negative, require_positive,
 from grafu.joints.hinge_config import HingeConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import ClosingConfig, DrawerConfig, RailConfig
+from grafu.joints.stay_config import StayConfig
 from grafu.visible import ShortRepr
 
 
@@ -265,6 +266,8 @@ class RealizationConfig(ShortRepr):
     """Of requests."""
     lift: LiftConfig = LiftConfig()
     """Of lifting columns."""
+    stay: StayConfig = StayConfig()
+    """Of stays on lids and flaps."""
     small: SmallPartConfig = SmallPartConfig()
     """Of knobs, buttons, wheels and casters."""
     block: BlockConfig = BlockConfig()

@@ -61,6 +61,7 @@ class Installed:
     """A joint that was built, with what was measured on it.
 
     `wanted` is the opening that it should have: what was asked for, else what is usual, as far as its kind goes.
+    `stays` is how many stays it has besides its hinges.
     """
 
     moving: str
@@ -82,6 +83,7 @@ class Installed:
     clearances: tuple[Clearance, ...] = ()
     notes: tuple[str, ...] = ()
     wanted: float | None = None
+    stays: int = 0
 
 
 Outcome = Installed | Refusal

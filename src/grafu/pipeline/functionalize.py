@@ -27,9 +27,10 @@ from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
 from grafu.joints.sliding_doors import with_sliding_doors
-from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
+from grafu.pipeline.additions import add_after_joints, add_before_joints, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
+from grafu.pipeline.finishing import with_small_joints_of, with_stays_of
 from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
@@ -210,11 +211,8 @@ def functionalize(
     body, realized = without_idle(body, realized)
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
-    realized = replace(realized, object=fitted_object(realized.object, fittings))
-    if with_small:  # most runs do without
-        from grafu.joints.small_joints import with_small_parts
-
-        realized = stages.timed("small parts", partial(with_small_parts, realized, asset, joints), lambda _: realized)
+    realized = with_small_joints_of(realized, fittings, asset, joints, stages, with_small)
+    realized = with_stays_of(realized, joints, stages) if settings.stays else realized
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(
