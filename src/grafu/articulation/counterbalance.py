@@ -63,13 +63,14 @@ class JointSpring:
 class Counterbalance(ArrayValue):
     """A spring of zero free length and `stiffness` (N/m) from `anchor`, on the parent, to `center`, on the child.
 
-    Both are points in the object frame at rest. `spring` is what replaces it where only joints have springs: None where
+    Both are points in the object frame at rest. `friction` (N m) is what the joint has beside it. `spring` is what replaces it where only joints have springs: None where
     the torque that is needed grows as the joint opens, as that of a flap that is lifted does.
     """
 
     anchor: Vec3
     center: Vec3
     stiffness: float
+    friction: float = 0.0
     spring: JointSpring | None = None
 
     def __post_init__(self) -> None:
@@ -92,28 +93,30 @@ def held(
     mass: float,
     center: Vec3,
     reach: float,
-    friction: float,
+    friction: tuple[float, float],
     config: CounterbalanceConfig = DEFAULT_COUNTERBALANCE_CONFIG,
 ) -> Holding:
     """Returns what holds a joint that turns about a level axis; of any other joint, the friction that it has.
 
     `mass` (kg) with its `center` is all that moves with the joint, `reach` (m) the distance of its far edge from the
-    axis, `friction` (N m) what the joint has anyway.
+    axis, `friction` (N m) what brakes it, without and with what keeps gravity from opening it.
     """
-    as_it_is = Holding(friction)
+    braking, friction_alone = friction
+    as_it_is = Holding(friction_alone)
     if not joint.kind.turns or not joint.kind.limited or abs(joint.axis.direction[2]) > config.level:
         return as_it_is
     values = np.linspace(joint.limits.lower, joint.limits.upper, config.samples)
     torque = gravity_torque(joint, mass, center, values)
     needed = config.margin * float(np.abs(torque).max())
-    if needed <= friction:
+    if needed <= friction_alone:
         return as_it_is
     if needed + max(0.0, -float(torque.min())) <= config.pull * reach:
         return Holding(needed)
     arm = joint.axis.distance_to(center)
     anchor = joint.axis.closest_point(center) + vec3(0.0, 0.0, config.height * arm)
     stiffness = GRAVITY * mass / (config.height * arm)
-    return Holding(friction, Counterbalance(anchor, center, stiffness, _spring(values, torque, friction, config)))
+    spring = _spring(values, torque, braking, config)
+    return Holding(friction_alone, Counterbalance(anchor, center, stiffness, braking, spring))
 
 
 def gravity_torque(joint: Joint, mass: float, center: Vec3, values: Scalars) -> Scalars:

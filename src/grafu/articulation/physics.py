@@ -48,6 +48,11 @@ class JointDynamics:
     velocity: float
     counterbalance: Counterbalance | None = None
 
+    @property
+    def friction_with_spring(self) -> float:
+        """The dry friction where the counterbalance carries the weight: only what brakes (N m, or N)."""
+        return self.friction if self.counterbalance is None else self.counterbalance.friction
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -86,8 +91,9 @@ def joint_dynamics(
     weight = GRAVITY * sum(m.mass for m in carried)
     if joint.kind.turns:
         inertia, pull, most = _about_axis(joint, carried)
-        friction = config.hinge_braking * inertia + config.holding * max(pull, 0.0)
-        holding = _held(articulated, joint, carried, friction, config.counterbalance)
+        braking = config.hinge_braking * inertia
+        both = braking, braking + config.holding * max(pull, 0.0)
+        holding = _held(articulated, joint, carried, both, config.counterbalance)
         effort = 2.0 * most + 10.0 * holding.friction
         damping = inertia / config.settling
         return JointDynamics(damping, holding.friction, effort, config.hinge_velocity, holding.counterbalance)
@@ -106,14 +112,14 @@ def _held(
     articulated: ArticulatedObject,
     joint: Joint,
     carried: list[MassProperties],
-    friction: float,
+    friction: tuple[float, float],
     config: CounterbalanceConfig,
 ) -> Holding:
     """Returns what holds a joint that turns; one that follows another, or leads it, keeps its friction."""
     mass = sum(m.mass for m in carried)
     coupled = any(joint.id in (other.id, other.coupling.leader) for other in articulated.joints if other.coupling)
     if coupled or not mass > 0:
-        return Holding(friction)
+        return Holding(friction[1])
     vertices = articulated.link(joint.child).mesh.vertices
     reach = float(joint.axis.distances_to(vertices).max()) if len(vertices) else 0.0
     center = sum((m.mass * m.center for m in carried), start=np.zeros(3)) / mass

@@ -146,7 +146,7 @@ class _MjcfWriter:
             "type": joint.kind.word("mjcf"),
             "axis": numbers(joint.axis.direction),
             "damping": number(dynamics.damping),
-            "frictionloss": number(dynamics.friction),
+            "frictionloss": number(dynamics.friction_with_spring),
             "armature": number(self._config.armature * inertia),
             "actuatorfrcrange": numbers([-dynamics.effort, dynamics.effort]),
         }
