@@ -63,8 +63,9 @@ class JointSpring:
 class Counterbalance(ArrayValue):
     """A spring of zero free length and `stiffness` (N/m) from `anchor`, on the parent, to `center`, on the child.
 
-    Both are points in the object frame at rest. `friction` (N m) is what the joint has beside it. `spring` is what replaces it where only joints have springs: None where
-    the torque that is needed grows as the joint opens, as that of a flap that is lifted does.
+    Both are points in the object frame at rest. `friction` (N m) is what the joint has beside it. `spring` is what
+    replaces it where only joints have springs: None where the torque that is needed grows as the joint opens, as that
+    of a flap that is lifted does.
     """
 
     anchor: Vec3

@@ -196,7 +196,7 @@ def _class_words(model: Model) -> str:
 def _closed_and_opened(model: Model, size: tuple[int, int]) -> Picture:
     """Returns a template closed and opened; rails are seen from the drawer's side, concealed hinges from within."""
     if isinstance(model, ConcealedModel):
-        shown, azimuth, ratio = concealed_as_articulated(model), radians(132), 1.0
+        shown, azimuth, ratio = concealed_as_articulated(model), radians(-140), 0.8
     else:
         shown, is_hinge = as_articulated(shown_template(model)), isinstance(model, HingeModel)
         azimuth, ratio = radians(-32 if is_hinge else 62), _SHOWN_OPENING if is_hinge else 1.0
