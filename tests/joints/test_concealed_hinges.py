@@ -1,5 +1,7 @@
 """Doors on cup hinges: where they are chosen or preferred, and the door's true path is free."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -104,6 +106,13 @@ def test_automatic_doors_get_visible_hinges():
     result = realize(plan_from_annotation(asset), asset, GALLERY)
 
     assert all(outcome.template != "cup" for outcome in result.report.outcomes)
+
+
+def test_a_door_that_nothing_else_carries_gets_them_without_a_choice():
+    asset = make_cabinet(Cabinet(layout=Door(), lap=0.009))
+    result = realize(plan_from_annotation(asset), asset, replace(GALLERY, hinges=()))
+
+    assert {outcome.template for outcome in result.report.outcomes} <= {"cup", "pivot"}
 
 
 def test_a_preferred_hinge_of_a_class_comes_first_in_it():

@@ -35,7 +35,7 @@ from grafu.joints.hinge.hardware import (
 from grafu.joints.hinge.pivot import is_on_mount, pivot_ends, with_both_ends, with_flaw
 from grafu.joints.hinge.search import DoorSearch, JudgedPin
 from grafu.joints.hinge.sites import placement_of, site_of
-from grafu.joints.plan import CUP, PIVOT
+from grafu.joints.plan import AUTOMATIC, CUP, PIVOT
 from grafu.joints.report import Placement
 from grafu.templates.template import Gallery, HingeModel, HingeSize
 
@@ -66,10 +66,11 @@ def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
     if choice.template == CUP:
         return place_concealed(search, gallery)
     is_upright = abs(float(search.frame.rotation[2, 2])) > search.config.upright
-    free = choice.takes(CUP) and choice.mechanism is None and is_upright
-    is_first = free and search.config.hinge.preferred == CUP
-    first = place_concealed(search, gallery) if is_first else None
-    return first or _visible(search, gallery) or (place_concealed(search, gallery) if free and not is_first else None)
+    is_left = is_upright and choice.takes(CUP) and choice.mechanism is None
+    is_first = is_left and search.config.hinge.preferred == CUP
+    found = (place_concealed(search, gallery) if is_first else None) or _visible(search, gallery)
+    is_last = is_upright and choice == AUTOMATIC and not is_first
+    return found or (place_concealed(search, gallery) if is_last else None)
 
 
 def _visible(search: DoorSearch, gallery: Gallery) -> Placement | None:
