@@ -1,4 +1,4 @@
-"""Where a stay may be held, in the plane across a lid's hinges: lengths, levers and turns. It knows no meshes.
+"""Where a stay may be held, in the plane across a lid's hinges: lengths, levers and turns. It reads no meshes.
 
 The plane is that of the border frame: the leaf fills x from 0 and y up to its inner face, and opens counterclockwise.
 """

@@ -73,7 +73,7 @@ class _Leaf:
     rays: RayCaster
     walls: RayCaster
     around: tuple[Obstacle, ...]
-    movers: tuple[tuple[Joint, SweptBody], ...]
+    others_moving: tuple[tuple[Joint, SweptBody], ...]
     depth: float
     metre: float
     config: StayConfig
@@ -111,7 +111,7 @@ def _leaf(
         return None
     others = [other for other in made.links if other.id != joint.child]
     depth = config.depth * extent
-    movers = [other for other in made.moving_joints if other.id != joint.id and other.parent == made.root]
+    others_moving = [other for other in made.moving_joints if other.id != joint.id and other.parent == made.root]
     root = [v for v in made.link(made.root).rigid_visuals if len(v.mesh.faces)]
     return _Leaf(
         joint,
@@ -120,7 +120,7 @@ def _leaf(
         RayCaster(own),
         RayCaster(merge_meshes([visual.mesh for visual in root])),
         tuple(Obstacle(v.name, MeshCollider(v.mesh)) for o in others for v in o.rigid_visuals if len(v.mesh.faces)),
-        tuple((other, SweptBody(made.link(other.child).mesh, depth)) for other in movers),
+        tuple((other, SweptBody(made.link(other.child).mesh, depth)) for other in others_moving),
         depth,
         metre,
         config.stay,
@@ -240,4 +240,4 @@ def _is_free(stay: _Stay, leaf: _Leaf) -> bool:
         if any(body.penetrates(other.collider) for body in (still, turning, moving, rod) for other in leaf.around):
             return False
     closed = [Obstacle("stay", MeshCollider(visual.mesh)) for visual in (*stay.on_case, *stay.on_leaf)]
-    return all(is_free(body, j.motion, j.limits.upper, closed, leaf.config.poses) for j, body in leaf.movers)
+    return all(is_free(body, j.motion, j.limits.upper, closed, leaf.config.poses) for j, body in leaf.others_moving)
