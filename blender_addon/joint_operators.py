@@ -65,7 +65,8 @@ def _templates() -> list:
     gallery = builtin_gallery()
     hinges = [(False, m.mechanism.value, m.id, f"{m.title} ({m.mechanism.in_words})", "") for m in gallery.hinges]
     rails = [(True, m.mechanism.value, m.id, m.title, "") for m in gallery.rails]
-    return [*hinges, *rails, (False, "", PIVOT, "Pivots", "Discs at the ends of the door")]
+    concealed = [(False, "", m.id, m.title, "A cup in the door, an arm in the case") for m in gallery.concealed]
+    return [*hinges, *concealed, *rails, (False, "", PIVOT, "Pivots", "Discs at the ends of the door")]
 
 
 def _slides(context, part: str):

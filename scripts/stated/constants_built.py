@@ -153,4 +153,5 @@ def joints() -> Iterator[Sentence]:
         ),
     )
     yield "exports.md", "velocity is {:g} rad/s or {:g} m/s", (MOVES.hinge_velocity, MOVES.rail_velocity)
+    yield "exports.md", "a pull of {:g} N at its far", (MOVES.counterbalance.pull,)
     yield "exports.md", "an armature of {:g} % of what moves", (per_cent(UsdConfig().armature),)

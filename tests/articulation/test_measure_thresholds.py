@@ -30,7 +30,8 @@ REASONS = {
         "mass.py": {"_BY_WORD": PHYSICS, "_TETRAHEDRON": UNIT, "_TRIANGLE": UNIT, "NO_MOMENTS": UNIT},
         "motion_kind.py": {"_A_LITTLE": SAMPLES, "_DEGREES": UNIT, "_CENTIMETRES": UNIT, "_ROWS": UNIT},
         "open_together.py": {"_STEPS": SAMPLES},
-        "physics.py": {"GRAVITY": PHYSICS, "(_MASSES, _PIECES, _CLEARANCE, _CONTACTS)": EFFORT},
+        "counterbalance.py": {"GRAVITY": PHYSICS},
+        "physics.py": {"(_MASSES, _PIECES, _CLEARANCE, _CONTACTS)": EFFORT},
     },
     "metrics": {
         "collision.py": {"TOLERANT": MEASURE},

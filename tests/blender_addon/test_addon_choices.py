@@ -65,7 +65,7 @@ def test_a_dialog_offers_what_fits_the_joint_and_its_class(steps):
     gallery = builtin_gallery()
     classes, templates = fact["offered"]["door_1"]
     assert classes == ["auto", "C", "F", "P"]
-    assert templates == ["auto", *(model.id for model in gallery.hinges), "pivot"]
+    assert templates == ["auto", *(model.id for model in (*gallery.hinges, *gallery.concealed)), "pivot"]
     rails = [["auto", "centre-mount", "corner-mount"], ["auto", *(model.id for model in gallery.rails)]]
     assert fact["offered"]["drawer_1"] == rails
     assert fact["of class P"] == ["auto", *(model.id for model in gallery.hinges if model.mechanism == "P")]

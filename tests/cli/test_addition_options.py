@@ -1,16 +1,20 @@
 """What may be added, as the command spells it: each refusal, each style, and contradictions in one line."""
 
 import argparse
+import json
+from pathlib import Path
 
 import pytest
 
 from grafu.additions.config import NO_ADDITIONS, AdditionConfig
 from grafu.additions.grip.config import GripKind
 from grafu.additions.interior.request import AUTO, InteriorKind, InteriorRequest
+from grafu.cli.main import main
 from grafu.cli.part_options import GRIPS, TOP_SHAPES, add_addition_options, addition_config
 from grafu.errors import OptionError
 from grafu.templates.handles import HANDLES
 
+CHEST = Path(__file__).parents[2] / "samples" / "chest.glb"
 BUILT_IN = tuple(template.id for template in HANDLES)
 
 
@@ -88,3 +92,12 @@ def test_shapes_are_those_that_there_are() -> None:
         found = config("--top", shape).top
         assert found is not None
         assert found.shape == shape
+
+
+@pytest.mark.parametrize(("more", "count"), [((), 2), (("--no-stays",), 0)])
+def test_stays_can_be_refused(more: tuple[str, ...], count: int, tmp_path: Path) -> None:
+    command = ["functionalize", str(CHEST), *more, "--formats", "urdf", "--no-page", "--out", str(tmp_path)]
+
+    assert main(command) == 0
+    report = json.loads((tmp_path / "chest" / "report.json").read_text())
+    assert [joint["stays"] for joint in report["joints"]] == [count]

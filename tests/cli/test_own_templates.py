@@ -42,3 +42,10 @@ def test_doors_hang_on_the_users_own_hinges(tmp_path):
     report = json.loads((tmp_path / "out" / "wardrobe" / "report.json").read_text())
     used = {joint["template"] for joint in report["joints"] if joint["type"] == "revolute"}
     assert used == {"art_deco"}
+
+
+def test_a_hinge_that_there_is_not_is_refused_before_anything_is_read(tmp_path, capsys):
+    code = main(["functionalize", str(tmp_path / "none.glb"), "--hinge", "spring", "--out", str(tmp_path / "out")])
+
+    assert code == 2
+    assert "the preferred hinge must be one of butt" in capsys.readouterr().err

@@ -59,7 +59,7 @@ def test_joints_read_back(model, cabinet):
         place = posed(model, {}).joint(joint.id).xanchor
         assert joint.type is JointType.PRISMATIC or joint.axis.distance_to(place) < 1e-9
         assert made.damping[0] == pytest.approx(resistance.damping)
-        assert made.frictionloss[0] == pytest.approx(resistance.friction)
+        assert made.frictionloss[0] == pytest.approx(resistance.friction_with_spring)
         assert np.allclose(model.jnt_actfrcrange[made.id], [-resistance.effort, resistance.effort])
         assert 0 < made.armature[0] <= 0.01 * resistance.damping
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from grafu.joints.building_doors import BuildingDoorConfig
+from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
@@ -26,6 +27,7 @@ from grafu.joints.rail_config import (
     RailConfig,
     RailFootingConfig,
 )
+from grafu.joints.stay_config import StayConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
@@ -74,13 +76,15 @@ REASONS = {
     "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_ACROSS": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "sliding_doors.py": {"_UP": NUMBERING},
+    "stays.py": {"_SIDES": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, DrawerConfig,
-    DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, PinConfig, PivotConfig,
-    PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, SurveyConfig, TimeConfig,
+    BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
+    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, PinConfig,
+    PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig,
+    SurveyConfig, TimeConfig,
 )  # fmt: skip
 
 

@@ -19,7 +19,7 @@ from grafu.vocabulary import MechanismClass, PartLabel
 from judging import GALLERY, hardware, installed, realized
 from small_scenes import DOOR, box, hinged, scene, sliding
 
-NO_HINGES = replace(GALLERY, hinges=())
+NO_HINGES = replace(GALLERY, hinges=(), concealed=())
 # It ends far below the door's upper end and above its lower one: pivots find no hold there.
 POST = box("post", (-0.02, 0.0, 0.2), (0.0, 0.4, 0.4))
 CASE = (

@@ -14,6 +14,7 @@ from grafu.api.request import (
     optional_number,
     require,
     require_bool_or_word,
+    require_word,
 )
 from grafu.api.result import Result
 from grafu.asset.load import endings_in, load_asset
@@ -100,6 +101,8 @@ def functionalize(
     carcass: bool = False,
     trim: bool = True,
     small_parts: bool | None = None,
+    hinge: str = "",
+    stays: bool = True,
     templates: PathLikeStr | None = None,
     **reading: Any,
 ) -> Result:
@@ -119,6 +122,8 @@ def functionalize(
         trim: whether material may be taken away to give a part clearance.
         small_parts: whether knobs, buttons, wheels and casters get joints of their own; None: those that are links of
             their own in a robot description.
+        hinge: the hinge that doors get where it finds room: a template's id, such as `cup`.
+        stays: whether lids and flaps get stays where there is room.
         templates: a folder of your own hinge, rail and handle templates.
         **reading: `up`, `front`, `scale`, `height`, `labels`, `parts`, `pieces` and `piece` of `grafu.load`, where
             `source` is a path.
@@ -146,6 +151,8 @@ def functionalize(
         motions=_motions(motions),
         additions=additions,
         weights=None if weights is None else as_path(weights, "weights"),
+        hinge=require_word(hinge, "hinge", "the id of a hinge template, as str"),
+        stays=require(stays, bool, "stays", "True or False"),
     )
     foreign = prediction_for(choice, asset.name) if choice.source.is_foreign else None
     return Result.of(Request(asset, settings, foreign, folder))

@@ -11,33 +11,43 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.joint_values import Coupling as Coupling
+from grafu.articulation.joint_values import JointLimits as JointLimits
 from grafu.articulation.motion_kind import MotionKind, motion_kind
+from grafu.articulation.slip import Slip
+from grafu.articulation.swing import Swing
+from grafu.articulation.tree_checks import require_driven, require_unique
 from grafu.errors import ArticulationError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.transform import translation
 from grafu.vocabulary import JointType, PartLabel
 
 _ALIKE = 1e-6  # radians or metres: limits that differ by less are the same
 
 
 class VisualRole(StrEnum):
-    """Where a visual comes from."""
+    """Where a visual comes from: the input, what was added (a handle, a top, a shelf), or hinges, rails and blocks."""
 
-    PART = "part"  # a part of the input
-    ADDED = "added"  # a part that was added: a handle, a top, a shelf
-    HARDWARE = "hardware"  # a hinge, a rail or a support block
+    PART = "part"
+    ADDED = "added"
+    HARDWARE = "hardware"
 
 
 @final
 @dataclass(frozen=True, repr=False)
 class Visual:
-    """One part or piece of hardware in its rest pose. `name` is the part id, or begins with hinge_, rail_, support_."""
+    """One part or piece of hardware in its rest pose. `name` is the part id, or begins with hinge_, rail_, support_.
+
+    With a `swing` it turns against its link as a joint moves; formats of simulators leave such pieces out.
+    """
 
     name: str
     surfaces: tuple[Surface, ...]
     role: VisualRole = VisualRole.PART
     label: PartLabel = PartLabel.UNKNOWN
+    swing: Swing | None = None
 
     def __repr__(self) -> str:
         return f"<Visual {self.name}: {self.role}, {sum(len(s.mesh.faces) for s in self.surfaces):,} faces>"
@@ -59,6 +69,11 @@ class Link:
     def __repr__(self) -> str:
         return f"<Link {self.id}: {len(self.visuals)} visuals>"
 
+    @property
+    def rigid_visuals(self) -> tuple[Visual, ...]:
+        """What moves as one with the link: all but hardware that turns against it."""
+        return tuple(visual for visual in self.visuals if visual.swing is None)
+
     @cached_property
     def mesh(self) -> TriangleMesh:
         """Parts, additions and hardware as one mesh."""
@@ -76,69 +91,12 @@ class Link:
 
 
 @final
-@dataclass(frozen=True, slots=True)
-class JointLimits:
-    """The range of a joint: radians or metres; 0 is closed, positive opens, never negative.
-
-    Raises:
-        ArticulationError: if not 0 <= lower <= upper, both finite.
-    """
-
-    lower: float
-    upper: float
-
-    def __post_init__(self) -> None:
-        if not (np.isfinite(self.lower) and np.isfinite(self.upper) and 0 <= self.lower <= self.upper):
-            raise ArticulationError(f"limits must satisfy 0 <= lower <= upper: got {self.lower} .. {self.upper}")
-
-    @property
-    def range(self) -> float:
-        """The opening from lower to upper."""
-        return self.upper - self.lower
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Coupling:
-    """A joint follows another, its leader: its value is `multiplier` times the leader's, plus `offset`.
-
-    `offset` is in the unit of the joint that follows, `multiplier` in that unit for each unit of the leader's.
-
-    Raises:
-        ArticulationError: if a number is not finite, or the multiplier is 0.
-    """
-
-    leader: str
-    multiplier: float = 1.0
-    offset: float = 0.0
-
-    def __post_init__(self) -> None:
-        if not (np.isfinite(self.multiplier) and np.isfinite(self.offset) and self.multiplier != 0):
-            raise ArticulationError(
-                f"a coupling needs finite numbers and a multiplier that is not 0: got {self.multiplier}, {self.offset}"
-            )
-
-    def value(self, leader_value: float) -> float:
-        """Returns the value at a value of the leader."""
-        return self.multiplier * leader_value + self.offset
-
-    def leader_value(self, value: float) -> float:
-        """Returns the leader's value at a value of the joint that follows."""
-        return (value - self.offset) / self.multiplier
-
-    def ends(self, limits: JointLimits) -> tuple[float, float]:
-        """Returns the lowest and the highest value while the leader keeps to its limits."""
-        low, high = sorted((self.value(limits.lower), self.value(limits.upper)))
-        return low, high
-
-
-@final
 @dataclass(frozen=True)
 class Joint:
     """How a child link moves against its parent: `axis` in the object frame at rest, positive values open.
 
     `after` names the joints that must be open before this one can move (a door in front of a drawer). With a `coupling`
-    the joint does not move by itself: it follows another.
+    the joint does not move by itself: it follows another. A `slip` is what the child is shown to do beside the motion.
     """
 
     id: str
@@ -149,6 +107,7 @@ class Joint:
     limits: JointLimits
     after: tuple[str, ...] = ()
     coupling: Coupling | None = None
+    slip: Slip | None = None
 
     @property
     def kind(self) -> MotionKind:
@@ -158,6 +117,11 @@ class Joint:
     def motion(self, value: float) -> np.ndarray:
         """Returns the 4x4 motion of the child from rest, at a joint value."""
         return self.kind.transform(self.axis, value)
+
+    def shown_motion(self, value: float) -> np.ndarray:
+        """Returns the motion as it is shown: the joint's own, and its slip."""
+        motion = self.motion(value)
+        return motion if self.slip is None else translation(self.slip.shift(value)) @ motion
 
     def following(self, leader: "Joint", multiplier: float = 1.0, offset: float = 0.0) -> "Joint":
         """Returns this joint coupled to another, with the limits that follow from it.
@@ -182,8 +146,9 @@ class ArticulatedObject:
 
     Raises:
         ArticulationError: if ids repeat, a joint names a link that is not there, a link has two parents, a cycle
-            exists, or a link cannot be reached from the root; if a joint follows one that is not there, is static or
-            follows it in turn, waits for others by itself, or has limits that do not follow from its leader's.
+            exists, a link cannot be reached from the root, or hardware swings with one that does not move; if a joint
+            follows one that is not there, is static or follows it in turn, waits for others by itself, or has limits
+            that do not follow from its leader's.
     """
 
     name: str
@@ -196,12 +161,12 @@ class ArticulatedObject:
 
     def __post_init__(self) -> None:
         ids = [link.id for link in self.links]
-        _require_unique("link", ids)
-        _require_unique("joint", [joint.id for joint in self.joints])
+        require_unique("link", ids)
+        require_unique("joint", [joint.id for joint in self.joints])
         if self.root not in ids:
             raise ArticulationError(f"the root must be one of the links: got `{self.root}`, links are {ids}")
         known, children = set(ids), [joint.child for joint in self.joints]
-        _require_unique("child link", children)
+        require_unique("child link", children)
         for joint in self.joints:
             if not {joint.parent, joint.child} <= known:
                 raise ArticulationError(f"joint `{joint.id}` must join known links: got {joint.parent}, {joint.child}")
@@ -209,6 +174,8 @@ class ArticulatedObject:
         if self.root in children or reached != known:
             lost = sorted(known - reached) or [self.root]
             raise ArticulationError(f"every link must hang on the root `{self.root}`, without a cycle: {lost} do not")
+        swings = (visual.swing for link in self.links for visual in link.visuals)
+        require_driven(swings, {joint.child for joint in self.moving_joints})
         for joint in self.joints:
             if joint.coupling is not None:
                 self._check_coupling(joint, joint.coupling)
@@ -283,9 +250,3 @@ class ArticulatedObject:
     def moving_joints(self) -> tuple[Joint, ...]:
         """The joints that are not fixed."""
         return tuple(joint for joint in self.joints if joint.kind.moves)
-
-
-def _require_unique(what: str, ids: list[str]) -> None:
-    repeated = sorted({i for i in ids if ids.count(i) > 1}) if len(set(ids)) < len(ids) else []
-    if repeated:
-        raise ArticulationError(f"{what} ids must be unique: got {repeated} more than once")

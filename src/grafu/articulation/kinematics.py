@@ -65,8 +65,10 @@ def with_coupled(articulated: ArticulatedObject, values: Mapping[str, float]) ->
     return found
 
 
-def link_poses(articulated: ArticulatedObject, values: Mapping[str, float]) -> dict[str, Mat4]:
+def link_poses(articulated: ArticulatedObject, values: Mapping[str, float], shown: bool = False) -> dict[str, Mat4]:
     """Returns for each link id its motion from rest, in the object frame, chained from the root outwards.
+
+    `shown` adds what joints are shown to do beside their motion (`Slip`).
 
     A joint that `values` leaves out stays closed (0); a coupled joint follows its leader. Values are radians or metres;
     limits are not applied.
@@ -81,5 +83,9 @@ def link_poses(articulated: ArticulatedObject, values: Mapping[str, float]) -> d
     values, poses = with_coupled(articulated, values), dict[str, Mat4]()
     for link in articulated.links_from_root:
         joint = articulated.joint_of.get(link.id)
-        poses[link.id] = np.eye(4) if joint is None else poses[joint.parent] @ joint.motion(values.get(joint.id, 0.0))
+        if joint is None:
+            poses[link.id] = np.eye(4)
+            continue
+        motion = joint.shown_motion if shown else joint.motion
+        poses[link.id] = poses[joint.parent] @ motion(values.get(joint.id, 0.0))
     return poses

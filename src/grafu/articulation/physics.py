@@ -2,7 +2,7 @@
 
 A joint resists by damping and friction, and has an effort and velocity. Values follow the moving mass, so that a small
 door neither sticks nor flies: a joint pushed and let go slows down with a time constant of a quarter of a second, needs
-a few newtons at the handle, and stays closed against gravity.
+a few newtons at the handle, and stays closed against gravity. Lids and flaps are held where they are put.
 """
 
 from collections.abc import Mapping
@@ -22,6 +22,7 @@ from grafu.articulation.collision_shapes import (
     collision_shapes,
     shapes_of,
 )
+from grafu.articulation.counterbalance import GRAVITY, Counterbalance, CounterbalanceConfig, Holding, held
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link, moments_of, moments_of_box
 from grafu.articulation.open_together import met_at_rest, near_at_rest
@@ -30,18 +31,27 @@ from grafu.geometry.budget import WhileTimeLasts, present_budget, within
 from grafu.visible import ShortRepr
 
 T = TypeVar("T")
-GRAVITY = 9.81
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class JointDynamics:
-    """Damping (N m s/rad or N s/m), dry friction and greatest effort (N m or N), greatest velocity (rad/s or m/s)."""
+    """Damping (N m s/rad or N s/m), dry friction and greatest effort (N m or N), greatest velocity (rad/s or m/s).
+
+    `counterbalance` is the spring that carries a lid or a flap too heavy to be held by friction, for formats with
+    springs.
+    """
 
     damping: float
     friction: float
     effort: float
     velocity: float
+    counterbalance: Counterbalance | None = None
+
+    @property
+    def friction_with_spring(self) -> float:
+        """The dry friction where the counterbalance carries the weight: only what brakes (N m, or N)."""
+        return self.friction if self.counterbalance is None else self.counterbalance.friction
 
 
 @final
@@ -52,7 +62,7 @@ class DynamicsConfig:
     `settling` (s) is how long a moving joint takes to lose most of its speed to damping alone. Friction of a hinge
     brakes a swing by `hinge_braking` (rad/s2); that of a rail is `rail_friction` of the weight, as ball-bearing slides
     have. `holding` times what keeps gravity from opening the joint is added. Velocities are what people open furniture
-    with.
+    with. `counterbalance` states how lids and flaps are held.
     """
 
     settling: float = 0.25
@@ -61,6 +71,7 @@ class DynamicsConfig:
     holding: float = 1.5
     hinge_velocity: float = 3.0
     rail_velocity: float = 1.0
+    counterbalance: CounterbalanceConfig = field(default_factory=CounterbalanceConfig)
 
 
 DEFAULT_DYNAMICS_CONFIG = DynamicsConfig()
@@ -80,8 +91,12 @@ def joint_dynamics(
     weight = GRAVITY * sum(m.mass for m in carried)
     if joint.kind.turns:
         inertia, pull, most = _about_axis(joint, carried)
-        friction = config.hinge_braking * inertia + config.holding * max(pull, 0.0)
-        return JointDynamics(inertia / config.settling, friction, 2.0 * most + 10.0 * friction, config.hinge_velocity)
+        braking = config.hinge_braking * inertia
+        both = braking, braking + config.holding * max(pull, 0.0)
+        holding = _held(articulated, joint, carried, both, config.counterbalance)
+        effort = 2.0 * most + 10.0 * holding.friction
+        damping = inertia / config.settling
+        return JointDynamics(damping, holding.friction, effort, config.hinge_velocity, holding.counterbalance)
     pull = -weight * float(joint.axis.direction[2])
     friction = config.rail_friction * weight + config.holding * max(pull, 0.0)
     damping = weight / GRAVITY / config.settling
@@ -91,6 +106,24 @@ def joint_dynamics(
 def _carried(articulated: ArticulatedObject, link: str) -> list[str]:
     below = [joint.child for joint in articulated.joints if joint.parent == link]
     return [link, *(far for near in below for far in _carried(articulated, near))]
+
+
+def _held(
+    articulated: ArticulatedObject,
+    joint: Joint,
+    carried: list[MassProperties],
+    friction: tuple[float, float],
+    config: CounterbalanceConfig,
+) -> Holding:
+    """Returns what holds a joint that turns; one that follows another, or leads it, keeps its friction."""
+    mass = sum(m.mass for m in carried)
+    coupled = any(joint.id in (other.id, other.coupling.leader) for other in articulated.joints if other.coupling)
+    if coupled or not mass > 0:
+        return Holding(friction[1])
+    vertices = articulated.link(joint.child).mesh.vertices
+    reach = float(joint.axis.distances_to(vertices).max()) if len(vertices) else 0.0
+    center = sum((m.mass * m.center for m in carried), start=np.zeros(3)) / mass
+    return held(joint, mass, center, reach, friction, config)
 
 
 def _about_axis(joint: Joint, carried: list[MassProperties]) -> tuple[float, float, float]:

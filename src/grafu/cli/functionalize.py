@@ -155,9 +155,9 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
         exporter_for(name)
     from grafu.templates.gallery import open_gallery
 
-    open_gallery(options.templates)
     _require_weights(options)
     settings = stated_settings(options)
+    open_gallery(options.templates).preferring(settings.hinge)
     prediction = options.motion if options.motion and options.motion.source.is_foreign else None
     is_whole = settings.reading.pieces == "together" or settings.reading.piece is not None
     if options.move:
@@ -271,6 +271,8 @@ def stated_settings(options: argparse.Namespace) -> "Settings":
         trim=base.trim and not options.no_trim,
         small_parts=base.small_parts if options.small_parts is None else options.small_parts,
         weights=options.weights or base.weights,
+        hinge=options.hinge or base.hinge,
+        stays=base.stays and not options.no_stays,
     )
     if options.motion is None or options.motion.source.is_foreign:
         return settings

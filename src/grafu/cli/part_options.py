@@ -75,6 +75,13 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
         "--top", choices=TOP_SHAPES, metavar="SHAPE", help=f"shape of added tops: {', '.join(TOP_SHAPES)}"
     )
     group.add_argument(
+        "--hinge",
+        metavar="ID",
+        help="hinges of doors, where these find room: a template of `grafu templates`, such as cup (default: the first "
+        "that fits)",
+    )
+    group.add_argument("--no-stays", action="store_true", help="add no stays to lids and flaps")
+    group.add_argument(
         "--handle",
         metavar="STYLE",
         help="style of added handles: a template of `grafu templates`, or a carved one: grip, groove, edge, hole "

@@ -57,16 +57,20 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _print_gallery(gallery: "Gallery") -> None:
+    from math import degrees
+
     from rich.markup import escape
 
     from grafu.cli.terminal import plain_table, wide_console
 
     table = plain_table("id", "title", "class", "natural size (mm)", "range")
-    models: list[HingeModel | RailModel] = [*gallery.hinges, *gallery.rails]
-    for model in models:
-        table.add_row(
-            *(escape(cell) for cell in (model.id, model.title, model.mechanism.in_words, *_size_and_range(model)))
-        )
+    rows = [(m.id, m.title, m.mechanism.in_words, *_size_and_range(m)) for m in gallery.hinges]
+    for cup in gallery.concealed:
+        size = f"cup {cup.cup_diameter * 1000:.0f} wide, {cup.deepest * 1000:.1f} deep"
+        rows.append((cup.id, cup.title, "concealed", size, f"{degrees(cup.range):.0f}°"))
+    rows += [(m.id, m.title, m.mechanism.in_words, *_size_and_range(m)) for m in gallery.rails]
+    for row in rows:
+        table.add_row(*(escape(cell) for cell in row))
     wide_console().print(table)
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.sweep import JointTrack, cycle_tracks
+from grafu.articulation.swing import Swing
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
 from grafu.export.gltf_mesh import GltfBuffer, GltfMaterialWriter, mesh_of, to_y_up
@@ -75,6 +76,7 @@ class _GlbWriter:
         self._names = _reserved_names(articulated)
         self._nodes: list[dict[str, Any]] = []
         self._meshes: list[dict[str, Any]] = []
+        self._swings: list[tuple[int, Swing]] = []
 
     def to_bytes(self) -> bytes:
         link_nodes = {link.id: self._add_link(link) for link in self._object.links_from_root}
@@ -121,8 +123,13 @@ class _GlbWriter:
         return _plain(to_y_up(offset[None])[0])
 
     def _add_visual(self, visual: Visual, origin: Vec3) -> int:
-        mesh = mesh_of(visual, origin, (self._buffer, self._materials), self._config.crease_angle)
+        """Adds a part of a link whose frame stands at an origin; one that swings has a node on its own pin."""
+        stands = origin if visual.swing is None else visual.swing.axis.closest_point(visual.mesh.box.center)
+        mesh = mesh_of(visual, stands, (self._buffer, self._materials), self._config.crease_angle)
         node: dict[str, Any] = {"name": visual.name}
+        if visual.swing is not None:
+            node["translation"] = _plain(to_y_up((stands - origin)[None])[0])
+            self._swings.append((len(self._nodes), visual.swing))
         if mesh["primitives"]:
             node["mesh"] = len(self._meshes)
             self._meshes.append(mesh)
@@ -145,6 +152,11 @@ class _GlbWriter:
                 target = {"node": link_nodes[joint.child], "path": path}
                 channels.append({"sampler": len(samplers), "target": target})
                 samplers.append(self._sampler(track, values, times))
+            for node, swing in self._swings:
+                if swing.moving == joint.child:
+                    turns = quaternions_about(to_y_up(swing.axis.direction[None])[0], swing.angles_at(track.values))
+                    channels.append({"sampler": len(samplers), "target": {"node": node, "path": "rotation"}})
+                    samplers.append(self._sampler(track, turns, times))
         return {"name": ANIMATION_NAME, "channels": channels, "samplers": samplers}
 
     def _animated(self, joint: Joint, values: Scalars) -> Iterator[tuple[str, np.ndarray]]:
@@ -153,8 +165,9 @@ class _GlbWriter:
         if kind.turn:
             # neighbours lie on one side, so that interpolation never flips
             yield "rotation", quaternions_about(axis, kind.turn * values)
-        if kind.shift:
-            yield "translation", np.array(self._offset(joint)) + np.outer(kind.shift * values, axis)
+        if kind.shift or joint.slip is not None:
+            beside = 0.0 if joint.slip is None else to_y_up(joint.slip.shifts_at(values))
+            yield "translation", np.array(self._offset(joint)) + np.outer(kind.shift * values, axis) + beside
 
     def _sampler(self, track: JointTrack, values: np.ndarray, times: dict[bytes, int]) -> dict[str, Any]:
         key = track.times.tobytes()

@@ -20,6 +20,7 @@ from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.articulation.sweep import JointValues
 from grafu.export.files import ExportFiles
 from grafu.export.mjcf_materials import MjcfMaterials, drawn_meshes
+from grafu.export.mjcf_springs import MjcfSprings, add_spring_defaults
 from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
@@ -90,6 +91,7 @@ class _MjcfWriter:
         self._bodies = _names([link.id for link in articulated.links], taken="world")
         self._joints = _names([joint.id for joint in articulated.joints])
         self._moving: list[Joint] = []
+        self._springs = MjcfSprings(articulated, self._physics, self._joints)
         self._notes: list[str] = []
 
     def to_files(self) -> ExportFiles:
@@ -104,6 +106,7 @@ class _MjcfWriter:
         ET.SubElement(model, "worldbody").append(root)
         self._add_contacts(model)
         self._add_couplings(model)
+        self._springs.add_tendons(model)
         if self._config.actuators and self._moving:
             self._add_actuators(ET.SubElement(model, "actuator"))
         if self._config.keyframes and self._moving:
@@ -122,6 +125,7 @@ class _MjcfWriter:
         if joint is not None:
             body.set("pos", numbers(origin - self._physics.origins[joint.parent]))
             self._add_joint(body, joint)
+        self._springs.add_sites(body, link.id)
         _add_inertial(body, self._physics.masses[link.id], origin)
         for visual, file in self._objs.visuals[link.id]:
             self._add_visual(body, visual, file, origin)
@@ -142,7 +146,7 @@ class _MjcfWriter:
             "type": joint.kind.word("mjcf"),
             "axis": numbers(joint.axis.direction),
             "damping": number(dynamics.damping),
-            "frictionloss": number(dynamics.friction),
+            "frictionloss": number(dynamics.friction_with_spring),
             "armature": number(self._config.armature * inertia),
             "actuatorfrcrange": numbers([-dynamics.effort, dynamics.effort]),
         }
@@ -260,6 +264,7 @@ def _add_defaults(model: ET.Element) -> None:
     ET.SubElement(collision, "geom", group=COLLISION_GROUP, mass="0")
     grasp = ET.SubElement(top, "default", {"class": "grasp"})
     ET.SubElement(grasp, "site", group=GRASP_GROUP, size="0.01")
+    add_spring_defaults(top, GRASP_GROUP)
 
 
 def _add_inertial(body: ET.Element, mass: MassProperties, origin: Vec3) -> None:

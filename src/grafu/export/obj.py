@@ -162,8 +162,8 @@ MESHES = "meshes"
 class ObjSet:
     """A folder of OBJ files and which of them is what.
 
-    `visuals` are by link, in the link's order, those without faces left out. `pieces` are by link and by the place of a
-    hull among the link's shapes; boxes need no file.
+    `visuals` are by link, in the link's order, those without faces, or that swing, left out. `pieces` are by link and
+    by the place of a hull among the link's shapes; boxes need no file.
     """
 
     folder: ObjFolder
@@ -186,7 +186,7 @@ def collision_name(link: str, number: int) -> str:
 
 def _add_link(made: ObjSet, link: Link, physics: PhysicsModel) -> None:
     origin = physics.origins[link.id]
-    drawn = [visual for visual in link.visuals if len(visual.mesh.faces)]
+    drawn = [visual for visual in link.rigid_visuals if len(visual.mesh.faces)]
     made.visuals[link.id] = tuple((visual, made.folder.add_visual(visual, origin)) for visual in drawn)
     for number, shape in enumerate(physics.shapes[link.id]):
         if isinstance(shape, ConvexSolid):

@@ -78,8 +78,8 @@ def _add_link(
 ) -> None:
     """Appends the node of a link and one for each handle on it; `place` keeps the node's id by link."""
     joint = articulated.joint_of.get(link.id)
-    handles = [v for v in link.visuals if v.label is PartLabel.HANDLE and len(v.mesh.faces) and joint is not None]
-    body = [v for v in link.visuals if v not in handles and len(v.mesh.faces)]
+    handles = [v for v in link.rigid_visuals if v.label is PartLabel.HANDLE and len(v.mesh.faces) and joint is not None]
+    body = [v for v in link.rigid_visuals if v not in handles and len(v.mesh.faces)]
     if not body:
         body, handles = handles, []
     above = joint

@@ -5,7 +5,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, frozen_array
+from grafu.geometry.arrays import ArrayValue, Mat4, Points, Scalars, Vec3, frozen_array
 from grafu.geometry.transform import is_mirror, rotation_about, transform_direction, transform_points, translation
 
 
@@ -63,6 +63,12 @@ class Axis(ArrayValue):
         """Returns the distance of a point from the line, in metres."""
         offset = point - self.point
         return float(np.linalg.norm(offset - self.direction * (offset @ self.direction)))
+
+    def distances_to(self, points: Points) -> Scalars:
+        """Returns the distance of each of many points from the line, in metres."""
+        offsets = points - self.point
+        across = offsets - np.outer(offsets @ self.direction, self.direction)
+        return np.asarray(np.linalg.norm(across, axis=1))
 
     def angle_to(self, other: "Axis") -> float:
         """Returns the angle between the senses of two axes, radians in [0, pi]."""

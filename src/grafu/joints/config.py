@@ -13,6 +13,7 @@ from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge_config import HingeConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import ClosingConfig, DrawerConfig, RailConfig
+from grafu.joints.stay_config import StayConfig
 from grafu.visible import ShortRepr
 
 
@@ -270,6 +271,8 @@ class RealizationConfig(ShortRepr):
     """Of lifting columns."""
     fold: FoldConfig = FoldConfig()
     """Of doors that fold."""
+    stay: StayConfig = StayConfig()
+    """Of stays on lids and flaps."""
     small: SmallPartConfig = SmallPartConfig()
     """Of knobs, buttons, wheels and casters."""
     block: BlockConfig = BlockConfig()

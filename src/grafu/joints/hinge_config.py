@@ -5,8 +5,11 @@ from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_finite, require_positive, require_ratios
+from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.visible import ShortRepr
+
+_NO_NUMBERS = frozenset(("survey", "footing", "pin", "pivot", "drawn", "concealed", "preferred"))
 
 
 @final
@@ -263,8 +266,12 @@ class HingeConfig(ShortRepr):
     """Of discs at a door's ends."""
     drawn: DrawnConfig = DrawnConfig()
     """Of hinges that the input has."""
+    concealed: ConcealedConfig = ConcealedConfig()
+    """Of cup hinges."""
+    preferred: str = ""
+    """The template that is tried before all others of its class; `cup`: before all."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"survey", "footing", "pin", "pivot", "drawn"}))
+        require_positive(self, *(set(self.__dataclass_fields__) - _NO_NUMBERS))
         require_ratios(self, "slim", "length_ratio", "radius_ratio", "inside", "chunky", "nearly")
         require_ratios(self, "spacing", "leaf_thickness", "carriers", "around")

@@ -12,7 +12,7 @@ from grafu.errors import OptionError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.joints.plan import AUTOMATIC, PIVOT, JointChoice, JointRequest, PlanConfig, RealizationPlan, Supports
+from grafu.joints.plan import AUTOMATIC, CUP, PIVOT, JointChoice, JointRequest, PlanConfig, RealizationPlan, Supports
 from grafu.scene.border import BorderFrame, border_frame
 from grafu.templates.template import Gallery
 from grafu.vocabulary import RAIL_CLASSES, MechanismClass
@@ -93,11 +93,11 @@ def _mechanism(request: JointRequest, choice: JointChoice, gallery: Gallery) -> 
         raise OptionError(f"supports are chosen for rails: `{request.moving}` turns on hinges")
     if choice.mechanism is not None and slides is not (choice.mechanism in RAIL_CLASSES):
         raise OptionError(f"`{request.moving}` is {request.type}: got the class {choice.mechanism}")
-    if choice.template in ("", PIVOT):
+    if choice.template in ("", PIVOT) or (choice.template == CUP and not slides):
         return choice.mechanism
     models = {m.id: m.mechanism for m in (gallery.rails if slides else gallery.hinges)}
     if choice.template not in models:
-        known = ", ".join(models)
+        known = ", ".join([*models, *([] if slides else [CUP])])
         raise OptionError(f"the template of `{request.moving}` must be one of {known}: got {choice.template!r}")
     if choice.mechanism not in (None, models[choice.template]):
         raise OptionError(f"`{choice.template}` is of class {models[choice.template]}: got {choice.mechanism}")

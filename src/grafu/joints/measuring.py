@@ -14,6 +14,7 @@ import numpy as np
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.budget import within
 from grafu.geometry.intersection import MeshCollider
+from grafu.geometry.transform import translation
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, sweep, swept_box
@@ -114,7 +115,15 @@ def _measure(
     ratio = sweep(body, motion, upper, near, _MEASURED_POSES).ratio
     ends = [MeshCollider(v.mesh) for v in scene.hardware_of(moving)] or [MeshCollider(scene.moving_mesh(moving))]
     held = [MeshCollider(v.mesh) for v in placement.static] or [obstacle.collider for obstacle in near]
-    gaps = [gap_between(ends, held, motion(value)) for value in np.linspace(0.0, upper, _GAP_POSES)]
+    swings = [(v.swing, held[k]) for k, v in enumerate(placement.static) if v.swing is not None]
+
+    def gap_at(value: float) -> float:
+        for swing, collider in swings:
+            collider.place(swing.motion(value))
+        beside = np.zeros(3) if placement.slip is None else placement.slip.shift(value)
+        return gap_between(ends, held, np.asarray(translation(beside) @ motion(value)))
+
+    gaps = [gap_at(float(value)) for value in np.linspace(0.0, upper, _GAP_POSES)]
     return ratio, max(gaps) - (gaps[0] if placement.template == DRAWN else 0.0)
 
 

@@ -15,6 +15,8 @@ from grafu.vocabulary import JointType, MechanismClass
 
 PIVOT = "pivot"
 """The template of a door that is carried by discs at its ends; it is of no gallery."""
+CUP = "cup"
+"""The template of a door on concealed hinges; it is of no class."""
 SCALES = (0.25, 4.0)
 """Least and largest factor by which a user may change the size of hinges."""
 MOST_HINGES = 12
@@ -71,10 +73,11 @@ class PlanConfig:
 class JointChoice:
     """What is decided about one joint; what is left as it is here, the search decides.
 
-    `mechanism` and `template` narrow it to one class or template (an id; `PIVOT` for discs at the ends), `scale`
-    multiplies the size of hinges, `count` is their number (0: by the door's height), `flipped` hangs the door on its
-    opposite border, `opening` is the widest opening (radians or metres), `mount` the part that must carry the joint (of
-    the two rails of a drawer, at least one), `supports` what holds rails where they touch no wall.
+    `mechanism` and `template` narrow it to one class or template (an id; `PIVOT` for discs at the ends, `CUP` for
+    concealed hinges), `scale` multiplies the size of hinges, `count` is their number (0: by the door's height),
+    `flipped` hangs the door on its opposite border, `opening` is the widest opening (radians or metres), `mount` the
+    part that must carry the joint (of the two rails of a drawer, at least one), `supports` what holds rails where they
+    touch no wall.
 
     Raises:
         ValueError: if `scale` is not within `SCALES`, `count` not in 0..`MOST_HINGES`, or `opening` not above 0.
@@ -99,8 +102,8 @@ class JointChoice:
             raise ValueError(f"`JointChoice.opening` must be above 0: got {self.opening}")
         if self.mechanism is MechanismClass.NONE:
             raise ValueError("`JointChoice.mechanism` must be a class of hinges or rails: got none")
-        if self.template == PIVOT and self.mechanism is not None:
-            raise ValueError(f"pivots are of no class: got {self.mechanism}")
+        if self.template in (PIVOT, CUP) and self.mechanism is not None:
+            raise ValueError(f"pivots and cup hinges are of no class: got {self.mechanism}")
 
     def __str__(self) -> str:
         words = (f"class {self.mechanism}" if self.mechanism else "", self.template, "flipped" * self.flipped)

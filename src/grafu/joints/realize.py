@@ -182,7 +182,9 @@ def _assembled(asset: Asset, levels: Levels) -> ArticulatedObject:
         order, parent = levels.orders[moving], levels.parent_of[moving] or root
         after = tuple(joint_id(name) for name in order.after)
         limits = JointLimits(0.0, order.upper)
-        joints[moving] = Joint(joint_id(moving), b.request.type, parent, moving, b.placement.axis, limits, after)
+        joints[moving] = Joint(
+            joint_id(moving), b.request.type, parent, moving, b.placement.axis, limits, after, slip=b.placement.slip
+        )
     return ArticulatedObject(asset.name, root, tuple(links), _coupled_joints(joints, levels.couplings))
 
 

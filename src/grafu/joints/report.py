@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import final
 
 from grafu.articulation.articulated_object import Visual
+from grafu.articulation.slip import Slip
 from grafu.geometry.axis import Axis
 from grafu.refusal import Refusal
 from grafu.vocabulary import JointType, MechanismClass
@@ -15,7 +16,8 @@ class Placement:
     """The hardware of one joint in the object frame at rest: rectified axis, opening (radians or metres), both ends.
 
     `in_way` names the moving bodies that the part meets at rest along its path, `struck_by` those that run into the
-    hardware on theirs; `notes` state what was left out for their sake.
+    hardware on theirs; `notes` state what was left out for their sake. `slip` is what the part is shown to do beside
+    the joint's motion, where a linkage guides it.
     """
 
     axis: Axis
@@ -29,6 +31,7 @@ class Placement:
     in_way: tuple[str, ...]
     struck_by: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    slip: Slip | None = None
 
 
 @final
@@ -58,6 +61,7 @@ class Installed:
     """A joint that was built, with what was measured on it.
 
     `wanted` is the opening that it should have: what was asked for, else what is usual, as far as its kind goes.
+    `stays` is how many stays it has besides its hinges.
     """
 
     moving: str
@@ -79,6 +83,7 @@ class Installed:
     clearances: tuple[Clearance, ...] = ()
     notes: tuple[str, ...] = ()
     wanted: float | None = None
+    stays: int = 0
 
 
 Outcome = Installed | Refusal

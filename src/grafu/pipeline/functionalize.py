@@ -26,13 +26,14 @@ from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
-from grafu.pipeline.additions import add_after_joints, add_before_joints, fitted_object, without_idle
+from grafu.pipeline.additions import add_after_joints, add_before_joints, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
+from grafu.pipeline.finishing import with_small_joints_of, with_stays_of
 from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
-from grafu.pipeline.shown_by_shape import may_have_small_parts, shown_by_shape
+from grafu.pipeline.shown_by_shape import shown_by_shape, small_parts_wanted
 from grafu.pipeline.stages import (
     Stages,
     by_contacts,
@@ -66,7 +67,8 @@ class PipelineConfig(ShortRepr):
     @property
     def joints(self) -> RealizationConfig:
         """The configuration of joints, as far as the settings allow."""
-        return replace(self.realization, trim=self.realization.trim and self.settings.trim)
+        hinge = replace(self.realization.hinge, preferred=self.settings.hinge or self.realization.hinge.preferred)
+        return replace(self.realization, trim=self.realization.trim and self.settings.trim, hinge=hinge)
 
 
 @final
@@ -205,17 +207,14 @@ def functionalize(
     add = partial(cache.value, "body", add_before_joints, asset, completion, plan, settings.additions.of_body, drawers)
     body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
     plan, grown = plan.with_attached(body.attached), replace(asset, parts=tuple(body.scene.parts.values()))
-    build = partial(realize, plan, grown, gallery, joints, cache)
+    build = partial(realize, plan, grown, gallery.preferring(settings.hinge), joints, cache)
     realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
     fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
-    realized = replace(realized, object=fitted_object(realized.object, fittings))
-    if turning or may_have_small_parts(asset, motion.reads_annotation, settings.small_parts):  # most runs do without
-        from grafu.joints.small_joints import with_small_parts
-
-        small = partial(with_small_parts, realized, asset, joints, turning if settings.small_parts is None else None)
-        realized = stages.timed("small parts", small, lambda _: realized)
+    small = small_parts_wanted(asset, motion.reads_annotation, settings.small_parts, turning)
+    realized = with_small_joints_of(realized, fittings, asset, joints, stages, small)
+    realized = with_stays_of(realized, joints, stages) if settings.stays else realized
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(

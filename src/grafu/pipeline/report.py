@@ -175,6 +175,7 @@ def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:
         wanted=made.wanted,
         restricted=made.restricted,
         collision_share=made.collision_share,
+        stays=made.stays,
         largest_gap=made.largest_gap,
         after=joint.after,
         parent=joint.parent,

@@ -145,6 +145,7 @@ class JointRecord(ReportRecord):
     )
     restricted: bool = Field(description="whether the opening is under 70 % of the reference")
     collision_share: Ratio = Field(description="fraction of poses in which it still cuts into something")
+    stays: int = Field(default=0, description="how many stays it has besides its hinges: a lid or a flap")
     largest_gap: float = Field(description="the widest gap between the link and what carries it, over the motion")
     after: tuple[str, ...] = Field(description="joints that must be open before this one can move")
     parent: str = Field(default="", description="the link of model.urdf that carries it; empty: not stated")

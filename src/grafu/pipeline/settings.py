@@ -35,7 +35,8 @@ class Settings(ShortRepr):
     With `small_parts` knobs, buttons and wheels get joints of their own; without (None) only those that are links of
     their own in a robot description, with False none. `labels` and `motions` go by the ids of parts,
     `joints` by those of moving parts. `weights` is a file of trained weights (ONNX) for the network; None: those that
-    came with the package. A motion source that reads another system's file is no setting: it needs the file.
+    came with the package. `hinge` is the template that doors get where it finds room. With `stays` lids and flaps get
+    stays where there is room. A motion source that reads another system's file is no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO
@@ -47,6 +48,8 @@ class Settings(ShortRepr):
     joints: Mapping[str, JointChoice] = field(default_factory=dict)
     additions: AdditionConfig = field(default_factory=AdditionConfig)
     weights: Path | None = None
+    hinge: str = ""
+    stays: bool = True
 
     def __post_init__(self) -> None:
         if self.motion.is_foreign:

@@ -1,7 +1,8 @@
 """What shape and names alone show of how parts move, whatever was predicted."""
 
 from collections.abc import Collection
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import final
 
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
@@ -19,6 +20,15 @@ from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class WantedSmallParts:
+    """Whether joints of small parts are built, and of which: of `chosen` parts and links of their own; None: of all."""
+
+    any: bool
+    chosen: frozenset[str] | None = None
 
 
 def shown_by_shape(
@@ -57,10 +67,15 @@ def _without_turntables(
     return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in turning)), turning
 
 
-def may_have_small_parts(asset: Asset, reads_annotation: bool, wanted: bool | None) -> bool:
-    """Whether joints of small parts are built; by default (None) where they are stated and read, or parts are links."""
+def small_parts_wanted(
+    asset: Asset, reads_annotation: bool, wanted: bool | None, turning: frozenset[str]
+) -> WantedSmallParts:
+    """Returns which joints of small parts are built; by default (`wanted` None) where they are stated and read.
+
+    Else by default those of the `turning` trays, and of parts that are links.
+    """
     if wanted is not None:
-        return wanted
+        return WantedSmallParts(wanted)
     if asset.small_joints:
-        return reads_annotation
-    return any(part.source.link for part in asset.parts)
+        return WantedSmallParts(reads_annotation)
+    return WantedSmallParts(bool(turning) or any(part.source.link for part in asset.parts), turning)

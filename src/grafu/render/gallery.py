@@ -11,6 +11,8 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.articulation.motion_kind import motion_kind
+from grafu.articulation.slip import Slip
+from grafu.articulation.swing import Swing
 from grafu.export.files import ExportFiles
 from grafu.export.glb import export_glb
 from grafu.geometry.appearance import Material
@@ -27,6 +29,7 @@ from grafu.render.picture import (
     posed_visuals,
     render,
 )
+from grafu.templates.concealed import ConcealedModel, axis_at
 from grafu.templates.solids import STEEL, finished
 from grafu.templates.template import (
     Gallery,
@@ -38,10 +41,10 @@ from grafu.templates.template import (
     RailSize,
     RailTemplate,
 )
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import JointType, PartLabel
 
 Template = HingeTemplate | RailTemplate
-Model = HingeModel | RailModel
+Model = HingeModel | RailModel | ConcealedModel
 
 _SHOWN_HINGE = 0.12  # metres; long templates are shown shorter, or nothing but their length could be seen
 _SHOWN_RAIL = 0.2
@@ -71,19 +74,53 @@ def as_articulated(template: Template) -> ArticulatedObject:
     return ArticulatedObject(template.id, "static", tuple(links), (joint,))
 
 
+def concealed_as_articulated(model: ConcealedModel) -> ArticulatedObject:
+    """Returns a concealed hinge as such an object: its door's link turns about the axis that fits best, and slips."""
+    hinge = model.natural
+    point, _ = hinge.linkage.best_axis(hinge.angles)
+    low = min(float(surface.mesh.box.low[2]) for surface in (*hinge.static, *hinge.dynamic))
+    T = translation(vec3(0.0, 0.0, -low)) @ rotation_about(np.zeros(3), vec3(0.0, 0.0, 1.0), np.pi)
+    axis, name = axis_at(point).transformed(T), f"hinge_{model.id}"
+    slips = np.column_stack([hinge.slips(point), np.zeros(len(hinge.angles))]) @ T[:3, :3].T
+    visuals = [
+        Visual(f"{name}_{end}", tuple(s.transformed(T) for s in surfaces), VisualRole.HARDWARE)
+        for end, surfaces in (("static", hinge.static), ("dynamic", hinge.dynamic))
+    ]
+    arms = tuple(
+        Visual(
+            f"{name}_{arm.name}",
+            tuple(s.transformed(T) for s in arm.surfaces),
+            VisualRole.HARDWARE,
+            swing=Swing("dynamic", axis_at(arm.pivot).transformed(T), hinge.angles, arm.turns),
+        )
+        for arm in hinge.arms
+    )
+    links = (Link("static", (visuals[0], *arms)), Link("dynamic", (visuals[1],)))
+    limits, slip = JointLimits(0.0, model.range), Slip(hinge.angles, slips)
+    joint = Joint(f"{model.id}_joint", JointType.REVOLUTE, "static", "dynamic", axis, limits, slip=slip)
+    return ArticulatedObject(model.id, "static", links, (joint,))
+
+
 def models_of(gallery: Gallery) -> tuple[Model, ...]:
     """Returns all models of a gallery, hinges first."""
-    return (*gallery.hinges, *gallery.rails)
+    return (*gallery.hinges, *gallery.concealed, *gallery.rails)
 
 
-def natural_template(model: Model) -> Template:
+def natural_object(model: Model) -> ArticulatedObject:
+    """Returns the template at its natural size as an object that moves."""
+    if isinstance(model, ConcealedModel):
+        return concealed_as_articulated(model)
+    return as_articulated(natural_template(model))
+
+
+def natural_template(model: HingeModel | RailModel) -> Template:
     """Returns the template at its natural size."""
     if isinstance(model, HingeModel):
         return model.build(model.natural)
     return model.build(model.natural)
 
 
-def shown_template(model: Model) -> Template:
+def shown_template(model: HingeModel | RailModel) -> Template:
     """Returns the template for a picture: at its natural size, but long ones cut short so that details show."""
     if isinstance(model, HingeModel):
         n = model.natural
@@ -134,7 +171,7 @@ def gallery_files(gallery: Gallery) -> ExportFiles:
     """Returns `<id>.glb` for each template at its natural size, opening and closing, and the sheet `templates.png`."""
     contents: dict[str, bytes] = {}
     for model in models_of(gallery):
-        exported = export_glb(as_articulated(natural_template(model)))
+        exported = export_glb(natural_object(model))
         contents[f"{model.id}.glb"] = next(data for name, data in exported.contents.items() if name.endswith(".glb"))
     contents[SHEET_NAME] = encode_png(gallery_sheet(gallery))
     return ExportFiles(contents)
@@ -143,16 +180,26 @@ def gallery_files(gallery: Gallery) -> ExportFiles:
 def gallery_sheet(gallery: Gallery, size: tuple[int, int] = (300, 260), columns: int = 3) -> Picture:
     """Returns one picture of all templates, closed beside opened, with title, id and class below each."""
     models = models_of(gallery)
-    pictures = [_closed_and_opened(as_articulated(shown_template(m)), isinstance(m, HingeModel), size) for m in models]
+    pictures = [_closed_and_opened(model, size) for model in models]
     return contact_sheet(pictures, [_caption(model) for model in models], columns)
 
 
 def _caption(model: Model) -> str:
-    return f"{model.title}  ·  {model.id}  ·  {model.mechanism.in_words}"
+    return f"{model.title}  ·  {model.id}  ·  {_class_words(model)}"
 
 
-def _closed_and_opened(shown: ArticulatedObject, is_hinge: bool, size: tuple[int, int]) -> Picture:
-    azimuth = radians(-32 if is_hinge else 62)  # rails are seen from the drawer's side
-    poses = [posed_visuals(shown), posed_visuals(shown, opened_values(shown, _SHOWN_OPENING if is_hinge else 1.0))]
+def _class_words(model: Model) -> str:
+    """Returns what people read as the class of a template."""
+    return "concealed" if isinstance(model, ConcealedModel) else model.mechanism.in_words
+
+
+def _closed_and_opened(model: Model, size: tuple[int, int]) -> Picture:
+    """Returns a template closed and opened; rails are seen from the drawer's side, concealed hinges from within."""
+    if isinstance(model, ConcealedModel):
+        shown, azimuth, ratio = concealed_as_articulated(model), radians(-140), 0.8
+    else:
+        shown, is_hinge = as_articulated(shown_template(model)), isinstance(model, HingeModel)
+        azimuth, ratio = radians(-32 if is_hinge else 62), _SHOWN_OPENING if is_hinge else 1.0
+    poses = [posed_visuals(shown), posed_visuals(shown, opened_values(shown, ratio))]
     camera = three_quarter_view(box_of([v for pose in poses for v in pose]), size[0] / size[1], azimuth)
     return np.concatenate([render(pose, camera, size) for pose in poses], axis=1)

@@ -16,6 +16,7 @@ from PIL import Image, ImageDraw, ImageFont
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
 from grafu.articulation.kinematics import link_poses, with_coupled
 from grafu.geometry.appearance import Material, Surface
+from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
 from grafu.render.camera import Camera, three_quarter_view
 from grafu.render.exposure import Exposure, PictureStyle, Samples, displayed
@@ -72,12 +73,15 @@ def posed_visuals(articulated: ArticulatedObject, values: Mapping[str, float] | 
     Raises:
         ArticulationError: if `values` names a joint that the object does not have.
     """
-    poses = link_poses(articulated, values or {})
-    return [
-        replace(v, surfaces=tuple(s.transformed(poses[link.id]) for s in v.surfaces))
-        for link in articulated.links
-        for v in link.visuals
-    ]
+    poses = link_poses(articulated, values or {}, shown=True)
+    values = with_coupled(articulated, values or {})
+    by_link = {link: values.get(joint.id, 0.0) for link, joint in articulated.joint_of.items()}
+
+    def posed(visual: Visual, T: Mat4) -> Visual:
+        T = T if visual.swing is None else T @ visual.swing.motion(by_link[visual.swing.moving])
+        return replace(visual, surfaces=tuple(s.transformed(T) for s in visual.surfaces), swing=None)
+
+    return [posed(visual, poses[link.id]) for link in articulated.links for visual in link.visuals]
 
 
 def opened_values(articulated: ArticulatedObject, ratio: float = 1.0) -> dict[str, float]:

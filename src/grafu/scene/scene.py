@@ -143,8 +143,9 @@ class Scene:
 
     @cached_property
     def static_hardware(self) -> tuple[Obstacle, ...]:
-        """One obstacle per installed static piece of hardware."""
-        return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for owner, v in self.hardware if not owner)
+        """One obstacle per installed static piece of hardware; what turns on its own pin is none."""
+        rigid = (visual for owner, visual in self.hardware if not owner and visual.swing is None)
+        return tuple(Obstacle(visual.name, MeshCollider(visual.mesh)) for visual in rigid)
 
     @cached_property
     def still_obstacles(self) -> tuple[Obstacle, ...]:
@@ -169,7 +170,7 @@ class Scene:
 
     def equipped_mesh(self, moving_id: str) -> TriangleMesh:
         """Returns the moving body with all that rides on it and the hardware that it carries so far, as one mesh."""
-        hardware = [visual.mesh for visual in self.hardware_of(moving_id)]
+        hardware = [visual.mesh for visual in self.hardware_of(moving_id) if visual.swing is None]
         bare = self.moving_mesh(moving_id)
         return self._as_one((bare, *hardware)) if hardware else bare
 
@@ -263,7 +264,8 @@ class Scene:
 
 
 def _hardware_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:
-    return tuple(Obstacle(v.name, MeshCollider(v.mesh)) for v in scene.hardware_of(moving_id))
+    rigid = (visual for visual in scene.hardware_of(moving_id) if visual.swing is None)
+    return tuple(Obstacle(visual.name, MeshCollider(visual.mesh)) for visual in rigid)
 
 
 def _body_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:

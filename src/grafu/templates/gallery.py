@@ -8,6 +8,7 @@ from math import radians
 from pathlib import Path
 
 from grafu.templates import leaves
+from grafu.templates.concealed import ConcealedModel
 from grafu.templates.handles import HANDLES
 from grafu.templates.hinges import HingeStyle, hinge_model
 from grafu.templates.rails import CENTRE_STYLE, CORNER_STYLE, rail_model
@@ -83,7 +84,7 @@ def builtin_gallery() -> Gallery:
     """Returns the project's own templates, best first within each class."""
     hinges: tuple[HingeModel, ...] = tuple(hinge_model(*row) for row in _HINGES)
     rails: tuple[RailModel, ...] = tuple(rail_model(*row) for row in _RAILS)
-    return Gallery(hinges, rails)
+    return Gallery(hinges, rails, (ConcealedModel("cup", "Concealed cup hinge"),))
 
 
 def open_gallery(folder: Path | None) -> Gallery:

@@ -25,11 +25,12 @@ from typing import ClassVar, Literal, final
 
 import numpy as np
 
-from grafu.errors import TemplateError
+from grafu.errors import OptionError, TemplateError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import transform_points
+from grafu.templates.concealed import ConcealedModel
 from grafu.vocabulary import JointType, MechanismClass
 
 HandleFamily = Literal["bar", "knob", "cup"]
@@ -259,9 +260,10 @@ class Gallery:
 
     hinges: tuple[HingeModel, ...]
     rails: tuple[RailModel, ...]
+    concealed: tuple[ConcealedModel, ...] = ()
 
     def __post_init__(self) -> None:
-        ids = [h.id for h in self.hinges] + [r.id for r in self.rails]
+        ids = [h.id for h in self.hinges] + [r.id for r in self.rails] + [c.id for c in self.concealed]
         if len(set(ids)) < len(ids):
             raise TemplateError(f"template ids must be unique: got {sorted(i for i in ids if ids.count(i) > 1)}")
 
@@ -269,13 +271,28 @@ class Gallery:
         """Returns the hinges of one class, best first."""
         return tuple(h for h in self.hinges if h.mechanism is mechanism)
 
+    def preferring(self, hinge: str) -> "Gallery":
+        """Returns the gallery with one hinge before all others of its class ("": as it is).
+
+        Raises:
+            OptionError: if no hinge has this id.
+        """
+        if not hinge:
+            return self
+        known = [model.id for model in self.hinges] + [model.id for model in self.concealed]
+        if hinge not in known:
+            raise OptionError(f"the preferred hinge must be one of {', '.join(known)}: got {hinge!r}")
+        return replace(self, hinges=tuple(sorted(self.hinges, key=lambda model: model.id != hinge)))
+
     def at_scale(self, metre: float) -> "Gallery":
         """Returns the gallery for furniture on which a metre is `metre` metres long; it is to be asked for once."""
         if metre == 1.0:
             return self
-        hinges = tuple(model.at_scale(metre) for model in self.hinges)
-        return replace(self, hinges=hinges, rails=tuple(model.at_scale(metre) for model in self.rails))
+        concealed = tuple(model.at_scale(metre) for model in self.concealed)
+        hinges, rails = tuple(h.at_scale(metre) for h in self.hinges), tuple(r.at_scale(metre) for r in self.rails)
+        return Gallery(hinges, rails, concealed)
 
     def extended(self, other: "Gallery") -> "Gallery":
         """Returns both galleries as one; the other's templates come first."""
-        return replace(self, hinges=other.hinges + self.hinges, rails=other.rails + self.rails)
+        concealed = other.concealed + self.concealed
+        return Gallery(other.hinges + self.hinges, other.rails + self.rails, concealed)

@@ -113,7 +113,7 @@ def _joint_row(joint: JointRecord, completion: GraphCompletion) -> tuple[str, ..
     return (
         part_button(joint.part),
         lines([*moves, flag("restricted")] if joint.restricted else moves),
-        lines([hardware_in_words(joint.count, joint.template, joint.mechanism), f"on {joint.mount}"]),
+        lines([*_mechanism(joint), f"on {joint.mount}"]),
         lines([
             f"stated {axis_words(joint.initial_axis, joint.type)} ({joint.motion_source})",
             f"built {axis_words(joint.rectified_axis, joint.type)}",
@@ -123,6 +123,12 @@ def _joint_row(joint: JointRecord, completion: GraphCompletion) -> tuple[str, ..
         lines(certainty_words(completion, joint.part) or ["stated, not guessed"]),
         lines(_notes(joint)),
     )  # fmt: skip
+
+
+def _mechanism(joint: JointRecord) -> list[str]:
+    """Returns what a joint runs on, and the stays that it has besides."""
+    runs_on = hardware_in_words(joint.count, joint.template, joint.mechanism)
+    return [runs_on, counted(joint.stays, "stay")] if joint.stays else [runs_on]
 
 
 def _measured(joint: JointRecord) -> list[str]:

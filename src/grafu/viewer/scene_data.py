@@ -16,6 +16,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual
 from grafu.articulation.sweep import opening_stages
+from grafu.articulation.swing import Swing
 from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Points, extremes
@@ -176,13 +177,18 @@ class _Packer:
         joints = self._object.moving_joints
         number = {joint.id: k for k, joint in enumerate(joints)}
         free = {joint.id for joint in self._object.free_joints}
-        items = [self._item(visual, index[link.id]) for link in links for visual in link.visuals]
+        swinging = [(v, index[link.id]) for link in links for v in link.visuals if v.swing is not None]
+        place = {v.name: len(links) + k for k, (v, _) in enumerate(swinging)}
+        items = [self._item(v, place.get(v.name, index[link.id])) for link in links for v in link.visuals]
         closed, opened = posed_visuals(self._object), posed_visuals(self._object, opened_values(self._object))
         tables = {
             "name": self._object.name,
             "closed": _corners(box_of(closed)),
             "reach": _corners(box_of([*closed, *opened])),
-            "links": [self._link(link.id, index, number) for link in links],
+            "links": [
+                *(self._link(link.id, index, number) for link in links),
+                *(self._swing(v.name, v.swing, parent, number) for v, parent in swinging if v.swing is not None),
+            ],
             "joints": [self._joint(joint, number) for joint in joints],
             "stages": [[number[name] for name in stage if name in free] for stage in opening_stages(self._object)],
             "items": items,
@@ -201,6 +207,13 @@ class _Packer:
             "joint": None if joint is None else number.get(joint.id),
         }
 
+    def _swing(self, name: str, swing: Swing, parent: int, number: dict[str, int]) -> Table:
+        """Returns a piece that turns on its own pin as a row among the links: `swing` has its joint, line and table."""
+        joint = number[self._object.joint_of[swing.moving].id]
+        table = {"joint": joint, "axis": _line(swing.axis)}
+        table |= {"values": swing.values.tolist(), "angles": swing.angles.tolist()}
+        return {"id": name, "parent": parent, "joint": None, "swing": table}
+
     def _joint(self, joint: Joint, number: dict[str, int]) -> Table:
         record = next((r for r in self._report.joints if r.id == joint.id), None)
         return {
@@ -212,6 +225,7 @@ class _Packer:
             "initial": None if record is None else [record.initial_axis.origin, record.initial_axis.direction],
             "lower": joint.limits.lower,
             "upper": joint.limits.upper,
+            "slip": None if joint.slip is None else [joint.slip.values.tolist(), joint.slip.shifts.tolist()],
             "after": [number[self._leader(other)] for other in joint.after],
             "coupling": None
             if joint.coupling is None

@@ -38,7 +38,8 @@ def added(report: Report) -> list[str]:
     rails = sum(joint.count for joint in report.joints) - hinges
     boxes = {part.link for part in report.added if part.style == DeficiencyKind.DRAWER_BOX}
     kinds = Counter(part.category for part in report.added if part.style != DeficiencyKind.DRAWER_BOX)
-    counts = [(hinges, "hinge"), (rails, "rail"), *((count, kind.value) for kind, count in kinds.items())]
+    hardware = [(hinges, "hinge"), (rails, "rail"), (sum(joint.stays for joint in report.joints), "stay")]
+    counts = [*hardware, *((count, kind.value) for kind, count in kinds.items())]
     return [counted(count, what) for count, what in (*counts, (len(boxes), DeficiencyKind.DRAWER_BOX.value)) if count]
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from grafu.articulation.kinematics import link_poses
+from grafu.articulation.kinematics import link_poses, with_coupled
 from grafu.export.blend.mesh_arrays import mesh_arrays
 from grafu.geometry.transform import transform_points
 
@@ -26,9 +26,11 @@ def posed_triangles(found, poses, name):
 
 def assert_posed(found, poses, articulated, values):
     """Every part stands where the joints' own arithmetic puts it; that its faces are the input's is shown elsewhere."""
-    motions = link_poses(articulated, values)
+    motions, values = link_poses(articulated, values, shown=True), with_coupled(articulated, values)
     for link in articulated.links:
         for visual in link.visuals:
-            arrays = mesh_arrays(visual, np.zeros(3))
-            expected = transform_points(motions[link.id], arrays.vertices)[arrays.faces]
+            arrays, T = mesh_arrays(visual, np.zeros(3)), motions[link.id]
+            if visual.swing is not None:
+                T = T @ visual.swing.motion(values.get(articulated.joint_of[visual.swing.moving].id, 0.0))
+            expected = transform_points(T, arrays.vertices)[arrays.faces]
             assert np.allclose(posed_triangles(found, poses, visual.name), expected, rtol=0.0, atol=NEAR), visual.name

@@ -3,9 +3,11 @@ from io import BytesIO
 from pathlib import Path
 from zipfile import ZIP_STORED, ZipFile
 
+import lids_and_flaps
 import numpy as np
 import pytest
 from small_cabinet import board, make_cabinet, painted_cube, png
+from test_swings import with_bar
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.articulation.kinematics import link_origins, link_poses
@@ -179,6 +181,29 @@ def test_limits_are_degrees_or_metres_and_drives_only_damp(stage, cabinet):
         friction = joint.GetPrim().GetAttribute(f"physxJointAxis:{instance}:staticFrictionEffort").Get()
         assert friction == pytest.approx(dynamics.friction)
     assert [str(p) for p in rail.GetPrim().GetRelationship("grafu:after").GetTargets()] == [str(hinge.GetPath())]
+
+
+def test_the_drive_of_a_heavy_lid_is_a_spring_that_balances_it_at_rest(tmp_path):
+    chest = lids_and_flaps.chest()
+    stage, spring = (
+        opened(export_usd(chest), tmp_path / "chest"),
+        physics_of(chest).dynamics["lid"].counterbalance.spring,
+    )
+    prim = stage.GetPrimAtPath("/made/joints/lid")
+    drive = UsdPhysics.DriveAPI(prim, "angular")
+
+    torque = drive.GetStiffnessAttr().Get() * drive.GetTargetPositionAttr().Get()
+
+    assert torque == pytest.approx(spring.stiffness * spring.target, rel=1e-5)
+    assert drive.GetTargetPositionAttr().Get() > 45
+    assert prim.GetAttribute("physxJointAxis:angular:staticFrictionEffort").Get() == pytest.approx(spring.friction)
+    require_valid(stage)
+
+
+def test_hardware_that_turns_on_its_own_pin_is_left_out(tmp_path):
+    stage = opened(export_usd(with_bar("lid")), tmp_path / "swings")
+
+    assert not any("hinge_lid_bar" in str(prim.GetPath()) for prim in stage.Traverse())
 
 
 def test_the_scene_says_its_units_and_its_one_prim(stage):

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from grafu.articulation.articulated_object import Coupling, Joint, JointLimits
+from grafu.articulation.swing import Swing
 from grafu.export.blend.layout import (
     AFTER,
     CHILD,
@@ -25,11 +26,12 @@ from grafu.export.blend.layout import (
     Key,
     Kind,
 )
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import Scalars, Vec3
 
 Empty = Any
 """A `bpy.types.Object`; Blender's own types are made when it runs."""
 _PATH = f'["{OPEN}"]'
+_OPENING = "lower_value + (upper_value - lower_value) * clamp(open_value)"
 
 
 def describe_joint(empty: Empty, joint: Joint) -> None:
@@ -81,6 +83,21 @@ def drive_link(link: Empty, empty: Empty, joint: Joint) -> None:
         _drive(link, ("rotation_axis_angle", 0), empty, joint.kind.turn)
     for index in np.flatnonzero(joint.kind.shift * joint.axis.direction):
         _drive(link, ("location", int(index)), empty, joint.kind.shift * direction[index])
+    if joint.slip is not None and not joint.kind.shift:
+        for index in np.flatnonzero(np.abs(joint.slip.shifts).max(axis=0)):
+            table = joint.slip.values, joint.slip.shifts[:, index]
+            _drive_by_table(link, ("location", int(index)), empty, table)
+
+
+def drive_swing(made: Empty, swing: Swing, empty: Empty, origin: Vec3) -> None:
+    """Lets a joint's empty drive a piece that turns on its own pin, which stands at `origin` in its link's frame.
+
+    The curve of the driver is the table of angles by the joint's value: no Python runs.
+    """
+    made.location = [float(v) for v in origin]
+    made.rotation_mode = "AXIS_ANGLE"
+    made.rotation_axis_angle = (0.0, *(float(v) for v in swing.axis.direction))
+    _drive_by_table(made, ("rotation_axis_angle", 0), empty, (swing.values, swing.angles))
 
 
 def key_joint(empty: Empty, keys: tuple[Key, ...]) -> None:
@@ -155,11 +172,26 @@ def _curves(data: Any) -> list[Any]:
 
 def _drive(link: Empty, channel: tuple[str, int], empty: Empty, factor: float) -> None:
     driver = link.driver_add(*channel).driver
+    _read_opening(driver, empty)
+    driver.expression = _OPENING if factor == 1.0 else f"({_OPENING}) * {factor!r}"
+
+
+def _drive_by_table(made: Empty, channel: tuple[str, int], empty: Empty, table: tuple[Scalars, Scalars]) -> None:
+    """Lets a joint's value drive a channel through the curve of its driver: `table` has values, and what they give."""
+    curve = made.driver_add(*channel)
+    for modifier in list(curve.modifiers):
+        curve.modifiers.remove(modifier)
+    for value, given in zip(*table, strict=True):
+        curve.keyframe_points.insert(float(value), float(given)).interpolation = "LINEAR"
+    _read_opening(curve.driver, empty)
+
+
+def _read_opening(driver: Any, empty: Empty) -> None:
+    """Lets a driver compute the value of a joint from the properties of its empty."""
     driver.type = "SCRIPTED"
     for name in (LOWER, UPPER, OPEN):
         _read(driver, empty, name)
-    opening = "lower_value + (upper_value - lower_value) * clamp(open_value)"
-    driver.expression = opening if factor == 1.0 else f"({opening}) * {factor!r}"
+    driver.expression = _OPENING
 
 
 def _read(driver: Any, empty: Empty, name: str) -> None:

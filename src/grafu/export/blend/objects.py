@@ -14,7 +14,14 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.articulation.kinematics import link_origins
-from grafu.export.blend.joints import couple_joint, describe_joint, drive_link, key_joint, turn_to_axis
+from grafu.export.blend.joints import (
+    couple_joint,
+    describe_joint,
+    drive_link,
+    drive_swing,
+    key_joint,
+    turn_to_axis,
+)
 from grafu.export.blend.layout import (
     COLLECTION_OF_ROLE,
     COLOR_LAYER,
@@ -32,6 +39,7 @@ from grafu.export.blend.layout import (
 )
 from grafu.export.blend.materials import BlenderMaterials
 from grafu.export.blend.mesh_arrays import BlendMaterial, MeshArrays, mesh_arrays
+from grafu.geometry.arrays import Vec3
 
 _ARROW_RATIO = 0.15  # of the largest side: seen beside a door, and no longer than it
 _MARK_RATIO = 0.03
@@ -146,7 +154,7 @@ class _Builder:
         self._object = articulated
         self._origins = link_origins(articulated)
         self._arrays = {
-            (link.id, visual.name): mesh_arrays(visual, self._origins[link.id])
+            (link.id, visual.name): mesh_arrays(visual, self._stands(visual, link.id))
             for link in articulated.links
             for visual in link.visuals
         }
@@ -164,10 +172,25 @@ class _Builder:
             self._add_link(link)
             for visual in link.visuals:
                 self._add_visual(visual, link.id)
+        self._drive_swings()
         for joint in self._object.moving_joints:
             if joint.coupling is not None:
                 couple_joint(self._built.joints[joint.id], self._built.joints[joint.coupling.leader], joint.coupling)
         return self._built
+
+    def _stands(self, visual: Visual, link: str) -> Vec3:
+        """Returns where the frame of a mesh stands, object frame: that of its link, or on the pin that it turns on."""
+        on_pin = visual.swing and visual.swing.axis.closest_point(visual.mesh.box.center)
+        return self._origins[link] if on_pin is None else on_pin
+
+    def _drive_swings(self) -> None:
+        """Lets what turns on its own pin do so: all joints have their empties by now."""
+        for link in self._object.links:
+            for visual in link.visuals:
+                if visual.swing is not None:
+                    holder = self._built.joints[self._object.joint_of[visual.swing.moving].id]
+                    offset = self._stands(visual, link.id) - self._origins[link.id]
+                    drive_swing(self._built.visuals[visual.name], visual.swing, holder, offset)
 
     def _add_link(self, link: Link) -> None:
         joint = self._object.joint_of.get(link.id)

@@ -84,7 +84,7 @@ class _StageBuilder:
         UsdPhysics.RigidBodyAPI.Apply(prim)
         _add_mass(prim, self._physics.masses[link.id], origin)
         visuals, siblings = UsdGeom.Xform.Define(self._stage, path.AppendChild("visuals")).GetPath(), Siblings()
-        for visual in link.visuals:
+        for visual in link.rigid_visuals:
             if len(visual.mesh.faces):
                 self._add_visual(visuals.AppendChild(siblings.unique(visual.name)), visual, origin)
         collisions = UsdGeom.Xform.Define(self._stage, path.AppendChild("collisions"))
@@ -154,22 +154,28 @@ class _StageBuilder:
             prim.CreateAttribute(f"physxMimicJoint:{name}:{key}", Sdf.ValueTypeNames.Float, False).Set(value)
 
     def _add_resistance(self, prim: Usd.Prim, dynamics: JointDynamics, kind: MotionKind) -> None:
-        """Adds a drive that only damps, and what PhysX knows beside it; with stiffness it becomes a servo."""
+        """Adds a drive that only damps, and what PhysX knows beside it; with stiffness it becomes a servo.
+
+        The drive of a joint that a spring carries is that spring.
+        """
         instance = kind.word("usd drive")
+        spring = dynamics.counterbalance.spring if dynamics.counterbalance else None
+        stiffness, target = (spring.stiffness, spring.target) if spring else (0.0, 0.0)
+        friction = spring.friction if spring else dynamics.friction
         drive = UsdPhysics.DriveAPI.Apply(prim, instance)
         drive.CreateTypeAttr(UsdPhysics.Tokens.force)
-        drive.CreateStiffnessAttr(0.0)
+        drive.CreateStiffnessAttr(kind.from_degrees(stiffness))  # for each degree
         drive.CreateDampingAttr(kind.from_degrees(dynamics.damping))  # for each degree per second
         drive.CreateMaxForceAttr(dynamics.effort)
-        drive.CreateTargetPositionAttr(0.0)
+        drive.CreateTargetPositionAttr(kind.in_degrees(target))
         drive.CreateTargetVelocityAttr(0.0)
         if not self._config.physx:
             return
         prim.AddAppliedSchema(f"PhysxJointAxisAPI:{instance}")
         inertia = dynamics.damping * self._config.physics.dynamics.settling
         values = {
-            "staticFrictionEffort": dynamics.friction,
-            "dynamicFrictionEffort": dynamics.friction,
+            "staticFrictionEffort": friction,
+            "dynamicFrictionEffort": friction,
             "maxJointVelocity": kind.in_degrees(dynamics.velocity),
             "armature": self._config.armature * inertia,
         }

@@ -20,6 +20,7 @@ from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.survey import BorderSurvey
 from grafu.joints.hinge_config import HingeConfig, PinConfig
@@ -40,7 +41,7 @@ class PinCandidate:
     of the barrel, for which the pin's place is right; `preference`
     orders classes (lower is better: C, F, P as in the paper, then pivots, then makeshift mounts). `inset` states that
     the static leaf is carried on through the seam into what stands behind the door; `is_pivot` that discs at its ends
-    carry the door.
+    carry the door, `is_concealed` that cup hinges do.
     """
 
     mechanism: MechanismClass
@@ -52,6 +53,7 @@ class PinCandidate:
     preference: int
     inset: bool = False
     is_pivot: bool = False
+    is_concealed: bool = False
 
 
 @final
@@ -191,6 +193,19 @@ def makeshift_pins(frame: BorderFrame, tol: Tolerances, config: PinConfig) -> It
     for x in (-tol.radius, -step - tol.radius):
         for y in (-frame.thickness, -frame.thickness - step, -frame.thickness / 2):
             yield PinCandidate(MechanismClass.F, pi / 2, x, y, room, tol.radius, MAKESHIFT + 1)
+
+
+def concealed_pins(frame: BorderFrame, config: ConcealedConfig) -> list[PinCandidate]:
+    """Returns the axes for a door on concealed hinges, nearest to the linkage's motion first; none for a small door."""
+    if frame.thickness < config.thinnest or frame.width < config.narrowest or frame.length < config.shortest:
+        return []
+    (x, depth), radius = config.axis, config.axis[1]
+    return [
+        PinCandidate(
+            MechanismClass.P, 0.0, ratio * x, -ratio * depth, frame.width, radius, MAKESHIFT, is_concealed=True
+        )
+        for ratio in config.nearer
+    ]
 
 
 @final

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import final
 
-from grafu.articulation.articulated_object import Visual
 from grafu.joints.hinge.bracket import bracketed_ends
 from grafu.joints.hinge.candidates import (
     PIVOTS,
@@ -22,6 +21,7 @@ from grafu.joints.hinge.candidates import (
     is_leaf,
     turns_about_itself,
 )
+from grafu.joints.hinge.concealed import place_concealed
 from grafu.joints.hinge.hardware import (
     FLAWS,
     FLOOR,
@@ -33,12 +33,12 @@ from grafu.joints.hinge.hardware import (
     judged_hinge,
     resting_leaf,
 )
+from grafu.joints.hinge.judged import JudgedPin
 from grafu.joints.hinge.pivot import is_on_mount, pivot_ends, with_both_ends, with_flaw
-from grafu.joints.hinge.search import DoorSearch, JudgedPin
-from grafu.joints.limits import in_the_way
-from grafu.joints.plan import PIVOT
+from grafu.joints.hinge.search import DoorSearch
+from grafu.joints.hinge.sites import placement_of, site_of
+from grafu.joints.plan import AUTOMATIC, CUP, PIVOT
 from grafu.joints.report import Placement
-from grafu.joints.support_block import nearest_part
 from grafu.templates.template import Gallery, HingeModel, HingeSize
 
 _ENOUGH = 5  # once this many makeshift pins have been tried with hardware, more will not help
@@ -60,7 +60,23 @@ class _Try:
 
 
 def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
-    """Returns the best placement that works, with fewer hinges where all find no room; None where no pin holds any."""
+    """Returns the best placement that works, with fewer hinges where all find no room; None where no pin holds any.
+
+    Concealed hinges are taken where they are chosen, first where they are preferred, and else where nothing else holds.
+    """
+    choice = search.request.choice
+    if choice.template == CUP:
+        return place_concealed(search, gallery)
+    is_upright = abs(float(search.frame.rotation[2, 2])) > search.config.upright
+    is_left = is_upright and choice.takes(CUP) and choice.mechanism is None
+    is_first = is_left and search.config.hinge.preferred == CUP
+    found = (place_concealed(search, gallery) if is_first else None) or _visible(search, gallery)
+    is_last = is_upright and choice == AUTOMATIC and not is_first
+    return found or (place_concealed(search, gallery) if is_last else None)
+
+
+def _visible(search: DoorSearch, gallery: Gallery) -> Placement | None:
+    """Returns the best placement on hinges of a class, or pivots."""
     least = search.count if search.request.choice.count else min(search.count, _FEWEST)
     placements = (_placed(search, gallery, count) for count in range(search.count, least - 1, -1))
     return next((placement for placement in placements if placement is not None), None)
@@ -164,7 +180,7 @@ def _with_hardware(judged: JudgedPin, search: DoorSearch, gallery: Gallery, coun
         upper = search.widest(judged.axis, min(model.build(size).range, search.most))
         if upper < search.config.least_opening * search.wanted:
             return
-        attempt = partial(_attempted, model, judged, _site(judged, upper, search), count, search)
+        attempt = partial(_attempted, model, judged, site_of(judged, upper, search), count, search)
         placement = attempt(is_whole=False)
         if placement is not None:
             yield _Try(placement, cache(partial(attempt, is_whole=True)))
@@ -175,7 +191,7 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
     upper = search.widest(judged.axis, search.most)
     if upper < search.config.least_opening * search.wanted:
         return
-    site = _site(judged, upper, search)
+    site = site_of(judged, upper, search)
     door = search.scene.parts[search.request.moving].mesh
     at, is_leaf = (search.frame, judged.pin, door, search.carriers), search.request.on_pivots
     ends = bracketed_ends(*at, search.scene.floor, search.config) if is_leaf else pivot_ends(*at, search.config)
@@ -188,32 +204,8 @@ def _with_pivots(judged: JudgedPin, search: DoorSearch) -> Iterator[_Try]:
     ]
     if held:
         free = [hinge for hinge in held if not {*hinge.struck_by} - FLAWS] or held
-        placement = _placement(judged, PIVOT, upper, free if is_spindle else with_both_ends(free), search)
+        placement = placement_of(judged, PIVOT, upper, free if is_spindle else with_both_ends(free), search)
         yield _Try(placement, lambda: placement)
-
-
-def _site(judged: JudgedPin, upper: float, search: DoorSearch) -> HingeSite:
-    box = search.scene.parts[search.request.moving].box
-    extent, mount = search.scene.extent, search.request.choice.mount
-    return HingeSite(
-        moving=search.request.moving,
-        frame=search.frame,
-        door=search.scene.moving_mesh(search.request.moving),
-        door_body=search.body,
-        scene=search.scene,
-        static_rays=search.static_rays,
-        door_rays=search.door_rays,
-        obstacles=tuple(in_the_way(search.obstacles, box.grown(search.config.hinge.around * extent))),
-        neighbours=search.bodies_around,
-        motion=cache(judged.axis.rotation),
-        upper=upper,
-        depth=search.depth,
-        anchor=search.config.anchor,
-        reach=search.config.chosen_reach if mount else search.config.hinge_bridge,
-        config=search.config.hinge,
-        block=search.config.block,
-        holders=search.request.holders,
-    )
 
 
 def _attempted(
@@ -227,7 +219,7 @@ def _attempted(
         hinges.append(hinge)
         if hinge.struck_by and not is_whole:
             break
-    return _placement(judged, model.id, site.upper, hinges, search) if hinges else None
+    return placement_of(judged, model.id, site.upper, hinges, search) if hinges else None
 
 
 def _installed(
@@ -271,29 +263,3 @@ def _first_unstruck(hinges: Iterator[tuple[float, InstalledHinge]]) -> tuple[flo
         if len(few) == _STRUCK or FLOOR in hinge.struck_by:
             break
     return few[0] if few else None
-
-
-def _placement(
-    judged: JudgedPin, template: str, upper: float, hinges: list[InstalledHinge], search: DoorSearch
-) -> Placement:
-    part = search.request.moving
-    static = [_named(v, part, k) for k, hinge in enumerate(hinges) for v in hinge.static]
-    dynamic = [_named(v, part, k) for k, hinge in enumerate(hinges) for v in hinge.dynamic]
-    return Placement(
-        axis=judged.axis,
-        upper=upper,
-        mechanism=judged.pin.mechanism,
-        template=template,
-        mount=search.request.choice.mount or nearest_part(static[0], search.scene, search.request, search.config.block),
-        count=len(hinges),
-        dynamic=tuple(dynamic),
-        static=tuple(static),
-        in_way=judged.neighbours,
-        struck_by=tuple(sorted({name for hinge in hinges for name in hinge.struck_by})),
-    )
-
-
-def _named(visual: Visual, part: str, index: int) -> Visual:
-    """Returns the visual under a name that is unique in the object: kind, part, index, end."""
-    kind, _, end = visual.name.partition("_")
-    return replace(visual, name=f"{kind}_{part}_{index}_{end}")

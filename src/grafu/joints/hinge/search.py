@@ -19,6 +19,7 @@ from grafu.joints.hinge.candidates import (
     PinCandidate,
     Tolerances,
     barrel_radius,
+    concealed_pins,
     fold_pin,
     hinge_count,
     makeshift_pins,
@@ -27,29 +28,12 @@ from grafu.joints.hinge.candidates import (
     turns_about_itself,
 )
 from grafu.joints.hinge.hardware import Neighbour, neighbours_of
+from grafu.joints.hinge.judged import JudgedPin
 from grafu.joints.hinge.survey import BorderSurvey, survey
 from grafu.joints.limits import all_blockers, free_opening, in_the_way, sweep, swept_box, widest_above, widest_free
-from grafu.joints.plan import PIVOT, JointRequest
+from grafu.joints.plan import CUP, PIVOT, JointRequest
 from grafu.scene.border import BorderFrame, border_frame, part_axes, without_handle
 from grafu.scene.scene import Obstacle, Scene
-
-
-@final
-@dataclass(frozen=True)
-class JudgedPin:
-    """A pin with what the sweep of the door without hardware states about it; lower ranks are better.
-
-    `free` is the opening before the door runs into the static body or the floor; `neighbours` are the moving bodies
-    that it meets at rest; `is_clear` states that the door opens about it as wanted, or nearly so, past everything. The
-    floor counts in `rank` and `is_clear` only where it leaves the opening restricted.
-    """
-
-    pin: PinCandidate
-    axis: Axis
-    free: float
-    neighbours: tuple[str, ...]
-    rank: tuple[float, int, int, float]
-    is_clear: bool
 
 
 @final
@@ -142,8 +126,8 @@ class DoorSearch:
 
     @property
     def has_pins(self) -> bool:
-        """Whether any pin is left to try; a choice can leave none."""
-        return next(self.in_order(), None) is not None
+        """Whether any pin is left to try."""
+        return any(True for _ in self.in_order())
 
     @cached_property
     def _allowed(self) -> list[PinCandidate]:
@@ -180,7 +164,15 @@ class DoorSearch:
 
     def in_order(self) -> Iterator[JudgedPin]:
         """Yields all pins that the request's choice leaves, in the order of `_all_in_order`."""
+        if self.request.choice.template == CUP:
+            return iter(self.concealed)
         return (judged for judged in self._all_in_order() if self._is_left(judged.pin))
+
+    @cached_property
+    def concealed(self) -> list[JudgedPin]:
+        """The axes of a door on concealed hinges, nearest to its true motion first."""
+        pins = concealed_pins(self.frame, self.config.hinge.concealed)
+        return [] if self.request.coupling or self.request.parent else [self._judge(pin) for pin in pins]
 
     def _is_left(self, pin: PinCandidate) -> bool:
         choice = self.request.choice

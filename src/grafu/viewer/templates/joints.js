@@ -1,6 +1,13 @@
 // Joint values and the motion that they give every link; a joint behind a door waits until that is open, and a coupled
 // joint follows its leader.
 
+// Returns between which two of increasing values one lies, by their places, and what fraction of the way.
+const between = (values, value) => {
+  const kept = clamp(value, values[0], values[values.length - 1]);
+  const after = Math.max(1, values.findIndex((one) => one >= kept)), before = after - 1;
+  return [before, after, (kept - values[before]) / (values[after] - values[before])];
+};
+
 class Joints {
   constructor(scene) {
     this.joints = scene.joints;
@@ -62,15 +69,25 @@ class Joints {
     const poses = [];
     for (const link of this.links) {
       const above = link.parent === null ? IDENTITY : poses[link.parent];
-      poses.push(link.joint === null ? above : product(above, this.motion(link.joint)));
+      const own = link.swing ? this.swing(link.swing) : link.joint === null ? IDENTITY : this.motion(link.joint);
+      poses.push(product(above, own));
     }
     return poses;
   }
 
+  // Returns the turn of a piece on its own pin: angles are tabled by values of a joint.
+  swing({ joint, axis, values, angles }) {
+    const [before, after, part] = between(values, this.values[joint]);
+    return turn(axis[0], axis[1], angles[before] + part * (angles[after] - angles[before]));
+  }
+
   motion(index) {
-    const { motion: [turned, shifted], axis } = this.joints[index], value = this.values[index];
+    const { motion: [turned, shifted], axis, slip } = this.joints[index], value = this.values[index];
     const about = turned ? turn(axis[0], axis[1], turned * value) : IDENTITY;
-    return shifted ? product(shift(times(axis[1], shifted * value)), about) : about;
+    const moved = shifted ? product(shift(times(axis[1], shifted * value)), about) : about;
+    if (!slip) return moved;
+    const [values, shifts] = slip, [before, after, part] = between(values, value);
+    return product(shift(add(times(shifts[before], 1 - part), times(shifts[after], part))), moved);
   }
 
   // Moves all joints, stage after stage, to open (true) or closed; `again` is called when that is done.
