@@ -41,7 +41,7 @@ from grafu.templates.template import (
     RailSize,
     RailTemplate,
 )
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 Template = HingeTemplate | RailTemplate
 Model = HingeModel | RailModel | ConcealedModel
@@ -97,7 +97,7 @@ def concealed_as_articulated(model: ConcealedModel) -> ArticulatedObject:
     )
     links = (Link("static", (visuals[0], *arms)), Link("dynamic", (visuals[1],)))
     limits, slip = JointLimits(0.0, model.range), Slip(hinge.angles, slips)
-    joint = Joint(f"{model.id}_joint", JointType.REVOLUTE, "static", "dynamic", axis, limits, slip=slip)
+    joint = Joint(f"{model.id}_joint", HingeTemplate.joint_type, "static", "dynamic", axis, limits, slip=slip)
     return ArticulatedObject(model.id, "static", links, (joint,))
 
 
