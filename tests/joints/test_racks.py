@@ -40,6 +40,7 @@ def basket(name="basket", low=0.3, x=(0.025, 0.575), label=PartLabel.SHELF):
     wires = [box("w", (at, 0.03, low), (at + 0.004, 0.5, low + 0.004)) for at in (x[0], 0.15, 0.3, 0.45, x[1] - 0.004)]
     for z in (low, low + 0.1):
         wires += [box("w", (x[0], y, z), (x[1], y + 0.004, z + 0.004)) for y in (0.03, 0.2, 0.35, 0.496)]
+    wires += [box("w", (at, y, low), (at + 0.004, y + 0.004, low + 0.104)) for at in x[:1] for y in (0.03, 0.496)]
     surfaces = tuple(surface for wire in wires for surface in wire.surfaces)
     return replace(box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=surfaces, label=label)
 
@@ -85,7 +86,17 @@ def test_the_wires_of_a_rack_in_several_parts_slide_as_one():
     assert {name, *found.attached} == {part.id for part in (*wires, *rails)}
 
 
+def supports(*heights):
+    """A flat grid with rows of supports at both sides, in one part: only the grid would slide."""
+    grid = [box("w", (x, 0.03, 0.3), (x + 0.004, 0.5, 0.304)) for x in (0.03, 0.3, 0.566)]
+    grid += [box("w", (0.03, y, 0.3), (0.57, y + 0.004, 0.304)) for y in (0.03, 0.496)]
+    rows = [box("w", (x, 0.03, z), (x + 0.004, 0.5, z + 0.004)) for z in heights for x in (0.026, 0.57)]
+    surfaces = tuple(surface for wire in (*grid, *rows) for surface in wire.surfaces)
+    return replace(box("rack", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=surfaces)
+
+
 NO_RACKS = {
+    "a grid in its supports": (supports(0.2, 0.3, 0.4, 0.5),),
     "a plate": (box("shelf", (0.03, 0.03, 0.3), (0.57, 0.5, 0.31)),),
     "a basket that is narrow": (basket(x=(0.2, 0.46)),),
     "nothing": (),

@@ -11,6 +11,7 @@ from grafu.geometry.transform import from_rotation
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
 from grafu.joints.plan import JointRequest
+from grafu.joints.racks import SOURCE as SHOWN
 from grafu.joints.racks import is_grid
 from grafu.joints.rail.body_region import is_shallow
 from grafu.joints.rail.search import DrawerSearch, slides_in_its_plane
@@ -66,8 +67,8 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     is_board = slides_in_its_plane(part.mesh, frame.slide, config.drawer)
     if is_board and part.label is PartLabel.DOOR:
         return _sliding_door(search)
-    grid = is_grid(search.scene.moving_mesh(part.id))
-    if grid:
+    is_stated = part.label.is_movable or search.request.source == SHOWN  # a guess alone makes no grid a rack
+    if is_stated and is_grid(search.scene.moving_mesh(part.id)):
         return _rack(search)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
     if is_board or not _is_sure(search):

@@ -9,9 +9,11 @@ from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.touching import near_pairs
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.joints.plan import JointRequest, RealizationPlan
@@ -34,7 +36,7 @@ class RackConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("clear",)
+    LENGTHS = ("clear", "touching")
     level: float = 0.9
     """From this cosine on to the horizontal a door's axis is level."""
     lower: float = 0.25
@@ -45,14 +47,18 @@ class RackConfig:
     """Least width of a rack (fraction of the door's)."""
     deep: float = 0.4
     """Least depth of a rack (fraction of the depth of the whole)."""
+    touching: float = 0.002
+    """Wires this near to one another touch (metres)."""
+    whole: float = 0.8
+    """Least height of what touches (fraction of the rack's): rows of supports above one another are no basket."""
     flat: float = 0.05
     """Greatest height of a flat grid (fraction of its shorter other side)."""
     covered: float = 0.6
     """What of its outline a grid covers at most, seen from above and, unless it is flat, from its sides (fraction)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "clear")
-        require_ratios(self, "level", "lower", "wide", "deep", "flat", "covered")
+        require_positive(self, "clear", "touching")
+        require_ratios(self, "level", "lower", "wide", "deep", "flat", "covered", "whole")
 
 
 def with_racks(
@@ -108,12 +114,25 @@ def _racks(
         box = Box.enclosing(part.box for part in parts)
         wide = box.size[0] >= config.wide * door.size[0]
         deep = box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
-        if wide and deep and is_grid(merge_meshes([part.mesh for part in parts]), config):
+        mesh = merge_meshes([part.mesh for part in parts])
+        if wide and deep and is_grid(mesh, config) and _hangs_together(mesh, config):
             largest = max(parts, key=lambda part: float(np.prod(np.sort(part.box.size)[1:])))
             others = tuple(part.id for part in parts if part is not largest)
             axis = Axis(box.center, _OUT)
             found.append(JointRequest(largest.id, Slide.joint_type, axis, SOURCE, attached=others))
     return found
+
+
+def _hangs_together(mesh: TriangleMesh, config: RackConfig) -> bool:
+    """Whether the shells of a rack that touch one another have nearly its whole height: no supports are drawn in it."""
+    number = shell_numbers(mesh)
+    boxes = [Box.around(mesh.triangles[number == k].reshape(-1, 3)) for k in range(int(number.max()) + 1)]
+    touching: dict[str, list[str]] = {str(k): [] for k in range(len(boxes))}
+    for i, j in near_pairs(boxes, config.touching):
+        touching[str(i)].append(str(j))
+        touching[str(j)].append(str(i))
+    groups = (Box.enclosing(boxes[int(k)] for k in group) for group in joined_groups(touching))
+    return bool(max(float(box.size[_UP]) for box in groups) >= config.whole * mesh.box.size[_UP])
 
 
 def _is_behind(box: Box, door: Box, config: RackConfig) -> bool:
