@@ -113,9 +113,10 @@ class DoorSearch:
         """The axis of the first hinge class about which the door, without hardware, is free; else the requested one."""
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             return self.request.axis
-        first = (other for other in self.others if other.pin.is_pivot and other.is_clear)
-        if self.request.on_pivots and (pivot := next(first, None)):
-            return pivot.axis
+        if self.request.on_pivots:
+            pivots = (other.axis for other in self.others if other.pin.is_pivot and other.is_clear)
+            if (axis := next(pivots, None)) is not None:
+                return axis
         judged = (self._judge(pin) for pin in self._allowed)
         return next((j.axis for j in judged if j.is_clear), self.request.axis)
 
@@ -190,8 +191,10 @@ class DoorSearch:
         first = [judged for judged in (*self.ruled, *slim) if judged.is_clear and judged.pin.preference < PIVOTS]
         if turns_about_itself(self.frame, self.request.axis, self.config.hinge):
             first = [judged for judged in self.others if judged.pin.is_pivot]
+        if not self.request.on_pivots:
+            yield from first  # most doors need no others
         pivots = [judged for judged in self.others if judged.is_clear and judged.pin.is_pivot and judged not in first]
-        yield from (*pivots, *first) if self.request.on_pivots else (*first, *pivots)
+        yield from (*pivots, *first) if self.request.on_pivots else pivots
         rest = (j for j in (*self.ruled, *self.slim, *self.others) if j not in first and j not in pivots)
         yield from sorted(rest, key=lambda j: j.rank)
 
