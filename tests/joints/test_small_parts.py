@@ -326,11 +326,14 @@ def files(tmp_path_factory):
     return made, folder
 
 
-def test_urdf_and_mjcf_state_no_limits(files):
+def test_urdf_and_mjcf_limit_no_joint_that_turns_on(files):
     _, folder = files
     joints = yourdfpy.URDF.load(str(folder / "export_urdf" / "model.urdf")).joint_map
     assert joints["handle_joint"].type == "continuous"
-    assert joints["handle_joint"].limit.lower is None
+    limit = joints["handle_joint"].limit
+    assert (limit.lower, limit.upper) == (0.0, pytest.approx(2 * pi))  # one turn, for readers that ask for limits
+    as_urdf = mujoco.MjModel.from_xml_path(str(folder / "export_urdf" / "model.urdf"))
+    assert not as_urdf.jnt_limited[as_urdf.joint("handle_joint").id]
     model = mujoco.MjModel.from_xml_path(str(folder / "export_mjcf" / "model.xml"))
     limited = {model.joint(k).name: bool(model.jnt_limited[k]) for k in range(model.njnt)}
     assert (limited["handle_joint"], limited["door_joint"]) == (False, True)

@@ -94,7 +94,7 @@ class _UrdfWriter:
 
 
 def _add_dynamics(element: ET.Element, joint: Joint, dynamics: JointDynamics) -> None:
-    limits = {"lower": joint.limits.lower, "upper": joint.limits.upper} if joint.kind.limited else {}
+    limits = {"lower": joint.limits.lower, "upper": joint.limits.upper}  # ignored of continuous joints, but often read
     limits |= {"effort": dynamics.effort, "velocity": dynamics.velocity}
     ET.SubElement(element, "limit", {key: number(value) for key, value in limits.items()})
     resistance = {"damping": number(dynamics.damping), "friction": number(dynamics.friction)}
