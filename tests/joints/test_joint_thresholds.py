@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from grafu.joints.building_doors import BuildingDoorConfig
+from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.concealed_config import ConcealedConfig
-from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
+from grafu.joints.config import BlockConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
 from grafu.joints.fold_config import FoldConfig
@@ -41,11 +42,13 @@ GEOMETRY = "a number of geometry: what folds ends in the plane of the opening"
 CHOICE = "the range of what a user may choose"
 
 REASONS = {
-    "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES},
+    "gaps.py": {"_POSES": SAMPLES, "_TOUCHING": TOLERANCE},
+    "no_hardware.py": {"_DEPTHS": SAMPLES, "_TRAVELS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/make.py": {"_FINELY": EFFORT, "_GAPS": EFFORT, "_STEPS": EFFORT},
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
+    "clearance/separate.py": {"_SAMPLES": SAMPLES},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
@@ -68,7 +71,7 @@ REASONS = {
         "_BETWEEN": SAMPLES,
         "_HALVINGS": SAMPLES,
     },
-    "measuring.py": {"_GAP_POSES": SAMPLES, "_TOUCHING": TOLERANCE, "_MEASURED_POSES": SAMPLES},
+    "measuring.py": {"_MEASURED_POSES": SAMPLES},
     "motion_choice.py": {"_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},

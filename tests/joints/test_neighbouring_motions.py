@@ -50,7 +50,7 @@ def test_fronts_over_one_another_all_open_past_one_another(name, mount):
 def test_the_report_says_which_template_was_left_out_for_whom():
     upper = installed(realized(stacked("flap under a flap", "overlay")))["door_2"]
     assert upper.template == "pivot"
-    assert upper.notes == ("butt or ball_tip or lift_off or piano would stand in the way of door_1",)
+    assert upper.left_out == ("butt or ball_tip or lift_off or piano would stand in the way of door_1",)
 
 
 def test_an_overlay_flap_between_others_hangs_on_plates_beside_its_ends():
@@ -79,7 +79,7 @@ def test_no_hinge_of_a_flap_at_the_floor_reaches_below_it():
     lowest = min(visual.mesh.box.low[2] for link in result.object.links for visual in link.visuals)
 
     assert lowest >= -5e-4
-    assert any("would reach below the floor" in note for note in flap.notes)
+    assert any("would reach below the floor" in note for note in flap.left_out)
 
 
 def test_the_hinges_of_a_short_door_keep_apart():

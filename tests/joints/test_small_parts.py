@@ -385,3 +385,16 @@ def test_a_stated_button_is_pressed_as_far_as_its_range_spans():
     (joint,) = small_joints(made).values()
     assert joint.limits.upper == pytest.approx(0.005)
     assert joint.axis.direction[1] == pytest.approx(1.0)
+
+
+def test_a_stated_knob_that_is_drawn_off_its_panel_turns_and_the_report_states_how_far_off():
+    dial = cylinder("dial", ((0.5, -0.02, 0.3), (0.5, -0.05, 0.3)), 0.02)
+    stated = (
+        AnnotatedJoint("dial", JointType.CONTINUOUS, Axis(vec3(0.5, 0.0, 0.3), vec3(0.0, -1.0, 0.0)), 0.0, 2 * pi),
+    )
+    asset = replace(scene(*CASE, DOOR, PANEL, dial, joints=(hinged(),)), small_joints=stated)
+    report = report_of(made_of(asset, source=MotionSource.ANNOTATION))
+    (record,) = [record for record in report.joints if record.small]
+    assert record.largest_gap == pytest.approx(0.0, abs=1e-5)
+    assert record.notes == ("it is drawn 0.020 m off what carries it",)
+    assert [line.part for line in report.verdict.lines if line.why in record.notes] == ["dial"]

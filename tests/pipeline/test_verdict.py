@@ -272,3 +272,13 @@ def test_what_the_budget_did_not_hold_is_something_to_look_at():
 
     assert (verdict.colour, [line.kind for line in verdict.lines]) == (Colour.YELLOW, [FaultKind.NOTED])
     assert verdict.sentence == "Works, but check the whole (note)."
+
+
+def test_a_door_that_slides_is_called_a_sliding_door_and_a_hinge_that_was_left_out_is_no_fault():
+    report = sound(0)
+    joint = next(joint for joint in report.joints if joint.type is JointType.REVOLUTE)
+    tried = with_joint(report, joint.part, left_out=("pivot would reach below the floor",))
+    slid = with_joint(tried, joint.part, type=JointType.PRISMATIC)
+
+    assert verdict_of(tried).colour is Colour.GREEN
+    assert "1 sliding door" in verdict_of(slid).sentence

@@ -12,7 +12,7 @@ from typing import final
 
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import motion_kind
-from grafu.asset.body_kinds import is_lever, slides_in_its_plane
+from grafu.asset.body_kinds import is_lever, is_rotor, slides_in_its_plane
 from grafu.asset.drafts import PartDraft
 from grafu.asset.labels import is_control, is_piece, label_of
 from grafu.asset.names import unique_ids, words
@@ -170,11 +170,19 @@ def _is_moving(body: Body, notes: list[str]) -> bool:
     names = [body.name, *(v.name for v in body.visuals)]
     if body.motion is None and _spoken_label(body, body.visuals) is PartLabel.UNKNOWN:
         return False
-    if all(is_control(n) or label_of(n) is PartLabel.HANDLE for n in names) or is_control(body.name):
+    is_small = all(is_control(n) or label_of(n) is PartLabel.HANDLE for n in names) or is_control(body.name)
+    if is_small or _is_rotor(body):
         stays = "kept in place" if body.motion is None else "it is a small part, which moves by itself"
         notes.append(f"{body.name} ({body.link}) is annotated to move, but is no door or drawer: {stays}")
         return False
     return any(label_of(v.name) is not PartLabel.HANDLE for v in body.visuals) or body.parent is None
+
+
+def _is_rotor(body: Body) -> bool:
+    motion = body.motion
+    if motion is None or motion.limited or not motion_kind(motion.type).turns:
+        return False
+    return is_rotor(merge_meshes([s.mesh for v in body.visuals for s in v.surfaces]).box, motion.axis)
 
 
 def _is_lever(body: Body, by_link: Mapping[str, Body], moving_bodies: set[str]) -> bool:

@@ -1,4 +1,4 @@
-"""What a moving body is where no name tells: a sliding door or a drawer, a lever or a door."""
+"""What a moving body is where no name tells: a sliding door or a drawer, a lever, a rotor or a door."""
 
 from dataclasses import dataclass
 from typing import final
@@ -6,6 +6,8 @@ from typing import final
 import numpy as np
 
 from grafu.geometry.arrays import Vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 
 
@@ -23,6 +25,9 @@ class BodyKindConfig:
     lever: float = 0.25
     """Largest side of a handle that turns by itself (fraction of the largest side of what it turns on)."""
 
+    middle: float = 0.1
+    """How far from its middle the axis of what turns without end passes at most (fraction of its largest side)."""
+
     def __post_init__(self) -> None:
         require_ratios(self, *self.__dataclass_fields__)
 
@@ -36,6 +41,18 @@ def is_lever(size: Vec3, whole: Vec3, config: BodyKindConfig = BodyKindConfig())
         config: what is small.
     """
     return float(size.max()) <= config.lever * float(whole.max())
+
+
+def is_rotor(box: Box, axis: Axis, config: BodyKindConfig = BodyKindConfig()) -> bool:
+    """Whether an axis passes through the middle of what turns about it without end: a turntable, a fan, no door.
+
+    Args:
+        box: the box around it.
+        axis: that about which it turns.
+        config: how near to the middle.
+    """
+    off = np.cross(box.center - axis.point, axis.direction)
+    return float(np.linalg.norm(off)) <= config.middle * float(box.size.max())
 
 
 def slides_in_its_plane(size: Vec3, direction: Vec3, up: int, config: BodyKindConfig = BodyKindConfig()) -> bool:

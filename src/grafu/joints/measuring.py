@@ -6,17 +6,16 @@ A joint that cannot be measured within its fraction of the time is not delivered
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import product
 from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import Mat4
 from grafu.geometry.budget import within
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.transform import translation
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
+from grafu.joints.gaps import drawn_poses, gap_between, widest_gap
 from grafu.joints.limits import in_the_way, sweep, swept_box
 from grafu.joints.no_hardware import DRAWN
 from grafu.joints.order import OpeningOrder
@@ -27,8 +26,6 @@ from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 
-_GAP_POSES = 5  # hardware slides or turns along itself: a gap, where there is one, opens steadily
-_TOUCHING = 1e-4  # metres: no narrower gap is measured
 _MEASURED_POSES = 50  # the paper's number of frames from rest to full extent
 
 Figures = tuple[float, float]
@@ -123,20 +120,5 @@ def _measure(
         beside = np.zeros(3) if placement.slip is None else placement.slip.shift(value)
         return gap_between(ends, held, np.asarray(translation(beside) @ motion(value)))
 
-    gaps = [gap_at(float(value)) for value in np.linspace(0.0, upper, _GAP_POSES)]
-    return ratio, max(gaps) - (gaps[0] if placement.template == DRAWN else 0.0)
-
-
-def gap_between(ends: list[MeshCollider], held: list[MeshCollider], T: Mat4) -> float:
-    """Returns the distance in metres of the nearest two pieces, the moving ones posed at T."""
-    for end in ends:
-        end.place(T)
-    nearest = float("inf")
-    pairs = sorted(((one.box_gap(other), k, one, other) for k, (one, other) in enumerate(product(ends, held))))
-    for least, _, one, other in pairs:
-        if least >= nearest:
-            break
-        nearest = min(nearest, one.distance(other))
-        if nearest <= _TOUCHING:
-            break
-    return nearest
+    as_drawn = drawn_poses(request.kind.slides) if placement.template == DRAWN else 0
+    return ratio, widest_gap(gap_at, upper, as_drawn)

@@ -6,8 +6,10 @@ import numpy as np
 
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation
+from grafu.joints.gaps import gap_growth
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
 from grafu.joints.plan import JointRequest
@@ -25,6 +27,7 @@ NO_HARDWARE = "none"
 _NOTE = "no hinge or rail finds room: it moves without hardware"
 DRAWN = "drawn"
 """`Placement.template` of a door on the hinges, or a column in the sleeve, that the input has."""
+_TRAVELS = 6  # of a rack, from its widest down to the least that counts as open
 _DEPTHS = tuple(k / 16 for k in range(17))  # of a door's thickness, from its front: an axis along its border each
 _POSES = 5  # from closed to open in which it must be near what stands around it
 
@@ -83,12 +86,24 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
 def _rack(search: DrawerSearch) -> Placement | None:
     """Returns the joint of a wire basket or a grid, which runs on its own wheels and guides; they are seldom drawn."""
     wanted = min(search.request.reference or search.wanted, search.reach)
-    upper = search.travel(search.reach)
+    upper = _guided_travel(search, search.travel(search.reach))
     if upper < search.config.restricted * wanted or str(search.request.choice):
         return None
     mount = _nearest(search.scene, search.request, search.config.rack_gap * search.scene.extent)
     in_way = search.bodies_in_the_way(upper)
     return _without(search.axis, upper, mount, in_way, DRAWN, ()) if mount else None
+
+
+def _guided_travel(search: DrawerSearch, upper: float) -> float:
+    """Returns how far a rack slides before it leaves what it runs beside; all the way if it does so at once."""
+    scene, moving = search.scene, search.request.moving
+    own = [MeshCollider(scene.moving_mesh(moving))]
+    held = [obstacle.collider for obstacle in scene.static_obstacles_of(search.request.holders)]
+    allowed = search.config.no_hardware_gap * scene.extent
+    for travel in np.linspace(upper, search.config.restricted * upper, _TRAVELS):
+        if gap_growth(own, held, search.motion, float(travel), is_slide=True) <= allowed:
+            return float(travel)
+    return upper
 
 
 def _sliding_door(search: DrawerSearch) -> Placement | None:

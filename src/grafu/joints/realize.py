@@ -154,6 +154,7 @@ def _installed(
         after=joint.after,
         clearances=(*closed.get(request.moving, ()), *built.clearances),
         notes=(*notes, *levels.notes.get(request.moving, ())),
+        left_out=placement.left_out,
         wanted=built.wanted,
     )
 

@@ -16,8 +16,8 @@ class Placement:
     """The hardware of one joint in the object frame at rest: rectified axis, opening (radians or metres), both ends.
 
     `in_way` names the moving bodies that the part meets at rest along its path, `struck_by` those that run into the
-    hardware on theirs; `notes` state what was left out for their sake. `slip` is what the part is shown to do beside
-    the joint's motion, where a linkage guides it.
+    hardware on theirs; `left_out` states which other hardware was left out, and why. `slip` is what the part is shown
+    to do beside the joint's motion, where a linkage guides it.
     """
 
     axis: Axis
@@ -31,6 +31,7 @@ class Placement:
     in_way: tuple[str, ...]
     struck_by: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
     slip: Slip | None = None
 
 
@@ -39,11 +40,13 @@ class Placement:
 class Clearance:
     """Material taken away so that a part can move: which part, how, and how much.
 
-    `kind` states how: joined (it lay enclosed in the moving part and moves with it now), closed (it was drawn ajar and
-    was moved by `amount`), trimmed (pressed back by up to `amount`, `share` of a side), eased (shrunk on all sides
-    by `amount`, `share` of the volume) or carved (cut out; `amount` is the square root of the surface that went,
-    `share` the larger of `surface_share`, of what is seen of the part, and `volume_share`, of the volume of its pieces'
-    convex hulls). Lengths are metres, angles radians.
+    `kind` states how: joined (it lay enclosed in the moving part and moves with it now), separated (shells of the
+    moving part belong to the case and are static now; `amount` is the square root of their surface, `share` their
+    fraction of the moving body's), closed (it was drawn ajar and was moved by `amount`), trimmed (pressed back by
+    up to `amount`, `share` of a side), eased (shrunk on all sides by `amount`, `share` of the volume) or carved
+    (cut out; `amount` is the square root of the surface that went, `share` the larger of `surface_share`, of what
+    is seen of the part, and `volume_share`, of the volume of its pieces' convex hulls). Lengths are metres, angles
+    radians.
     """
 
     part: str
@@ -82,6 +85,7 @@ class Installed:
     after: tuple[str, ...] = ()
     clearances: tuple[Clearance, ...] = ()
     notes: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
     wanted: float | None = None
     stays: int = 0
 

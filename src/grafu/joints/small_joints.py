@@ -15,8 +15,8 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import translation
 from grafu.joints.config import RealizationConfig
+from grafu.joints.gaps import gap_between, gap_growth
 from grafu.joints.limits import blockers_at, in_the_way, sweep, swept_box, widest_free
-from grafu.joints.measuring import gap_between
 from grafu.joints.no_hardware import DRAWN
 from grafu.joints.plan import JointRequest
 from grafu.joints.realize import Realized, joint_id
@@ -105,7 +105,8 @@ def _built(
         why = "what stands around it leaves it no room to move"
         return made, Refusal(request.moving, Reason.BLOCKED, why, Asked.SMALL_JOINT)
     ratio, gap, mount = _figures(taken, opening, made, config)
-    if request.source == FOUND and gap > config.no_hardware_gap * _extent(made):
+    is_off = gap > config.no_hardware_gap * _extent(made)
+    if request.source == FOUND and is_off:
         return made, Refusal(
             request.moving, Reason.NO_SUPPORT, f"it is {gap:.4f} m off what could carry it", Asked.SMALL_JOINT
         )
@@ -133,9 +134,10 @@ def _built(
         reference=request.reference,
         restricted=False,
         collision_share=ratio,
-        largest_gap=gap,
+        largest_gap=_growth(taken, opening),
         clearances=clearances,
         wanted=wanted,
+        notes=(f"it is drawn {gap:.3f} m off what carries it",) if is_off else (),
     )
 
 
@@ -255,6 +257,19 @@ def _scaling(direction: np.ndarray, factor: float, place: float) -> Mat4:
     return np.asarray(translation(place * direction) @ S @ translation(-place * direction))
 
 
+def _growth(taken: _Taken, opening: float) -> float:
+    """Returns by how much the gap between the part and what carries it grows as it moves, in metres."""
+    own = [MeshCollider(visual.mesh) for visual in taken.visuals]
+    held = [MeshCollider(visual.mesh) for visual in _carriers(taken)]
+    kind = taken.request.kind
+    return gap_growth(own, held, kind.along(taken.request.axis), opening, kind.slides)
+
+
+def _carriers(taken: _Taken) -> list[Visual]:
+    names = {visual.name for visual in taken.visuals}
+    return [visual for visual in taken.link.visuals if visual.name not in names]
+
+
 def _figures(
     taken: _Taken, opening: float, made: ArticulatedObject, config: RealizationConfig
 ) -> tuple[float, float, str]:
@@ -269,8 +284,6 @@ def _figures(
     others = [obstacle for obstacle in near if obstacle.id not in bearings]
     ratio = sweep(body, request.kind.along(request.axis), opening, others, config.fine_poses).ratio
     own = [MeshCollider(visual.mesh) for visual in taken.visuals]
-    names = {visual.name for visual in taken.visuals}
-    still = [visual for visual in taken.link.visuals if visual.name not in names]
-    gaps = {visual.name: gap_between(own, [MeshCollider(visual.mesh)], np.eye(4)) for visual in still}
+    gaps = {v.name: gap_between(own, [MeshCollider(v.mesh)], np.eye(4)) for v in _carriers(taken)}
     nearest = min(gaps, key=lambda name: gaps[name])
     return ratio, gaps[nearest], nearest

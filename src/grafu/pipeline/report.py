@@ -183,6 +183,7 @@ def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:
         grasp=grasp,
         clearances=tuple(ClearanceRecord(**asdict(clearance)) for clearance in made.clearances),
         notes=made.notes,
+        left_out=made.left_out,
     )
 
 

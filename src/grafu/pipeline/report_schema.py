@@ -110,10 +110,16 @@ class ClearanceRecord(ReportRecord):
     """Material that was taken away so that a part can move."""
 
     part: str = Field(description="what was cut")
-    kind: str = Field(description="joined, closed, trimmed (the moving part), eased (shrunk), carved (a static part)")
-    amount: float = Field(description="how deep or how far, metres or radians; carved: the root of the removed area")
+    kind: str = Field(
+        description="joined, separated (shells of the case), closed, trimmed (the moving part), eased (shrunk), "
+        "carved (a static part)"
+    )
+    amount: float = Field(
+        description="how deep or how far, metres or radians; carved, separated: the root of the removed area"
+    )
     share: Ratio = Field(
-        description="fraction removed; carved: the larger of the next two; eased: of the volume; trimmed: of a side"
+        description="fraction removed; carved: the larger of the next two; eased: of the volume; trimmed: of a side; "
+        "separated: of the moving body's surface"
     )
     surface_share: Ratio = Field(default=0.0, description="of the part's outer surface, which is what is seen of it")
     volume_share: Ratio = Field(default=0.0, description="of the volume of the convex hulls of its pieces")
@@ -156,7 +162,10 @@ class JointRecord(ReportRecord):
     )
     small: bool = Field(default=False, description="whether it is a knob, a button, a wheel or a caster")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
-    notes: tuple[str, ...] = Field(description="anything else worth knowing")
+    notes: tuple[str, ...] = Field(description="what the user should check")
+    left_out: tuple[str, ...] = Field(
+        default=(), description="which other hinges were tried and left out, and why; no fault of those that were built"
+    )
 
 
 class AddedRecord(ReportRecord):

@@ -25,6 +25,7 @@ from grafu.refusal import Reason
 from grafu.vocabulary import PartLabel
 
 _NAMED = 4  # parts that a sentence names
+_FRONTS = ("door", "sliding door", "drawer", "small part")
 
 
 @final
@@ -195,10 +196,18 @@ def _names(faults: tuple[FaultRecord, ...]) -> str:
 
 
 def _fronts_words(report: Report) -> str:
-    """Returns how many doors and drawers there are that should move; empty where there is none."""
+    """Returns how many doors, sliding doors, drawers and small parts should move; empty where there is none."""
     category = {part.id: part.category for part in report.parts}
-    slides = [motion_kind(joint.type).slides for joint in report.joints if not joint.small]
-    slides += [category.get(part) is PartLabel.DRAWER for part in parts_without_joint(report)]
-    counts = Counter("drawer" if slide else "door" for slide in slides)
-    counts["small part"] = sum(joint.small for joint in report.joints)
-    return listed(counted(counts[kind], kind) for kind in ("door", "drawer", "small part") if counts[kind])
+    kinds = [
+        "small part" if joint.small else _front_word(category.get(joint.part), motion_kind(joint.type).slides)
+        for joint in report.joints
+    ]
+    kinds += ["drawer" if category.get(part) is PartLabel.DRAWER else "door" for part in parts_without_joint(report)]
+    counts = Counter(kinds)
+    return listed(counted(counts[kind], kind) for kind in _FRONTS if counts[kind])
+
+
+def _front_word(category: PartLabel | None, slides: bool) -> str:
+    if slides:
+        return "sliding door" if category is PartLabel.DOOR else "drawer"
+    return "door"

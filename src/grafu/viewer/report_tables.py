@@ -143,7 +143,7 @@ def _measured(joint: JointRecord) -> list[str]:
 
 def _notes(joint: JointRecord) -> list[str]:
     waits = [f"opens after {listed(joint.after)}"] if joint.after else []
-    return [*waits, *(_clearance(cut) for cut in joint.clearances), *joint.notes]
+    return [*waits, *(_clearance(cut) for cut in joint.clearances), *joint.notes, *joint.left_out]
 
 
 def _clearance(cut: ClearanceRecord) -> str:

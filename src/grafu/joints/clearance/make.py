@@ -16,6 +16,7 @@ from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.transform import from_rotation
 from grafu.joints.clearance.behind import narrow_behind
 from grafu.joints.clearance.carve import ClearanceStep, Path, box_in, carve, obstruction
+from grafu.joints.clearance.separate import separate
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import SweepVerdict
@@ -37,7 +38,7 @@ def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Clear
     """Returns the scene in which the path is free, or as free as the limits allow."""
     done: list[Clearance] = []
     left = obstruction(scene, path, config)
-    for step in _STEPS if config.trim else (adopt,):
+    for step in _STEPS if config.trim else (adopt, separate):
         if not left.blockers:
             break
         tried, clearances = step(scene, path, left.blockers, config)
@@ -122,6 +123,7 @@ _FINELY = 2000  # solids with which a path is cut by triangles where hulls would
 _GAPS = (2.5, 4.0, 6.0)  # on each side, in tolerated penetrations
 _STEPS: tuple[ClearanceStep, ...] = (
     adopt,
+    separate,
     trim,
     narrow_behind,
     narrow,

@@ -141,19 +141,19 @@ def _built_ones(moving_bodies: Sequence[str], search: DoorSearch) -> list[str]:
 
 
 def _noted(placement: Placement, left_out: Sequence[Placement], moving: str) -> Placement:
-    """Returns the placement with notes on what was left out because others, or its own ends, would run into it."""
+    """Returns the placement, and what was left out because others, or its own ends, would run into it."""
     templates: dict[tuple[str, ...], list[str]] = {}
     for other in left_out:
         name = f"{other.template} at another pin" if other.template == placement.template else other.template
         if other.struck_by and name not in templates.setdefault(other.struck_by, []):
             templates[other.struck_by].append(name)
-    notes = []
+    reasons = []
     for struck_by, which in templates.items():
         others = ["its own door" if name == moving else name for name in struck_by if name not in FLAWS]
         why = [f"stand in the way of {', '.join(others)}"] if others else []
         why += ["reach below the floor"] if FLOOR in struck_by else []
-        notes += [f"{' or '.join(which)} would {' and '.join(why)}"] if why else []
-    return replace(placement, notes=tuple(notes))
+        reasons += [f"{' or '.join(which)} would {' and '.join(why)}"] if why else []
+    return replace(placement, left_out=tuple(reasons))
 
 
 def _tries(search: DoorSearch, gallery: Gallery, count: int, is_thorough: bool = False) -> Iterator[_Try]:

@@ -1,0 +1,42 @@
+"""How much play a path gets, and what of a drawer belongs to the case."""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.geometry.config_checks import require_positive, require_ratios
+
+
+@final
+@dataclass(frozen=True)
+class ClearanceConfig:
+    """How much play is given where material is taken away.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    LENGTHS = ("beside",)
+    play: float = 2.5
+    """Distance to what a path is freed from (in tolerated penetrations)."""
+    touching: float = 0.9
+    """What is nearer than this touches, where what touches is pressed back as well (fraction of `play`)."""
+    enclosed: float = 2.0
+    """How far what lies enclosed in a moving part may stand out of it (in tolerated penetrations)."""
+    beside: float = 0.001
+    """Static parts whose boxes are nearer to a drawer's than this are walls that it may touch (metres)."""
+    shells: int = 64
+    """Parts of more shells than this are not separated from shells that belong to the case."""
+    frame: float = 0.05
+    """Smallest shell that may be a frame around the others (fraction of the area of its part)."""
+    sides: int = 3
+    """On so many sides at least a frame reaches beyond the others."""
+    sliver: float = 0.02
+    """Shells smaller than this are slivers (fraction of the area of the moving body) ..."""
+    slivers: float = 0.1
+    """... if all of them in one part are no more than this."""
+    inside: float = 0.5
+    """Slivers of which more than this lies within the outline of the rest are pieces of it (fraction)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "play", "enclosed", "beside", "shells", "sides")
+        require_ratios(self, "touching", "frame", "sliver", "slivers", "inside")
