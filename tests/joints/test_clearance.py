@@ -11,7 +11,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
-from grafu.joints.clearance.carve import Path, carve
+from grafu.joints.clearance.carve import Carving, Path, carve
 from grafu.joints.config import RealizationConfig
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.nesting import bodies_of
@@ -284,6 +284,8 @@ def test_triangles_cut_less_than_the_hull_of_what_is_hollow():
     path = Path("trough", axis.shift, 0.1, np.eye(3), False)
 
     assert carve(built, path, ["block"], RealizationConfig(), 10)[1] == []
-    (done,) = carve(built, path, ["block"], RealizationConfig(), 10_000)[1]
+    (carving,) = carve(built, path, ["block"], RealizationConfig(), 10_000)[1]
+    assert isinstance(carving, Carving)
+    done = carving.recorded()
     assert (done.part, done.kind) == ("block", "carved")
     assert done.volume_share < 0.05

@@ -12,7 +12,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
-from grafu.joints.clearance.carve import measured_loss
+from grafu.joints.clearance.loss import lost_volume, measured_loss
 from judging import installed, realized
 from small_scenes import box, drawer
 
@@ -94,3 +94,12 @@ def test_the_report_tells_the_surface_that_a_viewer_misses_and_both_figures():
     assert 0 < cut.volume_share < 0.05 < 0.5 < cut.surface_share
     assert cut.share == cut.surface_share
     assert cut.amount == pytest.approx(gone**0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("count", [50, 200])
+def test_what_many_solids_take_together_is_counted_once(count):
+    bar = box("bar", (0.0, 0.0, 0.0), (2.0, 1.0, 0.5))
+    starts = np.linspace(0.2, 0.7, count)
+    slices = [solid((x, 0.25, -1.0), (x + 0.5, 0.75, 1.0)) for x in starts]  # each covers most of the next
+
+    assert lost_volume(bar, slices) == pytest.approx(0.5 * 0.5, abs=2e-3)

@@ -48,6 +48,7 @@ REASONS = {
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/make.py": {"_FINELY": EFFORT, "_GAPS": EFFORT, "_STEPS": EFFORT},
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
+    "clearance/loss.py": {"_MOST_EXACT": EFFORT, "_POINTS": SAMPLES, "_PLASTIC": GEOMETRY},
     "clearance/separate.py": {"_SAMPLES": SAMPLES},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},

@@ -186,8 +186,13 @@ def _without(
 
 def _stays_near(scene: Scene, request: JointRequest, motion: PoseFunction, upper: float, near: float) -> bool:
     """Whether a moving body stays within a distance of what may hold it, in metres, from closed to open."""
-    mesh, values = scene.moving_mesh(request.moving), np.linspace(0, upper, _POSES)
-    return all(scene.is_near_static(mesh.transformed(motion(value)), near, request.holders) for value in values)
+    body, holders = MeshCollider(scene.moving_mesh(request.moving)), scene.static_obstacles_of(request.holders)
+
+    def is_near(value: float) -> bool:
+        body.place(motion(value))
+        return any(body.is_within(near, holder.collider) for holder in holders)
+
+    return all(is_near(float(value)) for value in np.linspace(0, upper, _POSES))
 
 
 def _nearest(scene: Scene, request: JointRequest, near: float) -> str:

@@ -12,7 +12,7 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.joints.clearance.carve import ClearanceStep, Path, obstruction
+from grafu.joints.clearance.carve import Change, ClearanceStep, Path, obstruction
 from grafu.joints.clearance.trim import DrawerFront, drawer_front
 from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
@@ -24,7 +24,7 @@ _KEPT = 0.8  # of each side of a box, at least
 
 def narrow_behind(
     scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig, then: ClearanceStep | None = None
-) -> tuple[Scene, list[Clearance]]:
+) -> tuple[Scene, list[Change]]:
     """Returns the scene with a drawer's box smaller, by the least that takes a static part out of its way.
 
     With `then`, by the least with which that step does so: a box that ends before the back of the case leaves it whole

@@ -1,7 +1,5 @@
 """Cuts the moving part's path out of static parts, where little of them goes.
 
-How much of a part goes when solids are cut out of it: of what is seen of it, and of its volume.
-
 The path that must become free, and what stands in it.
 """
 
@@ -10,23 +8,21 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TypeAlias, final
 
-import manifold3d
 import numpy as np
 from jaxtyping import Float
 
 from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
-from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Points
 from grafu.geometry.box import Box
-from grafu.geometry.budget import require_time
-from grafu.geometry.components import connected_parts, part_numbers
+from grafu.geometry.components import part_numbers
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import outer_faces, outer_points
+from grafu.geometry.raycast import outer_points
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.solids import ConvexSolid, clip, subtract
 from grafu.geometry.transform import transform_points
+from grafu.joints.clearance.loss import lost_volume, measured_loss
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import PoseFunction, SweepVerdict, in_the_way, opening_values, sweep, swept_box
 from grafu.joints.report import Clearance
@@ -45,7 +41,25 @@ class Path:
     is_turn: bool
 
 
-ClearanceStep: TypeAlias = Callable[[Scene, Path, Sequence[str], RealizationConfig], tuple[Scene, list[Clearance]]]
+@final
+@dataclass(frozen=True, eq=False)
+class Carving:
+    """Solids cut out of a static part, by `area` square metres of its surface; the loss is yet to be measured."""
+
+    part: Part
+    solids: tuple[ConvexSolid, ...]
+    area: float
+    moving: str
+
+    def recorded(self) -> Clearance:
+        """Returns what goes of the part; measuring it takes longer than cutting."""
+        loss = measured_loss(self.part, self.solids)
+        why, amount = f"stood in the way of {self.moving}", float(np.sqrt(self.area))
+        return Clearance(self.part.id, "carved", amount, loss.ratio, why, loss.surface, loss.volume)
+
+
+Change: TypeAlias = Clearance | Carving
+ClearanceStep: TypeAlias = Callable[[Scene, Path, Sequence[str], RealizationConfig], tuple[Scene, Sequence[Change]]]
 
 
 def obstruction(
@@ -64,65 +78,6 @@ def box_in(axes: Mat3, mesh: TriangleMesh) -> Box:
     return Box.around(mesh.vertices @ axes)
 
 
-@final
-@dataclass(frozen=True, slots=True)
-class Loss:
-    """What goes of a part: fractions of its outer surface, and of the volume of its pieces' convex hulls."""
-
-    surface: float
-    volume: float
-
-    @property
-    def ratio(self) -> float:
-        """The larger of the two: a hollow part loses much of its surface with little of the volume around it."""
-        return max(self.surface, self.volume)
-
-
-def measured_loss(part: Part, solids: Sequence[ConvexSolid]) -> Loss:
-    """Returns what of a part lies in the solids."""
-    return Loss(lost_surface(part, solids), lost_volume(part, solids))
-
-
-def lost_surface(part: Part, solids: Sequence[ConvexSolid]) -> float:
-    """Returns the fraction of the part's outer surface that lies in the solids, 0..1.
-
-    Outer is what can be seen from outside the part, so cut faces and hidden walls do not count.
-    """
-    seen = outer_faces(part.mesh)
-    whole = float(part.mesh.face_areas[seen].sum())
-    if whole == 0 or not solids:
-        return 0.0
-    ends = np.cumsum([len(surface.mesh.faces) for surface in part.surfaces])
-    shown = [s.mesh.with_faces(keep) for s, keep in zip(part.surfaces, np.split(seen, ends[:-1]), strict=True)]
-    left = sum(clip(Surface(mesh), solids).mesh.area for mesh in shown if len(mesh.faces))
-    return min(max(1.0 - left / whole, 0.0), 1.0)
-
-
-def lost_volume(part: Part, solids: Sequence[ConvexSolid]) -> float:
-    """Returns the fraction of the volume of the part's pieces' convex hulls that lies in the solids, 0..1.
-
-    Volumes are those of hulls because real parts are rarely closed; 1 where all pieces are flat.
-    """
-    if not solids:
-        return 0.0
-    whole = lost = 0.0
-    cutter = manifold3d.Manifold.batch_boolean([_manifold(solid) for solid in solids], manifold3d.OpType.Add)
-    for piece in connected_parts(part.mesh):
-        require_time()
-        hull = ConvexSolid.around(piece.vertices)
-        if hull is None:
-            continue
-        body = _manifold(hull)
-        whole += body.volume()
-        if any(hull.box.overlaps(solid.box) for solid in solids):
-            lost += (body ^ cutter).volume()
-    return min(lost / whole, 1.0) if whole > 0 else 1.0
-
-
-def _manifold(solid: ConvexSolid) -> manifold3d.Manifold:
-    return manifold3d.Manifold(manifold3d.Mesh(solid.vertices.astype(np.float32), solid.faces.astype(np.uint32)))
-
-
 _TURN_STEP = np.radians(5.0)
 _MOST_PLANES = 26  # of a box with its edges and corners bevelled
 _SAMPLES = 2000  # points on a part where it is looked at
@@ -131,7 +86,7 @@ MOST_SOLIDS = 400  # a piece whose cutting triangles would sweep out more is cov
 
 def carve(
     scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig, most: int = MOST_SOLIDS
-) -> tuple[Scene, list[Clearance]]:
+) -> tuple[Scene, list[Change]]:
     """Returns the scene with the path cut out of those blockers that lose less than the limit.
 
     A piece whose cutting triangles would sweep out more than `most` solids is covered by its convex hull: that is
@@ -141,7 +96,7 @@ def carve(
     play = config.clearance.play * config.depth * scene.extent
     solids = list(_swept_solids(scene, path, ids, play, config, most))
     carved: list[Part] = []
-    done: list[Clearance] = []
+    done: list[Change] = []
     for name in ids:
         part = scene.parts[name]
         near = [solid for solid in solids if solid.box.overlaps(part.box)]
@@ -153,13 +108,8 @@ def carve(
             continue
         surfaces = (subtract(surface, near, left) for surface, left in zip(part.surfaces, clipped, strict=True))
         carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
-        done.append(_carved(name, area, measured_loss(part, near), path))
+        done.append(Carving(part, tuple(near), area, path.moving))
     return scene.replaced(carved), done
-
-
-def _carved(name: str, area: float, loss: Loss, path: Path) -> Clearance:
-    why = f"stood in the way of {path.moving}"
-    return Clearance(name, "carved", float(np.sqrt(area)), loss.ratio, why, loss.surface, loss.volume)
 
 
 def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, limit: float) -> float:

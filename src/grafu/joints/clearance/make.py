@@ -15,7 +15,7 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.transform import from_rotation
 from grafu.joints.clearance.behind import narrow_behind
-from grafu.joints.clearance.carve import ClearanceStep, Path, box_in, carve, obstruction
+from grafu.joints.clearance.carve import Carving, Change, ClearanceStep, Path, box_in, carve, obstruction
 from grafu.joints.clearance.separate import separate
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
@@ -36,7 +36,7 @@ class Cleared:
 
 def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Cleared:
     """Returns the scene in which the path is free, or as free as the limits allow."""
-    done: list[Clearance] = []
+    done: list[Change] = []
     left = obstruction(scene, path, config)
     for step in _STEPS if config.trim else (adopt, separate):
         if not left.blockers:
@@ -48,7 +48,8 @@ def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Clear
         if _is_better(remaining, left):
             scene, left = tried, remaining
             done += clearances
-    return Cleared(scene, tuple(done), left.blockers)
+    recorded = (one.recorded() if isinstance(one, Carving) else one for one in done)
+    return Cleared(scene, tuple(recorded), left.blockers)
 
 
 def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:

@@ -1,0 +1,99 @@
+"""How much of a part goes when solids are cut out of it: of what is seen of it, and of its volume."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import final
+
+import manifold3d
+import numpy as np
+
+from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
+from grafu.geometry.budget import require_time
+from grafu.geometry.components import connected_parts
+from grafu.geometry.raycast import outer_faces
+from grafu.geometry.solids import ConvexSolid, clip
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """What goes of a part: fractions of its outer surface, and of the volume of its pieces' convex hulls."""
+
+    surface: float
+    volume: float
+
+    @property
+    def ratio(self) -> float:
+        """The larger of the two: a hollow part loses much of its surface with little of the volume around it."""
+        return max(self.surface, self.volume)
+
+
+def measured_loss(part: Part, solids: Sequence[ConvexSolid]) -> Loss:
+    """Returns what of a part lies in the solids."""
+    return Loss(lost_surface(part, solids), lost_volume(part, solids))
+
+
+def lost_surface(part: Part, solids: Sequence[ConvexSolid]) -> float:
+    """Returns the fraction of the part's outer surface that lies in the solids, 0..1.
+
+    Outer is what can be seen from outside the part, so cut faces and hidden walls do not count.
+    """
+    seen = outer_faces(part.mesh)
+    whole = float(part.mesh.face_areas[seen].sum())
+    if whole == 0 or not solids:
+        return 0.0
+    ends = np.cumsum([len(surface.mesh.faces) for surface in part.surfaces])
+    shown = [s.mesh.with_faces(keep) for s, keep in zip(part.surfaces, np.split(seen, ends[:-1]), strict=True)]
+    left = sum(clip(Surface(mesh), solids).mesh.area for mesh in shown if len(mesh.faces))
+    return min(max(1.0 - left / whole, 0.0), 1.0)
+
+
+def lost_volume(part: Part, solids: Sequence[ConvexSolid]) -> float:
+    """Returns the fraction of the volume of the part's pieces' convex hulls that lies in the solids, 0..1.
+
+    Volumes are those of hulls because real parts are rarely closed; 1 where all pieces are flat. It is exact to single
+    precision; where many solids meet a piece, it is counted on points, to about a thousandth of the piece.
+    """
+    if not solids:
+        return 0.0
+    whole = lost = 0.0
+    for piece in connected_parts(part.mesh):
+        require_time()
+        hull = ConvexSolid.around(piece.vertices)
+        if hull is None:
+            continue
+        body = _manifold(hull)
+        whole += body.volume()
+        near = [solid for solid in solids if hull.box.overlaps(solid.box)]
+        lost += _counted_volume(hull, near) * body.volume() if len(near) > _MOST_EXACT else _cut_volume(body, near)
+    return min(lost / whole, 1.0) if whole > 0 else 1.0
+
+
+def _cut_volume(body: manifold3d.Manifold, solids: Sequence[ConvexSolid]) -> float:
+    if not solids:
+        return 0.0
+    cutter = manifold3d.Manifold.batch_boolean([_manifold(solid) for solid in solids], manifold3d.OpType.Add)
+    return float((body ^ cutter).volume())
+
+
+def _counted_volume(hull: ConvexSolid, solids: Sequence[ConvexSolid]) -> float:
+    """Returns the fraction of a convex hull that lies in the solids, counted on points spread evenly over it."""
+    ratios = (0.5 + np.arange(_POINTS)[:, None] / _PLASTIC ** np.arange(1, 4)) % 1.0
+    points = hull.box.low + ratios * hull.box.size
+    points = points[hull.contains(points)]
+    inside = np.zeros(len(points), dtype=bool)
+    for solid in solids:
+        left = np.flatnonzero(~inside)
+        left = left[solid.box.contains(points[left])]
+        inside[left] = solid.contains(points[left])
+    return float(inside.mean()) if len(points) else 1.0
+
+
+def _manifold(solid: ConvexSolid) -> manifold3d.Manifold:
+    return manifold3d.Manifold(manifold3d.Mesh(solid.vertices.astype(np.float32), solid.faces.astype(np.uint32)))
+
+
+_MOST_EXACT = 60  # solids whose union is built
+_POINTS = 20_000  # in the box of a hull
+_PLASTIC = 1.2207440846057596  # the root of x**4 = x + 1: multiples of its powers are spread evenly in three dimensions
