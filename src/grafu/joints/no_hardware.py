@@ -27,6 +27,7 @@ NO_HARDWARE = "none"
 _NOTE = "no hinge or rail finds room: it moves without hardware"
 DRAWN = "drawn"
 """`Placement.template` of a door on the hinges, or a column in the sleeve, that the input has."""
+_STATED = frozenset({SHOWN, "annotation", "user"})  # sources of requests that are no guess
 _TRAVELS = 6  # of a rack, from its widest down to the least that counts as open
 _DEPTHS = tuple(k / 16 for k in range(17))  # of a door's thickness, from its front: an axis along its border each
 _POSES = 5  # from closed to open in which it must be near what stands around it
@@ -70,7 +71,7 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     is_board = slides_in_its_plane(part.mesh, frame.slide, config.drawer)
     if is_board and part.label is PartLabel.DOOR:
         return _sliding_door(search)
-    is_stated = part.label.is_movable or search.request.source == SHOWN  # a guess alone makes no grid a rack
+    is_stated = part.label.is_movable or search.request.source in _STATED  # a guess alone makes no grid a rack
     if is_stated and is_grid(search.scene.moving_mesh(part.id)):
         return _rack(search)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)

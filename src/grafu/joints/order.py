@@ -145,4 +145,4 @@ def _until(joint: BuiltJoint, mesh: TriangleMesh, scene: Scene, config: Realizat
         _body(joint, scene, config), joint.motion, joint.upper, in_the_way([obstacle], path), config.fine_poses
     )
     # What overlaps at rest already cannot be avoided by opening less.
-    return verdict.free if verdict.ratio and verdict.free > 0 else joint.upper
+    return max(verdict.free - config.short * joint.upper, 0.0) if verdict.ratio and verdict.free > 0 else joint.upper

@@ -196,7 +196,7 @@ class BehindConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("start", "overlap", "air", "near")
+    LENGTHS = ("start", "seam", "air", "near")
     inset: float = 0.02
     """How far inside the front's sides the rails stay (fraction of its width)."""
     reach: float = 1.5
@@ -204,15 +204,15 @@ class BehindConfig:
     start: float = 1e-3
     """How far behind the front rays start (metres)."""
     shallow: float = 0.5
-    """A space less deep than this fraction of the front's height holds no drawer."""
+    """A space less deep than this fraction of the front's smaller side holds no drawer."""
     near: tuple[float, ...] = (0.005, 0.015)
     """Depths behind the front at which the walls are sought: a face frame leaves the narrowest passage (metres)."""
     deep: float = 0.4
     """One more such depth (fraction of the space's)."""
     narrow: float = 0.1
     """A space whose half width is less than this fraction of the front's width holds no drawer."""
-    overlap: float = 2e-4
-    """How far the rails reach into the front (metres)."""
+    seam: float = 5e-4
+    """How far behind the front the rails begin (metres): a fixed end right on it would cut into it at rest."""
     span: float = 0.3
     """Where the outermost heights lie at which the depth is measured (fraction of the height, from the middle)."""
     heights: int = 7

@@ -121,7 +121,7 @@ def _built(
         largest_gap=_growth(taken, opening),
         clearances=clearances,
         wanted=wanted,
-        notes=(f"it is drawn {gap:.3f} m off what carries it",) if is_off else (),
+        notes=(f"it is drawn {gap:.3f} m off what carries it",) if is_off and not clearances else (),
     )
 
 

@@ -10,7 +10,7 @@ chosen.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
@@ -20,7 +20,7 @@ from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
-from grafu.geometry.transform import from_rotation, reflection
+from grafu.geometry.transform import from_rotation, reflection, translation
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, is_free, swept_box
 from grafu.joints.plan import Supports
@@ -199,9 +199,10 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
 def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search: DrawerSearch) -> Placement | None:
     """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
     template = model.build(spot.size)
-    upper = search.travel(template.range)
+    upper = search.travel(search.reach if search.is_leaf else template.range)
     if upper < search.config.least_opening * search.wanted:
         return None
+    template = _with_track(template, model, upper) if search.is_leaf else template
     static: list[Visual] = []
     dynamic: list[Visual] = []
     mount = search.request.choice.mount
@@ -226,6 +227,13 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
         static=tuple(static),
         in_way=search.bodies_in_the_way(upper),
     )
+
+
+def _with_track(template: RailTemplate, model: RailModel, travel: float) -> RailTemplate:
+    """Returns rails whose static end is a track: as long as the moving end, and as far as that travels before it."""
+    size = template.size
+    track = model.build(replace(size, length=size.length + travel)).static
+    return replace(template, static=track.transformed(translation(vec3(0.0, -travel / 2, 0.0))))
 
 
 def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4, Mat4]:

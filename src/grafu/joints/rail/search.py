@@ -64,6 +64,13 @@ class DrawerSearch:
         """Whether the part is a lifting column; see `is_column`."""
         return is_column(self.scene.parts[self.request.moving].mesh, self.frame.slide, self.config.drawer)
 
+    @cached_property
+    def is_leaf(self) -> bool:
+        """Whether it is a sliding door, which runs in tracks; see `slides_in_its_plane`."""
+        return slides_in_its_plane(
+            self.scene.parts[self.request.moving].mesh, np.asarray(self.frame.slide), self.config.drawer
+        )
+
     @property
     def motion(self) -> PoseFunction:
         """The motion from rest at a travel in metres."""
@@ -94,8 +101,26 @@ class DrawerSearch:
 
     @property
     def reach(self) -> float:
-        """The travel that rails could give, metres: over the container's depth, or the depth behind a mere front."""
-        return self.config.rail.travel * max(self.frame.depth, self.region.length if self.region else 0.0)
+        """The travel that rails could give, metres: over the container's depth, or the depth behind a mere front.
+
+        Tracks of a sliding door give its own width, or what is asked for, as far as it is free and stays beside the
+        static body.
+        """
+        depth = max(self.frame.depth, self.region.length if self.region else 0.0)
+        usual = self.config.rail.travel * depth
+        return max(usual, self._free_beside) if self.is_leaf else usual
+
+    @cached_property
+    def _free_beside(self) -> float:
+        most = min(max(self.frame.depth, self.request.reference or 0.0), self._room_along)
+        return self.travel(most) if most > 0 else 0.0
+
+    @property
+    def _room_along(self) -> float:
+        """How far it is from the leading edge to the end of the static body, metres."""
+        ends = np.vstack([obstacle.collider.box.corners() for obstacle in self.scene.static_obstacles])
+        slide = np.asarray(self.frame.slide)
+        return float((ends @ slide).max() - (self.mesh.vertices @ slide).max())
 
     @property
     def wanted(self) -> float:
@@ -158,9 +183,10 @@ def drawer_search(
     mesh = scene.parts[request.moving].mesh
     direction = np.asarray(request.axis.direction)
     lying = slides_in_its_plane(mesh, direction, config.drawer)
-    frame = drawer_frame(
-        mesh if lying else carried_mesh(request, scene, config.drawer), direction, lying, config.drawer
-    )
+    whole = mesh if lying else carried_mesh(request, scene, config.drawer)
+    frame = drawer_frame(whole, direction, lying, config.drawer)
+    if frame and whole is not mesh and body_region(whole, frame, config.body_tolerance, config.drawer) is None:
+        frame = drawer_frame(mesh, direction, lying, config.drawer)  # an open rack has no flanks: rails run beside it
     frame = frame or lift_frame(mesh, direction)
     if frame is None:
         return None

@@ -127,14 +127,14 @@ def front_only_region(frame: DrawerFrame, static: RayCaster, reach: float, rails
     front_depth, config = frame.depth, rails.behind
     inset = config.inset * frame.width
     z, depth = _free_behind(frame, static, front_depth + config.start, reach, config)
-    if depth < config.shallow * frame.height:
+    if depth < config.shallow * min(frame.width, frame.height):
         return None
     deep = (front_depth + np.array([*config.near, config.deep * depth])).tolist()
     sides = [_reach_along(frame, static, (0.0, y), z, 0, reach, sign) for y in deep for sign in (-1.0, 1.0)]
     half = min(*sides, frame.width / 2 - inset) - rails.common
     if half <= config.narrow * frame.width:
         return None
-    start = front_depth - config.overlap
+    start = front_depth + config.seam
     return BodyRegion(-half, half, start, start + depth, float(z[0]), float(z[-1]), True)
 
 

@@ -1,0 +1,81 @@
+"""Furniture that is made for one way to move: its true joints are free and reach as far as they state."""
+
+import numpy as np
+import pytest
+
+from grafu.asset.part import Asset
+from grafu.metrics.collision import CollisionConfig, collision_shares
+from grafu.synth.appliances.appliance import Appliance, drawn_appliance, make_appliance
+from grafu.synth.cabinets.pull_out import PullOutUnit, drawn_pull_out, make_pull_out
+from grafu.synth.cabinets.sliding import SlidingDoors, drawn_sliding_doors, make_sliding_doors
+from grafu.synth.tables.drop_leaf import DropLeafTable, drawn_drop_leaf_table, make_drop_leaf_table
+from grafu.synth.truth.clashes import articulated_of
+from grafu.vocabulary import JointType
+from judging import installed, realized
+
+SEEDS = range(6)
+MAKERS = {
+    "sliding": lambda rng: make_sliding_doors(drawn_sliding_doors(rng, "x")),
+    "drop leaf": lambda rng: make_drop_leaf_table(drawn_drop_leaf_table(rng, "x")),
+    "pull-out": lambda rng: make_pull_out(drawn_pull_out(rng, "x")),
+    "dishwasher": lambda rng: make_appliance(drawn_appliance(rng, "x", "dishwasher")),
+    "oven": lambda rng: make_appliance(drawn_appliance(rng, "x", "oven")),
+    "microwave": lambda rng: make_appliance(drawn_appliance(rng, "x", "microwave")),
+}
+TYPES = {
+    "sliding": {JointType.PRISMATIC},
+    "drop leaf": {JointType.REVOLUTE},
+    "pull-out": {JointType.PRISMATIC},
+    "dishwasher": {JointType.REVOLUTE, JointType.PRISMATIC},
+    "oven": {JointType.REVOLUTE, JointType.PRISMATIC, JointType.CONTINUOUS},
+    "microwave": {JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC},
+}
+
+
+def drawn(kind: str, seed: int) -> Asset:
+    return MAKERS[kind](np.random.default_rng([3, seed]))
+
+
+@pytest.mark.parametrize("kind", MAKERS)
+def test_true_joints_are_of_their_types_and_collide_with_nothing(kind):
+    made = [drawn(kind, seed) for seed in SEEDS]
+    assert {joint.type for asset in made for joint in (*asset.joints, *asset.small_joints)} <= TYPES[kind]
+    for asset in made:
+        truth = articulated_of(asset)
+        assert asset.joints
+        shares = collision_shares(truth, CollisionConfig(poses=12, tolerance=0.0005))
+        assert set(shares.values()) == {0.0}, (kind, asset.name)
+
+
+@pytest.mark.parametrize("kind", ["sliding", "pull-out", "drop leaf"])
+def test_they_are_realized_as_far_as_they_truly_open(kind):
+    asset = drawn(kind, 1)
+    made = installed(realized(asset))
+    for joint in asset.joints:
+        outcome = made[joint.part]
+        assert outcome.type is joint.type
+        assert outcome.collision_share == 0.0
+        assert outcome.opening >= 0.9 * joint.upper
+
+
+@pytest.mark.parametrize(
+    ("make", "text"),
+    [
+        (lambda: SlidingDoors(leaves=1), "must be 2 or 3, of a barn door 1: got 1"),
+        (lambda: DropLeafTable(leaves=3), "end above the floor"),
+        (lambda: PullOutUnit(trays=0), "must be at least 1: got 0"),
+        (lambda: Appliance(knobs=2), "knobs a panel"),
+    ],
+)
+def test_what_cannot_be_made_is_refused(make, text):
+    with pytest.raises(ValueError, match=text):
+        make()
+
+
+def test_tracks_of_sliding_doors_are_as_long_as_the_way():
+    asset = make_sliding_doors(SlidingDoors())
+    result = realized(asset)
+    joint = result.object.joint_of["door_1"]
+    track = next(v for v in result.object.link("body").visuals if v.name == "rail_door_1_left_static")
+    leaf = asset.part("door_1").box.size[0]
+    assert track.mesh.box.size[0] == pytest.approx(0.9 * leaf + joint.limits.upper, abs=1e-3)
