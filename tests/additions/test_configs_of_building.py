@@ -19,7 +19,8 @@ from grafu.additions.top.config import (
     SupportConfig,
     TopConfig,
 )
-from grafu.joints.config import ClearanceConfig, RealizationConfig
+from grafu.joints.clearance_config import ClearanceConfig
+from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, RailConfig, RailFootingConfig
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from grafu.joints.building_doors import BuildingDoorConfig
+from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.concealed_config import ConcealedConfig
-from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
+from grafu.joints.config import BlockConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
 from grafu.joints.fold_config import FoldConfig
@@ -44,7 +45,8 @@ REASONS = {
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
-    "clearance/make.py": {"_FINELY": EFFORT, "_GAPS": EFFORT, "_STEPS": EFFORT},
+    "clearance/in_frame.py": {"GAPS": EFFORT},
+    "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},

@@ -9,6 +9,7 @@ from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
+from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge_config import HingeConfig
 from grafu.joints.plan import PlanConfig
@@ -128,30 +129,6 @@ class TimeConfig:
     def of_joint(self, left: int) -> float:
         """Returns the fraction of the time left that the first of `left` joints may take."""
         return 1.0 if left <= 1 else min(self.most_of_joint, max(self.least_of_joint, self.hard_joint / left))
-
-
-@final
-@dataclass(frozen=True)
-class ClearanceConfig:
-    """How much play is given where material is taken away.
-
-    Raises:
-        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
-    """
-
-    LENGTHS = ("beside",)
-    play: float = 2.5
-    """Distance to what a path is freed from (in tolerated penetrations)."""
-    touching: float = 0.9
-    """What is nearer than this touches, where what touches is pressed back as well (fraction of `play`)."""
-    enclosed: float = 2.0
-    """How far what lies enclosed in a moving part may stand out of it (in tolerated penetrations)."""
-    beside: float = 0.001
-    """Static parts whose boxes are nearer to a drawer's than this are walls that it may touch (metres)."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, "play", "enclosed", "beside")
-        require_ratios(self, "touching")
 
 
 @final
