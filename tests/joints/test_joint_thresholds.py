@@ -16,6 +16,7 @@ from grafu.joints.drop_leaves import DropLeafConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.lever_config import LeverConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.pull_outs import PullOutConfig
 from grafu.joints.racks import RackConfig
@@ -52,6 +53,7 @@ REASONS = {
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
     "drop_leaves.py": {"_UP": NUMBERING},
+    "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
@@ -84,9 +86,9 @@ REASONS = {
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
-    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, PinConfig,
-    PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig,
-    SurveyConfig, TimeConfig,
+    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, LeverConfig,
+    PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig,
+    StayConfig, SurveyConfig, TimeConfig,
 )  # fmt: skip
 
 

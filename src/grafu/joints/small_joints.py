@@ -22,7 +22,7 @@ from grafu.joints.plan import JointRequest
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import Clearance, Installed, Outcome
 from grafu.joints.small_knobs import SOURCE as FOUND
-from grafu.joints.small_parts import are_links, small_parts, stated_small_parts
+from grafu.joints.small_requests import found_requests, stated_requests
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Obstacle, metre_on
@@ -51,11 +51,7 @@ def with_small_parts(
     Of the latter all, or, where parts are `chosen`, these and those that are links of their own in the asset.
     """
     made, scaled = realized.object, at_scale(config, metre_on(asset.extent))
-    requests = stated_small_parts(asset, config.plan)
-    if not requests:
-        requests = small_parts(made, scaled.small)
-        if chosen is not None:
-            requests = tuple(r for r in requests if r.moving in chosen or are_links(asset, (r.moving, *r.attached)))
+    requests = stated_requests(asset, realized, config) or found_requests(made, asset, scaled, chosen)
     changed, outcomes = with_small_joints(made, requests, scaled)
     built = {outcome.moving for outcome in outcomes if isinstance(outcome, Installed)}
     before = (o for o in realized.report.outcomes if not (isinstance(o, Refusal) and o.part in built))
@@ -112,6 +108,12 @@ def _built(
     joint = Joint(
         joint_id(request.moving), request.type, taken.link.id, request.moving, request.axis, JointLimits(0.0, opening)
     )
+    if request.coupling is not None:
+        leader = made.joint_of.get(request.coupling.leader)
+        if leader is None:
+            why = f"{request.coupling.leader}, which it follows, does not move"
+            return made, Refusal(request.moving, Reason.BLOCKED, why, Asked.SMALL_JOINT)
+        joint = joint.following(leader, opening / leader.limits.upper)
     names = {visual.name for visual in taken.visuals}
     links = [
         replace(link, visuals=tuple(v for v in link.visuals if v.name not in names)) if link is taken.link else link
@@ -161,14 +163,25 @@ def _free(
     return opening, shorter, (note,)
 
 
+def _passes_through(taken: _Taken, depth: float) -> bool:
+    """Whether a part stands out of both sides of what carries it along its axis, by more than `depth` metres."""
+    direction = taken.request.axis.direction
+    names = {visual.name for visual in taken.visuals}
+    carrier = np.concatenate([v.mesh.vertices @ direction for v in taken.link.visuals if v.name not in names])
+    own = np.concatenate([visual.mesh.vertices @ direction for visual in taken.visuals])
+    return bool(own.min() < carrier.min() - depth and own.max() > carrier.max() + depth)
+
+
 def _seated(
     taken: _Taken, wanted: float, made: ArticulatedObject, config: RealizationConfig
 ) -> tuple[_Taken, tuple[Clearance, ...]]:
     """Returns a part whose inner end is pressed flat by the least depth at which it turns without cutting in.
 
-    It stays as it is where it cuts into nothing at rest, or still does with as much of it pressed as may be: it has a
-    bearing.
+    It stays as it is where it cuts into nothing at rest, or still does with as much of it pressed as may be, or where
+    it stands out of both sides of what carries it: it has a bearing.
     """
+    if _passes_through(taken, config.depth * _extent(made)):
+        return taken, ()
     length = _span(taken)
     low, high = 0.0, config.small.sunk * length
     if not _cuts(taken, 0.0, made, config) or _cuts(_pressed(taken, high), wanted, made, config):

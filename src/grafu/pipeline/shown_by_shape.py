@@ -7,7 +7,7 @@ from typing import final
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.joints.building_doors import with_building_doors
+from grafu.joints.building_doors import building_door, with_building_doors
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_leaves import with_drop_leaves
@@ -72,10 +72,12 @@ def small_parts_wanted(
 ) -> WantedSmallParts:
     """Returns which joints of small parts are built; by default (`wanted` None) where they are stated and read.
 
-    Else by default those of the `turning` trays, and of parts that are links.
+    Else by default those of the `turning` trays, of parts that are links, and of what is on a building's door.
     """
     if wanted is not None:
         return WantedSmallParts(wanted)
     if asset.small_joints:
         return WantedSmallParts(reads_annotation)
-    return WantedSmallParts(bool(turning) or any(part.source.link for part in asset.parts), turning)
+    door = building_door(asset)
+    chosen = turning | {part.id for parts in door.on_leaf for part in parts} if door else turning
+    return WantedSmallParts(bool(chosen) or any(part.source.link for part in asset.parts), chosen)
