@@ -26,6 +26,7 @@ from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
+from grafu.joints.windows import with_window_labels
 from grafu.pipeline.additions import add_after_joints, add_before_joints, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
@@ -246,7 +247,9 @@ def _with_source(
         return stages.timed("match", lambda: attach_motions(asset, source)), MotionSource(source.source)
     chosen = choose_source(asset, source, settings.weights)
     _require_attached(asset, chosen)
-    return asset if MOTIONS[chosen].reads_annotation else with_door_labels(asset.without_annotation()), chosen
+    return asset if MOTIONS[chosen].reads_annotation else with_window_labels(
+        with_door_labels(asset.without_annotation())
+    ), chosen
 
 
 def _as_built(

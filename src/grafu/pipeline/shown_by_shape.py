@@ -18,6 +18,7 @@ from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
+from grafu.joints.windows import with_windows
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
 
@@ -43,7 +44,7 @@ def shown_by_shape(
 
     `settled` are the parts whose motions the user states; `small` is as in the settings.
     """
-    plan = with_building_doors(plan, asset)
+    plan = with_windows(with_building_doors(plan, asset), asset)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_racks(with_drop_leaves(plan, asset), asset, graph)
