@@ -30,6 +30,7 @@ from grafu.joints.rail_config import (
     RailFootingConfig,
 )
 from grafu.joints.stay_config import StayConfig
+from grafu.joints.window_config import WindowConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
@@ -82,13 +83,14 @@ REASONS = {
     "sliding_doors.py": {"_UP": NUMBERING},
     "stays.py": {"_SIDES": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
+    "windows.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, LeverConfig,
     PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig,
-    StayConfig, SurveyConfig, TimeConfig,
+    StayConfig, SurveyConfig, TimeConfig, WindowConfig,
 )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.graph.edges import Hinge, Slide
+from grafu.joints.building_doors import building_door
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.window_config import WindowConfig
@@ -40,9 +41,12 @@ class Window:
 
 
 def window(asset: Asset, config: WindowConfig = WindowConfig()) -> Window | None:
-    """Returns the window that an asset is; None where it is another piece, or something stands behind its leaves."""
+    """Returns the window that an asset is; None where it is another piece, or something stands behind its leaves.
+
+    A door of a building with a threshold is closed all around, too: it is no window.
+    """
     frame = _frame(asset, config)
-    if frame is None:
+    if frame is None or building_door(asset) is not None:
         return None
     others = [part for part in asset.parts if part is not frame]
     leaves = tuple(_leaves(frame, others, config))

@@ -18,7 +18,7 @@ Grip = Literal["lever", "none"]
 
 @final
 @dataclass(frozen=True, slots=True)
-class BuildingDoor:
+class DoorSpec:
     """A door of a building, metres: its frame, and how its leaves are drawn in it.
 
     `lap` is how far the leaf's edges are drawn into the frame at both sides and above (below 0: a gap). `set_back` is
@@ -43,12 +43,12 @@ class BuildingDoor:
 
     def __post_init__(self) -> None:
         if self.leaves not in (1, 2):
-            raise ValueError(f"`BuildingDoor.leaves` must be 1 or 2: got {self.leaves}")
+            raise ValueError(f"`DoorSpec.leaves` must be 1 or 2: got {self.leaves}")
         if not 0 <= self.set_back <= self.depth - self.leaf:
-            raise ValueError(f"`BuildingDoor.set_back` must keep the leaf in the frame: got {self.set_back}")
+            raise ValueError(f"`DoorSpec.set_back` must keep the leaf in the frame: got {self.set_back}")
 
 
-def drawn_door(rng: np.random.Generator, name: str) -> BuildingDoor:
+def drawn_door(rng: np.random.Generator, name: str) -> DoorSpec:
     """Returns a door of random size; one in five is drawn with its edges in the frame.
 
     A single leaf without a lever hangs on the left: nothing shows its side.
@@ -56,7 +56,7 @@ def drawn_door(rng: np.random.Generator, name: str) -> BuildingDoor:
     depth, leaf = between(rng, (0.08, 0.16)), between(rng, (0.03, 0.05))
     leaves = 2 if chance(rng, 0.3) else 1
     grip: Grip = "lever" if chance(rng, 0.8) else "none"
-    return BuildingDoor(
+    return DoorSpec(
         name,
         width=between(rng, (0.75, 1.05)) * (1.7 if leaves == 2 else 1.0),
         height=between(rng, (1.95, 2.4)),
@@ -72,7 +72,7 @@ def drawn_door(rng: np.random.Generator, name: str) -> BuildingDoor:
     )
 
 
-def make_building_door(spec: BuildingDoor) -> Asset:
+def make_building_door(spec: DoorSpec) -> Asset:
     """Returns the door with the true joints of its leaves; those of levers and bolts are small joints."""
     half, front = spec.width / 2, -spec.depth / 2
     outer = ((-half, front, 0.0), (half, -front, spec.height))
@@ -93,7 +93,7 @@ def make_building_door(spec: BuildingDoor) -> Asset:
     return replace(asset, joints=tuple(j for j in asset.joints if j.part in on_frame), small_joints=small)
 
 
-def _leaf(span: Span, edge: Edge, spec: BuildingDoor) -> PieceDraft:
+def _leaf(span: Span, edge: Edge, spec: DoorSpec) -> PieceDraft:
     (x0, y0, _), (x1, y1, _) = span
     backwards = spec.set_back > (spec.depth - spec.leaf) / 2
     board = plank(PartLabel.DOOR, "leaf", PLAIN.front, span)

@@ -25,7 +25,7 @@ class WindowSpec:
     `sill` is how far a board below stands out in front; 0 leaves it out.
 
     Raises:
-        ValueError: if the kind is unknown, or the bars leave no opening.
+        ValueError: if its bars and those of its leaves leave no opening.
     """
 
     name: str = "window"
@@ -43,8 +43,6 @@ class WindowSpec:
     sill: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            raise ValueError(f"`WindowSpec.kind` must be one of {', '.join(KINDS)}: got {self.kind}")
         if min(self.width, self.height) <= 2 * (self.bar + 2 * self.stile):
             raise ValueError("`WindowSpec.bar` and `stile` must leave an opening")
 
