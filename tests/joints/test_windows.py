@@ -54,7 +54,9 @@ def test_a_window_moves_as_its_shape_shows_and_as_is_stated(spec, source):
             assert np.linalg.norm(joint.axis.closest_point(true.axis.point) - true.axis.point) < 0.06
         assert joint.limits.upper >= 0.7 * true.upper
         assert not swept_collisions(made.object, joint, 10)
-    assert made.report.skipped == () or all(s.part not in truth for s in made.report.skipped)
+    if source is MotionSource.NETWORK:
+        doors = {part.id for part in made.asset.parts if part.label is PartLabel.DOOR}
+        assert doors == set(truth)  # the upper sash stays, and is none
 
 
 NOT_WINDOWS = {

@@ -17,7 +17,7 @@ class WindowConfig:
 
     around: float = 0.8
     """What of the width and the height of the whole the frame spans at least (fraction); a sill may be wider."""
-    shallow: float = 0.35
+    shallow: float = 0.45
     """Greatest depth of the frame (fraction of the shorter of its other sides)."""
     rim: float = 0.01
     """How far within its own outline a frame is looked at all around (fraction of each side)."""

@@ -59,7 +59,7 @@ def window(asset: Asset, config: WindowConfig = WindowConfig()) -> Window | None
 
 
 def with_window_labels(asset: Asset, config: WindowConfig = WindowConfig()) -> Asset:
-    """Returns the asset in which the leaves of a window are doors, and the frame is none; any other asset itself.
+    """Returns the asset in which the leaves of a window that move are doors, and no other part; any other asset itself.
 
     Labels that the user gave stay.
     """
@@ -67,7 +67,9 @@ def with_window_labels(asset: Asset, config: WindowConfig = WindowConfig()) -> A
     if found is None:
         return asset
     panes = {part.id for parts in found.on_leaf for part in parts if part.label.is_movable}
-    labels = {found.frame.id: PartLabel.FACE_FRAME, **{leaf.id: PartLabel.DOOR for leaf in found.leaves}}
+    stay = {leaf.id for leaf in found.leaves if _stays(leaf, found.leaves, config)}
+    labels = {leaf.id: PartLabel.FACE_FRAME if leaf.id in stay else PartLabel.DOOR for leaf in found.leaves}
+    labels[found.frame.id] = PartLabel.FACE_FRAME
     labels |= dict.fromkeys(panes, PartLabel.MISC)
     parts = (
         part
@@ -181,19 +183,30 @@ def _request(
 ) -> JointRequest | None:
     """Returns the joint of a leaf; None for one that stays where it is as another slides past it."""
     attached = tuple(part.id for part in on_it)
-    others = [other for other in found.leaves if other is not leaf]
-    past = next((other for other in others if _laps(leaf, other, config)), None)
+    past = _past(leaf, found.leaves, config)
     if past is not None:
         side = _sliding_side(leaf, past)
         reach = float(abs(leaf.box.center - past.box.center) @ abs(DIRECTIONS[side]))
         axis = axis_of_motion(leaf, MotionChoice(Moves.SLIDES, side), asset.box)
-        is_upper = side is Side.BOTTOM
-        return None if is_upper else JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, reach, attached=attached)
+        if _stays(leaf, found.leaves, config):
+            return None
+        return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, reach, attached=attached)
     side = _hinged_side(leaf, found.leaves, on_it, config)
     axes = [axis_of_motion(leaf, MotionChoice(Moves.TURNS, side, inwards=k), asset.box) for k in (False, True)]
     backwards = _opens_backwards(leaf, found.frame, on_it, config)
     axis = next(axis for axis in axes if (_sets_off(axis, side) > 0) == backwards)
     return JointRequest(leaf.id, Hinge.joint_type, axis, SOURCE, attached=attached)
+
+
+def _past(leaf: Part, leaves: Sequence[Part], config: WindowConfig) -> Part | None:
+    """Returns the leaf that a leaf slides past; None where it turns."""
+    return next((other for other in leaves if other is not leaf and _laps(leaf, other, config)), None)
+
+
+def _stays(leaf: Part, leaves: Sequence[Part], config: WindowConfig) -> bool:
+    """Whether a leaf stays where it is: the upper sash, which the lower one slides past."""
+    past = _past(leaf, leaves, config)
+    return past is not None and _sliding_side(leaf, past) is Side.BOTTOM
 
 
 def _laps(leaf: Part, other: Part, config: WindowConfig) -> bool:

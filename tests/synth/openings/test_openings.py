@@ -43,6 +43,13 @@ def test_a_drawn_door_works_about_its_true_edge(draw):
         assert not swept_collisions(made.object, got, 8)
 
 
+def test_two_leaves_that_are_drawn_into_their_frame_at_one_side_are_cut_to_it():
+    asset = make_building_door(DoorSpec(width=1.6, leaves=2, lap=0.012))
+    made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery())
+    assert {outcome.collision_share for outcome in made.report.installed} == {0.0}
+    assert all(joint.limits.upper > 0.7 for joint in made.object.joints)
+
+
 @pytest.mark.parametrize("grip", ["lever", "none"])
 def test_without_joints_a_door_is_found_and_its_lever_turns(grip):
     asset = make_building_door(DoorSpec(grip=grip, bolt=grip == "lever"))

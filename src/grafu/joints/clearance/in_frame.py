@@ -39,9 +39,9 @@ class _Edges:
         return float(max(self.low.max(), self.high.max()))
 
     @property
-    def is_between(self) -> bool:
-        """Whether it reaches into the frame on two sides that lie across from one another."""
-        return bool(((self.low > 0) & (self.high > 0)).any())
+    def is_within(self) -> bool:
+        """Whether it reaches into the frame on two sides: one leaf of a pair does so at one side and above."""
+        return int(np.count_nonzero(self.low > 0) + np.count_nonzero(self.high > 0)) > 1
 
     def inside(self, box: Box, gap: float) -> Box:
         """Returns what of the leaf's box lies in the opening, with a gap, metres, at the edges that are cut."""
@@ -55,13 +55,12 @@ def leaf_in_frame(
 ) -> Iterator[tuple[Scene, tuple[Clearance, ...]]]:
     """Yields the scene with a leaf cut to the opening of the frame that it is drawn in, with ever wider gaps.
 
-    Nothing is yielded unless the leaf reaches into one of the static parts `ids` on two sides that lie across from one
-    another, through much of its thickness, deeper than narrowing it would free it, and by at most
-    `config.clearance.lapped`.
+    Nothing is yielded unless the leaf reaches into one of the static parts `ids` on two sides, through much of its
+    thickness, deeper than narrowing it would free it, and by at most `config.clearance.lapped`.
     """
     leaf, unit = scene.parts[moving], config.depth * scene.extent
     box = box_in(axes, leaf.mesh)
-    frame, edges = next(((f, e) for f, e in _frames(scene, box, axes, ids, config) if e.is_between), (None, None))
+    frame, edges = next(((f, e) for f, e in _frames(scene, box, axes, ids, config) if e.is_within), (None, None))
     if frame is None or edges is None or edges.deepest <= GAPS[-1] * unit:
         return
     opening = _solid(edges.inside(box, 0.0), axes)

@@ -19,7 +19,7 @@ Grip = Literal["lever", "none"]
 @final
 @dataclass(frozen=True, slots=True)
 class DoorSpec:
-    """A door of a building, metres: its frame, and how its leaves are drawn in it.
+    """A door of a building, metres: its frame, and how its leaves are drawn in it; of two the left one has the bolt.
 
     `lap` is how far the leaf's edges are drawn into the frame at both sides and above (below 0: a gap). `set_back` is
     how far its front lies behind the frame's front; it opens to the face of the frame that it is nearer to.
@@ -101,7 +101,7 @@ def _leaf(span: Span, edge: Edge, spec: DoorSpec) -> PieceDraft:
     on_it: list[PieceDraft] = []
     if spec.grip == "lever":
         on_it.append(lever(PLAIN.metal, free + 0.06 * towards, 1.02, towards, ((y0, -1.0), (y1, 1.0)), 0.13))
-    if spec.bolt and spec.lap < 0:
+    if spec.bolt and spec.lap < 0 and (spec.leaves == 1 or edge == "left"):
         middle, out = (y0 + y1) / 2, -0.7 * spec.lap
         low, high = sorted((free - out * towards, free + 0.03 * towards))
         bolt = ((low, middle - 0.006, 1.01), (high, middle + 0.006, 1.03))
