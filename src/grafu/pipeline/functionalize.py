@@ -34,7 +34,7 @@ from grafu.pipeline.finishing import with_small_joints_of, with_stays_of
 from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
-from grafu.pipeline.shown_by_shape import shown_by_shape, small_parts_wanted
+from grafu.pipeline.shown_by_shape import additions_wanted, shown_by_shape, small_parts_wanted
 from grafu.pipeline.stages import (
     Stages,
     by_contacts,
@@ -211,7 +211,8 @@ def functionalize(
     build = partial(realize, plan, grown, gallery.preferring(settings.hinge), joints, cache)
     realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
-    fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
+    wanted = additions_wanted(asset, settings.additions)
+    fit = partial(add_after_joints, realized.scene, completion, wanted, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     small = small_parts_wanted(asset, motion.reads_annotation, settings.small_parts, turning)
     realized = with_small_joints_of(realized, fittings, asset, joints, stages, small)

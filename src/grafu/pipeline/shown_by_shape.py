@@ -4,6 +4,8 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import final
 
+from grafu.additions.config import AdditionConfig
+from grafu.additions.interior.request import NOTHING, PREDICTED
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.functional_graph import FunctionalGraph
@@ -18,7 +20,7 @@ from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
-from grafu.joints.windows import with_windows
+from grafu.joints.windows import window, with_windows
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
 
@@ -66,6 +68,13 @@ def _without_turntables(
 
     turning = round_trays(asset, sliding)
     return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in turning)), turning
+
+
+def additions_wanted(asset: Asset, wanted: AdditionConfig) -> AdditionConfig:
+    """Returns what is added to an asset: a door or a window of a building has no inside for predicted shelves."""
+    if wanted.interior != PREDICTED or (building_door(asset) is None and window(asset) is None):
+        return wanted
+    return replace(wanted, interior=NOTHING)
 
 
 def small_parts_wanted(
