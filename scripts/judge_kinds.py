@@ -4,9 +4,9 @@
 
 Of each kind it prints how many true joints there are and, of these, how many were built with the right type and axis
 (within 5 degrees, the same sense), open by at least 90 % of the true range, collide in no pose (tolerant, see
-docs/metrics.md; other bodies and hardware count) and stay connected (small parts apart, which stand off what they
-are pressed towards); then how many joints were built besides. With --out it writes truth and results as URDF, which
-other judges read.
+docs/metrics.md; other moving bodies count, unless one turns on another) and stay connected (small parts apart, which
+stand off what they are pressed towards); then how many joints were built besides. With --out it writes truth and
+results as URDF, which other judges read.
 """
 
 import argparse
@@ -29,6 +29,8 @@ from grafu.metrics.collision import CollisionConfig, collision_shares, connected
 from grafu.synth.appliances.appliance import drawn_appliance, make_appliance
 from grafu.synth.cabinets.pull_out import drawn_pull_out, make_pull_out
 from grafu.synth.cabinets.sliding import drawn_sliding_doors, make_sliding_doors
+from grafu.synth.openings.door import drawn_door, make_building_door
+from grafu.synth.openings.window import drawn_window, make_window
 from grafu.synth.tables.drop_leaf import drawn_drop_leaf_table, make_drop_leaf_table
 from grafu.synth.truth.clashes import articulated_of
 
@@ -40,10 +42,14 @@ KINDS: Mapping[str, Maker] = {
     "dishwasher": lambda rng, name: make_appliance(drawn_appliance(rng, name, "dishwasher")),
     "oven": lambda rng, name: make_appliance(drawn_appliance(rng, name, "oven")),
     "microwave": lambda rng, name: make_appliance(drawn_appliance(rng, name, "microwave")),
+    "building-door": lambda rng, name: make_building_door(drawn_door(rng, name)),
+    "casement": lambda rng, name: make_window(drawn_window(rng, name, "casement")),
+    "two-leaf-window": lambda rng, name: make_window(drawn_window(rng, name, "pair")),
+    "sash": lambda rng, name: make_window(drawn_window(rng, name, "sash")),
 }
 ALIKE = np.cos(np.radians(5.0))  # of two axes
 OPEN = 0.9  # of the true range
-COLLISION = CollisionConfig(tolerance=0.0005, hardware=True, moving_bodies=True)
+TOLERANCE = 0.0005  # the tolerant collision's
 
 
 @final
@@ -95,9 +101,11 @@ def judge(kind: str, motion: str, seed: int, out: Path | None, number: int) -> J
         result.save(out / "results" / name, formats=("urdf",), page=False, overwrite=True)
     made = result.made.object
     truth = (*asset.joints, *asset.small_joints)
-    shares, held = collision_shares(made, COLLISION), connected_joints(made)
+    is_flat = all(joint.parent == made.root for joint in made.joints)
+    colliding = collision_shares(made, CollisionConfig(tolerance=TOLERANCE, moving_bodies=is_flat))
+    held = connected_joints(made)
     held |= dict.fromkeys((f"{joint.part}_joint" for joint in asset.small_joints), True)
-    joints = tuple((joint.part, _holding(joint, made, shares, held)) for joint in truth)
+    joints = tuple((joint.part, _holding(joint, made, colliding, held)) for joint in truth)
     besides = sum(joint.child not in {one.part for one in truth} for joint in made.moving_joints)
     return Judged(name, joints, besides)
 
@@ -108,7 +116,7 @@ def _as_mobility(asset: Asset) -> dict[str, bytes]:
 
 
 def _holding(
-    joint: AnnotatedJoint, made: ArticulatedObject, shares: Mapping[str, float], held: Mapping[str, bool]
+    joint: AnnotatedJoint, made: ArticulatedObject, colliding: Mapping[str, float], held: Mapping[str, bool]
 ) -> frozenset[str]:
     built = made.joint_of.get(joint.part)
     if built is None or built.type is not joint.type:
@@ -117,7 +125,7 @@ def _holding(
     checks = {
         "right": float(built.axis.direction @ joint.axis.direction) >= ALIKE,
         "open": upper >= OPEN * joint.upper,
-        "free": shares.get(built.id, 0.0) == 0.0,
+        "free": colliding.get(built.id, 0.0) == 0.0,
         "held": held.get(built.id, True),
     }
     return frozenset(word for word, holds in checks.items() if holds)
@@ -126,9 +134,9 @@ def _holding(
 def _print(kind: str, found: list[Judged], in_full: bool) -> None:
     rows = [holding for one in found for _, holding in one.joints]
     words = ("right", "open", "free", "held")
-    shares = [sum(word in row for row in rows) / max(len(rows), 1) for word in words]
+    ratios = [sum(word in row for row in rows) / max(len(rows), 1) for word in words]
     whole = sum(row == set(words) for row in rows) / max(len(rows), 1)
-    figures = " ".join(f"{share:5.1%}" for share in (*shares, whole))
+    figures = " ".join(f"{ratio:5.1%}" for ratio in (*ratios, whole))
     print(f"{kind:14} {len(found):6} {len(rows):6} {figures} {sum(one.besides for one in found):7}", flush=True)
     for one in found:
         if one.error:

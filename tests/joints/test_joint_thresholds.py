@@ -16,6 +16,7 @@ from grafu.joints.drop_leaves import DropLeafConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.lever_config import LeverConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.pull_outs import PullOutConfig
 from grafu.joints.racks import RackConfig
@@ -29,6 +30,7 @@ from grafu.joints.rail_config import (
     RailFootingConfig,
 )
 from grafu.joints.stay_config import StayConfig
+from grafu.joints.window_config import WindowConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
@@ -46,7 +48,8 @@ REASONS = {
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_TRAVELS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
-    "clearance/make.py": {"_FINELY": EFFORT, "_GAPS": EFFORT, "_STEPS": EFFORT},
+    "clearance/in_frame.py": {"GAPS": EFFORT},
+    "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "clearance/loss.py": {"_MOST_EXACT": EFFORT, "_POINTS": SAMPLES, "_PLASTIC": GEOMETRY},
     "clearance/separate.py": {"_SAMPLES": SAMPLES},
@@ -54,6 +57,7 @@ REASONS = {
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
     "drop_leaves.py": {"_UP": NUMBERING},
+    "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
@@ -82,13 +86,14 @@ REASONS = {
     "sliding_doors.py": {"_UP": NUMBERING},
     "stays.py": {"_SIDES": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
+    "windows.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
-    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, PinConfig,
-    PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig,
-    SurveyConfig, TimeConfig,
+    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, LeverConfig,
+    PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig,
+    StayConfig, SurveyConfig, TimeConfig, WindowConfig,
 )  # fmt: skip
 
 

@@ -43,8 +43,8 @@ def test_true_joints_are_of_their_types_and_collide_with_nothing(kind):
     for asset in made:
         truth = articulated_of(asset)
         assert asset.joints
-        shares = collision_shares(truth, CollisionConfig(poses=12, tolerance=0.0005))
-        assert set(shares.values()) == {0.0}, (kind, asset.name)
+        colliding = collision_shares(truth, CollisionConfig(poses=12, tolerance=0.0005))
+        assert set(colliding.values()) == {0.0}, (kind, asset.name)
 
 
 @pytest.mark.parametrize("kind", ["sliding", "pull-out", "drop leaf"])

@@ -11,6 +11,7 @@ from typing import final
 from grafu.geometry.axis import Axis
 from grafu.geometry.config_checks import at_scale
 from grafu.joints.clearance.carve import Path, obstruction
+from grafu.joints.clearance.in_frame import leaf_in_frame
 from grafu.joints.clearance.make import make_clearance
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
@@ -105,11 +106,24 @@ def _is_wide(placement: Placement | None, search: DoorSearch) -> bool:
 
 def _cleared(search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]]:
     """Returns the search in the scene with clearance made for the door, if it opens wider there; else as it was."""
+    if search.config.trim and (fitted := _fitted(search)):
+        return fitted
     path = _path(search.request, search.scene, search.to_clear().axis, search.wanted)
     cleared = make_clearance(search.scene, path, search.config)
     again = door_search(search.request, cleared.scene, search.config)
     is_wider = again.best().free > search.best().free or again.free_ratio() > search.free_ratio()
     return (again, cleared.clearances) if is_wider else (search, ())
+
+
+def _fitted(search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]] | None:
+    """Returns the search in the scene with a leaf cut to the opening of its frame; None where that does not free it."""
+    request, config = search.request, search.config
+    axes = part_axes(search.scene.parts[request.moving].mesh)
+    for scene, clearances in leaf_in_frame(search.scene, request.moving, axes, search.met_at_rest(), config):
+        again = door_search(request, scene, config)
+        if again.best().free >= config.restricted * again.wanted and not again.met_at_rest():
+            return again, clearances
+    return None
 
 
 def _hinged(search: DoorSearch, gallery: Gallery) -> Placement | None:

@@ -1,4 +1,4 @@
-"""How much play a path gets, and what of a drawer belongs to the case."""
+"""How much play a path gets, and what of a drawer or a leaf belongs to the case or the frame."""
 
 from dataclasses import dataclass
 from typing import final
@@ -15,7 +15,7 @@ class ClearanceConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("beside",)
+    LENGTHS = ("beside", "lapped")
     play: float = 2.5
     """Distance to what a path is freed from (in tolerated penetrations)."""
     touching: float = 0.9
@@ -36,7 +36,11 @@ class ClearanceConfig:
     """... if all of them in one part are no more than this."""
     inside: float = 0.5
     """Slivers of which more than this lies within the outline of the rest are pieces of it (fraction)."""
+    lapped: float = 0.02
+    """How far the edges of a leaf reach into the frame around it at most, where they are cut off (metres)."""
+    through: float = 0.5
+    """Along how much of a leaf's thickness its frame reaches at least (fraction): less where it lies on its frame."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "play", "enclosed", "beside", "shells", "sides")
-        require_ratios(self, "touching", "frame", "sliver", "slivers", "inside")
+        require_positive(self, "play", "enclosed", "beside", "shells", "sides", "lapped")
+        require_ratios(self, "touching", "frame", "sliver", "slivers", "inside", "through")

@@ -12,6 +12,7 @@ from grafu.geometry.config_checks import require_not_negative, require_positive,
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge_config import HingeConfig
+from grafu.joints.lever_config import LeverConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import ClosingConfig, DrawerConfig, RailConfig
 from grafu.joints.stay_config import StayConfig
@@ -252,6 +253,8 @@ class RealizationConfig(ShortRepr):
     """Of stays on lids and flaps."""
     small: SmallPartConfig = SmallPartConfig()
     """Of knobs, buttons, wheels and casters."""
+    lever: LeverConfig = LeverConfig()
+    """Of levers of doors."""
     block: BlockConfig = BlockConfig()
     """Of support blocks."""
     clearance: ClearanceConfig = ClearanceConfig()

@@ -53,14 +53,25 @@ def fitted(
     return opening, shorter, (note,)
 
 
+def _passes_through(taken: TakenPart, depth: float) -> bool:
+    """Whether a part stands out of both sides of what carries it along its axis, by more than `depth` metres."""
+    direction = taken.request.axis.direction
+    names = {visual.name for visual in taken.visuals}
+    carrier = np.concatenate([v.mesh.vertices @ direction for v in taken.link.visuals if v.name not in names])
+    own = np.concatenate([visual.mesh.vertices @ direction for visual in taken.visuals])
+    return bool(own.min() < carrier.min() - depth and own.max() > carrier.max() + depth)
+
+
 def _seated(
     taken: TakenPart, wanted: float, made: ArticulatedObject, config: RealizationConfig
 ) -> tuple[TakenPart, tuple[Clearance, ...]]:
     """Returns a part whose inner end is pressed flat by the least depth at which it turns without cutting in.
 
-    It stays as it is where it cuts into nothing at rest, or still does with as much of it pressed as may be: it has a
-    bearing.
+    It stays as it is where it cuts into nothing at rest, or still does with as much of it pressed as may be, or where
+    it stands out of both sides of what carries it: it has a bearing.
     """
+    if _passes_through(taken, config.depth * extent_of(made)):
+        return taken, ()
     length = _span(taken)
     low, high = 0.0, config.small.sunk * length
     if not _cuts(taken, 0.0, made, config) or _cuts(_pressed(taken, high), wanted, made, config):

@@ -18,7 +18,7 @@ from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import Installed, Outcome
 from grafu.joints.small_fit import TakenPart, extent_of, fitted, swept
 from grafu.joints.small_knobs import SOURCE as FOUND
-from grafu.joints.small_parts import are_links, small_parts, stated_small_parts
+from grafu.joints.small_requests import found_requests, stated_requests
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import MechanismClass
@@ -35,11 +35,7 @@ def with_small_parts(
     Of the latter all, or, where parts are `chosen`, these and those that are links of their own in the asset.
     """
     made, scaled = realized.object, at_scale(config, metre_on(asset.extent))
-    requests = stated_small_parts(asset, config.plan)
-    if not requests:
-        requests = small_parts(made, scaled.small)
-        if chosen is not None:
-            requests = tuple(r for r in requests if r.moving in chosen or are_links(asset, (r.moving, *r.attached)))
+    requests = stated_requests(asset, realized, config) or found_requests(made, asset, scaled, chosen)
     changed, outcomes = with_small_joints(made, requests, scaled)
     built = {outcome.moving for outcome in outcomes if isinstance(outcome, Installed)}
     before = (o for o in realized.report.outcomes if not (isinstance(o, Refusal) and o.part in built))
@@ -97,6 +93,12 @@ def _built(
     joint = Joint(
         joint_id(request.moving), request.type, taken.link.id, request.moving, request.axis, JointLimits(0.0, opening)
     )
+    if request.coupling is not None:
+        leader = made.joint_of.get(request.coupling.leader)
+        if leader is None:
+            why = f"{request.coupling.leader}, which it follows, does not move"
+            return made, Refusal(request.moving, Reason.BLOCKED, why, Asked.SMALL_JOINT)
+        joint = joint.following(leader, opening / leader.limits.upper)
     names = {visual.name for visual in taken.visuals}
     links = [
         replace(link, visuals=tuple(v for v in link.visuals if v.name not in names)) if link is taken.link else link

@@ -26,6 +26,7 @@ from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
+from grafu.joints.windows import with_window_labels
 from grafu.pipeline.additions import add_after_joints, add_before_joints, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
@@ -33,7 +34,7 @@ from grafu.pipeline.finishing import with_small_joints_of, with_stays_of
 from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
-from grafu.pipeline.shown_by_shape import shown_by_shape, small_parts_wanted
+from grafu.pipeline.shown_by_shape import additions_wanted, shown_by_shape, small_parts_wanted
 from grafu.pipeline.stages import (
     Stages,
     by_contacts,
@@ -210,7 +211,8 @@ def functionalize(
     build = partial(realize, plan, grown, gallery.preferring(settings.hinge), joints, cache)
     realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
-    fit = partial(add_after_joints, realized.scene, completion, settings.additions, config.own_handles)
+    wanted = additions_wanted(asset, settings.additions)
+    fit = partial(add_after_joints, realized.scene, completion, wanted, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     small = small_parts_wanted(asset, motion.reads_annotation, settings.small_parts, turning)
     realized = with_small_joints_of(realized, fittings, asset, joints, stages, small)
@@ -246,7 +248,9 @@ def _with_source(
         return stages.timed("match", lambda: attach_motions(asset, source)), MotionSource(source.source)
     chosen = choose_source(asset, source, settings.weights)
     _require_attached(asset, chosen)
-    return asset if MOTIONS[chosen].reads_annotation else with_door_labels(asset.without_annotation()), chosen
+    return asset if MOTIONS[chosen].reads_annotation else with_window_labels(
+        with_door_labels(asset.without_annotation())
+    ), chosen
 
 
 def _as_built(

@@ -4,10 +4,12 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import final
 
+from grafu.additions.config import AdditionConfig
+from grafu.additions.interior.request import NOTHING, PREDICTED
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.joints.building_doors import with_building_doors
+from grafu.joints.building_doors import building_door, with_building_doors
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_leaves import with_drop_leaves
@@ -18,6 +20,7 @@ from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
+from grafu.joints.windows import window, with_windows
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
 
@@ -43,7 +46,7 @@ def shown_by_shape(
 
     `settled` are the parts whose motions the user states; `small` is as in the settings.
     """
-    plan = with_building_doors(plan, asset)
+    plan = with_windows(with_building_doors(plan, asset), asset)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_racks(with_drop_leaves(plan, asset), asset, graph)
@@ -67,15 +70,24 @@ def _without_turntables(
     return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in turning)), turning
 
 
+def additions_wanted(asset: Asset, wanted: AdditionConfig) -> AdditionConfig:
+    """Returns what is added to an asset: a door or a window of a building has no inside for predicted shelves."""
+    if wanted.interior != PREDICTED or (building_door(asset) is None and window(asset) is None):
+        return wanted
+    return replace(wanted, interior=NOTHING)
+
+
 def small_parts_wanted(
     asset: Asset, reads_annotation: bool, wanted: bool | None, turning: frozenset[str]
 ) -> WantedSmallParts:
     """Returns which joints of small parts are built; by default (`wanted` None) where they are stated and read.
 
-    Else by default those of the `turning` trays, and of parts that are links.
+    Else by default those of the `turning` trays, of parts that are links, and of what is on a building's door.
     """
     if wanted is not None:
         return WantedSmallParts(wanted)
     if asset.small_joints:
         return WantedSmallParts(reads_annotation)
-    return WantedSmallParts(bool(turning) or any(part.source.link for part in asset.parts), turning)
+    door = building_door(asset)
+    chosen = turning | {part.id for parts in door.on_leaf for part in parts} if door else turning
+    return WantedSmallParts(bool(chosen) or any(part.source.link for part in asset.parts), chosen)

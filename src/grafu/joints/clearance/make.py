@@ -16,6 +16,7 @@ from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.transform import from_rotation
 from grafu.joints.clearance.behind import narrow_behind
 from grafu.joints.clearance.carve import Carving, Change, ClearanceStep, Path, box_in, carve, obstruction
+from grafu.joints.clearance.in_frame import GAPS
 from grafu.joints.clearance.separate import separate
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
@@ -100,7 +101,7 @@ def narrow(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConf
     part = scene.parts[path.moving]
     size = box_in(path.axes, part.mesh).size
     across = size > size.min() if path.is_turn else np.abs(path.motion(path.reach)[:3, 3] @ path.axes) < 1e-9
-    for gap in (plays * config.depth * scene.extent for plays in _GAPS):
+    for gap in (plays * config.depth * scene.extent for plays in GAPS):
         if not (gap <= config.max_trim * size[across]).all():
             break
         narrowed = scene.replaced([_inset(part, path.axes, np.where(across, gap, 0.0))])
@@ -121,7 +122,6 @@ def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
 
 
 _FINELY = 2000  # solids with which a path is cut by triangles where hulls would cut away too much
-_GAPS = (2.5, 4.0, 6.0)  # on each side, in tolerated penetrations
 _STEPS: tuple[ClearanceStep, ...] = (
     adopt,
     separate,

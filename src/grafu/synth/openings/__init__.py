@@ -1,0 +1,1 @@
+"""Doors and windows of buildings: specimens for tests; no family of the generator makes them."""

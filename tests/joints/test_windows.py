@@ -1,0 +1,97 @@
+"""Leaves of frame and panes in a closed frame move as windows do; pictures, mirrors and cabinets have none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grafu.asset.edit import mirrored
+from grafu.graph.edges import Hinge, Slide
+from grafu.joints.motion_choice import FIXED, choice_in_words
+from grafu.joints.windows import window, with_window_labels
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.settings import Settings
+from grafu.synth.openings.door import DoorSpec, make_building_door
+from grafu.synth.openings.window import WindowSpec, make_window
+from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import PartLabel
+from judging import swept_collisions
+from small_scenes import box, scene
+
+
+def bare(asset):
+    """The asset as it is read without joints: nothing is labelled or carried."""
+    parts = tuple(replace(p, label=PartLabel.UNKNOWN, labelled_by="none", carried_by=None) for p in asset.parts)
+    return replace(asset, parts=parts, joints=(), small_joints=())
+
+
+def built(asset, source=MotionSource.NETWORK, **settings):
+    return functionalize(asset, source, builtin_gallery(), PipelineConfig(Settings(**settings)))
+
+
+SPECS = (
+    WindowSpec(hinge="right"),
+    WindowSpec(kind="awning", width=1.0, height=0.6, at_back=True),
+    WindowSpec(kind="hopper", width=1.0, height=0.6, sill=0.05),
+    WindowSpec(kind="pair", width=1.2, handle=False),
+    WindowSpec(kind="sash", height=1.4, depth=0.13),
+)
+
+
+@pytest.mark.parametrize("source", [MotionSource.NETWORK, MotionSource.ANNOTATION])
+@pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.kind)
+def test_a_window_moves_as_its_shape_shows_and_as_is_stated(spec, source):
+    asset = make_window(spec)
+    made = built(bare(asset) if source is MotionSource.NETWORK else asset, source)
+    truth = {joint.part: joint for joint in asset.joints}
+    assert {joint.child for joint in made.object.joints} == set(truth)
+    for joint in made.object.joints:
+        true = truth[joint.child]
+        assert joint.type is true.type
+        assert float(joint.axis.direction @ true.axis.direction) == pytest.approx(1.0, abs=1e-6)
+        if joint.kind.turns:
+            assert np.linalg.norm(joint.axis.closest_point(true.axis.point) - true.axis.point) < 0.06
+        assert joint.limits.upper >= 0.7 * true.upper
+        assert not swept_collisions(made.object, joint, 10)
+    if source is MotionSource.NETWORK:
+        doors = {part.id for part in made.asset.parts if part.label is PartLabel.DOOR}
+        assert doors == set(truth)  # the upper sash stays, and is none
+        assert made.report.skipped == made.fittings.refusals == ()  # it has no inside for shelves
+
+
+NOT_WINDOWS = {
+    "a picture": (make_window(WindowSpec()).part("window_frame"), box("canvas", (-0.3, 0.0, 0.05), (0.3, 0.01, 1.05))),
+    "an empty frame": (make_window(WindowSpec()).part("window_frame"),),
+    "a frame without panes": tuple(p for p in make_window(WindowSpec()).parts if p.id != "pane"),
+    "a cabinet": (*make_window(WindowSpec()).parts, box("back", (-0.35, 0.3, 0.0), (0.35, 0.31, 1.1))),
+    "a door with a threshold": make_building_door(DoorSpec()).parts,
+}
+
+
+@pytest.mark.parametrize("what", NOT_WINDOWS)
+def test_other_pieces_are_no_windows(what):
+    assert window(scene(*NOT_WINDOWS[what])) is None
+
+
+def test_labels_of_the_user_stay_and_a_mirror_image_is_found_alike():
+    asset = bare(make_window(WindowSpec()))
+    stated = replace(asset.part("leaf"), label=PartLabel.SIDE_PANEL, labelled_by="user")
+    corrected = replace(asset, parts=tuple(stated if p.id == "leaf" else p for p in asset.parts))
+    assert with_window_labels(corrected).part("leaf").label is PartLabel.SIDE_PANEL
+    assert with_window_labels(asset).part("leaf").label is PartLabel.DOOR
+    assert window(mirrored(asset)) is not None
+
+
+def test_the_user_may_fix_a_leaf_or_state_how_it_moves():
+    asset = bare(make_window(WindowSpec()))
+    assert built(asset, motions={"leaf": FIXED}).object.joints == ()
+    made = built(asset, motions={"leaf": choice_in_words("top")})
+    (joint,) = made.object.joints
+    assert abs(joint.axis.direction[0]) == pytest.approx(1.0)
+    assert {v.name for v in made.object.link("leaf").visuals if v.role == "part"} == {"leaf", "pane", "handle"}
+
+
+def test_the_kinds_of_motion_are_those_of_hinges_and_rails():
+    kinds = {joint.type for spec in SPECS for joint in make_window(spec).joints}
+    assert kinds == {Hinge.joint_type, Slide.joint_type}
