@@ -93,7 +93,7 @@ def judge(kind: str, motion: str, seed: int, out: Path | None, number: int) -> J
     name = f"{kind}_{number:03d}"
     asset = KINDS[kind](np.random.default_rng([seed, number]), name)
     try:
-        result = grafu.functionalize(asset, motion=motion)
+        result = grafu.functionalize(asset, motion=motion, small_parts=True)
     except grafu.GrafuError as error:
         return Judged(name, (), 0, str(error))
     if out:

@@ -4,13 +4,15 @@ from dataclasses import replace
 
 import pytest
 
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.joints.drop_leaves import SOURCE, with_drop_leaves
-from grafu.joints.plan import RealizationPlan
+from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.render.picture import posed_visuals
 from grafu.templates.gallery import builtin_gallery
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import JointType, PartLabel
 from small_scenes import box, scene
 
 TOP = box("top", (-0.3, -0.4, 0.72), (0.3, 0.4, 0.74))
@@ -79,6 +81,16 @@ def test_a_leaf_is_found_at_any_scale(scale):
     assert found(*parts) == {"leaf"}
 
 
-def test_one_leaf_alone_is_enough_and_a_part_that_moves_is_none():
+def test_one_leaf_alone_is_enough_and_a_drawer_is_none():
     assert found(*TABLE, leaf(-1.0)) == {"leaf"}
-    assert found(*TABLE, leaf(-1.0, "door")) == set()
+    assert found(*TABLE, leaf(-1.0, "drawer")) == set()
+
+
+def test_a_leaf_that_is_called_a_door_and_was_predicted_to_turn_about_its_side_swings_up():
+    door = replace(leaf(1.0, "door_leaf"), label=PartLabel.DOOR)
+    upright = Axis(vec3(0.322, 0.4, 0.6), vec3(0.0, 0.0, 1.0))
+    request = JointRequest("door_leaf", JointType.REVOLUTE, upright, "network", attached=("handle",))
+    plan = with_drop_leaves(RealizationPlan((request,), ()), scene(*TABLE, door))
+    (made,) = plan.joints
+    assert (made.moving, made.source, made.attached) == ("door_leaf", SOURCE, ("handle",))
+    assert abs(float(made.axis.direction[1])) == pytest.approx(1.0)

@@ -30,6 +30,7 @@ from grafu.joints.rail_config import (
     RailFootingConfig,
 )
 from grafu.joints.stay_config import StayConfig
+from grafu.joints.wide_bars import WideBarConfig
 from grafu.joints.window_config import WindowConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
@@ -59,6 +60,7 @@ REASONS = {
     "drop_leaves.py": {"_UP": NUMBERING},
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
+    "wide_bars.py": {"_UP": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
     "folding.py": {"_TWICE": GEOMETRY},
@@ -93,7 +95,7 @@ CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, LeverConfig,
     PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig,
-    StayConfig, SurveyConfig, TimeConfig, WindowConfig,
+    StayConfig, SurveyConfig, TimeConfig, WideBarConfig, WindowConfig,
 )  # fmt: skip
 
 

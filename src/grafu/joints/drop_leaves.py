@@ -16,6 +16,7 @@ from grafu.geometry.config_checks import at_scale, require_positive, require_rat
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.scene import metre_on
+from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"
 """`JointRequest.source` of a drop leaf: its shape alone tells."""
@@ -60,18 +61,32 @@ class DropLeafConfig:
 
 
 def with_drop_leaves(plan: RealizationPlan, asset: Asset, config: DropLeafConfig = DropLeafConfig()) -> RealizationPlan:
-    """Returns the plan in which leaves that hang from a table's top swing up; joints that it has stay as they are."""
+    """Returns the plan in which leaves that hang from a table's top swing up.
+
+    What was predicted to turn about another border is a leaf where it hangs as one; other joints stay as they are.
+    """
     config = at_scale(config, metre_on(asset.extent))
     moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
+    turning = {r.moving: r for r in plan.joints if r.kind.turns and not r.parent and r.coupling is None}
     static = [part for part in asset.parts if part.id not in moving and not part.label.is_movable]
+    may_hang = [part for part in asset.parts if part.id in turning or _is_free(part, moving)]
     tops = [part for part in static if _is_top(part.box, asset.box, config)]
-    found = {leaf.id: leaf for top in tops for leaf in _leaves(top, static, asset, config)}
+    found = {leaf.id: leaf for top in tops for leaf in _leaves(top, may_hang, asset, config)}
     if not found:
         return plan
-    swung = [
-        JointRequest(leaf.id, _RAISED.type, axis_of_motion(leaf, _RAISED, asset.box), SOURCE) for leaf in found.values()
-    ]
-    return replace(plan, joints=(*plan.joints, *swung))
+    kept = tuple(request for request in plan.joints if request.moving not in found)
+    swung = (_swung(leaf, asset, turning.get(leaf.id)) for leaf in found.values())
+    refused = tuple(refusal for refusal in plan.refused if refusal.part not in found)
+    return replace(plan, joints=(*kept, *swung), refused=refused)
+
+
+def _is_free(part: Part, moving: set[str]) -> bool:
+    return part.id not in moving and part.label not in (PartLabel.DRAWER, PartLabel.HANDLE)
+
+
+def _swung(leaf: Part, asset: Asset, predicted: JointRequest | None) -> JointRequest:
+    attached = predicted.attached if predicted else ()
+    return JointRequest(leaf.id, _RAISED.type, axis_of_motion(leaf, _RAISED, asset.box), SOURCE, attached=attached)
 
 
 def _is_top(box: Box, whole: Box, config: DropLeafConfig) -> bool:
@@ -82,8 +97,8 @@ def _is_top(box: Box, whole: Box, config: DropLeafConfig) -> bool:
     return bool(flat and covers and box.high[_UP] >= whole.high[_UP] - config.high * whole.size[_UP])
 
 
-def _leaves(top: Part, static: list[Part], asset: Asset, config: DropLeafConfig) -> Iterator[Part]:
-    for part in static:
+def _leaves(top: Part, may_hang: list[Part], asset: Asset, config: DropLeafConfig) -> Iterator[Part]:
+    for part in may_hang:
         sides = [(axis, sign) for axis in (0, 1) for sign in (-1, 1) if _hangs(part.box, top.box, axis, sign, config)]
         if len(sides) != 1 or not _is_leaf(part.box, asset.box, sides[0][0], config):
             continue
