@@ -47,6 +47,12 @@ def test_other_handles_leave_the_door_as_it_was_predicted(what):
     assert turned(NO_BARS[what]) == REQUEST
 
 
+def test_doors_side_by_side_may_have_such_bars():
+    second = box("second_door", (0.605, -0.02, 0.1), (1.2, 0.0, 0.7))
+    plan = with_wide_bars(RealizationPlan((REQUEST,), ()), scene(DOOR, second, SIDE, bar()))
+    assert plan.joints == (REQUEST,)
+
+
 def test_what_the_user_states_and_what_drops_already_stay():
     assert turned(bar(), settled=("door",)) == REQUEST
     level = JointRequest("door", JointType.REVOLUTE, Axis(vec3(0.3, 0.0, 0.7), vec3(-1.0, 0.0, 0.0)), "network")

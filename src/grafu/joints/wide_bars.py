@@ -1,12 +1,14 @@
-"""Doors with a bar across nearly all of their width: they drop or lift away from it, and do not open to a side.
+"""Single doors with a bar across nearly all of their width: they drop or lift away from it, and open to no side.
 
-Doors of ovens and dishwashers, and flaps of wall units, are pulled by such bars; a bar on a side-hung door is upright,
-or short and near its free edge.
+Doors of ovens and dishwashers, and flaps of wall units, are pulled by such bars; a bar on a single side-hung door is
+upright, or short and near its free edge.
 """
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import final
+
+import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.geometry.box import Box
@@ -31,6 +33,8 @@ class WideBarConfig:
     """
 
     LENGTHS = ("out",)
+    alone: float = 0.8
+    """Least width of the door (fraction of the piece's): doors side by side may have such bars, and be side-hung."""
     wide: float = 0.6
     """Least width of the bar (fraction of the door's)."""
     slim: float = 0.2
@@ -44,7 +48,7 @@ class WideBarConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "out")
-        require_ratios(self, "wide", "slim", "edge", "upright")
+        require_ratios(self, "alone", "wide", "slim", "edge", "upright")
 
 
 def with_wide_bars(
@@ -64,6 +68,8 @@ def _turned(request: JointRequest, asset: Asset, config: WideBarConfig) -> Joint
     if not (request.kind.turns and is_upright) or request.parent or request.coupling is not None:
         return request
     door = asset.part(request.moving)
+    if float(door.box.size[:_UP].max()) < config.alone * float(asset.box.size[int(np.argmax(door.box.size[:_UP]))]):
+        return request
     sides = {_side(part.box, door, config) for part in asset.parts if _is_handle(part, request)} - {None}
     if len(sides) != 1:
         return request
