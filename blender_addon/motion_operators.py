@@ -7,11 +7,12 @@ from .objects import ID
 from .run_operators import Applies
 from .state import session_of, settings_of
 
-TURNS, SLIDES, FOLDS, FIXED = "turns", "slides", "folds", "fixed"
+TURNS, SLIDES, FOLDS, TILTS, FIXED = "turns", "slides", "folds", "tilts", "fixed"
 MOVES = [
     (TURNS, "Turns", "A door, flap or lid: it turns about the border that is chosen"),
     (SLIDES, "Slides", "A drawer, or a sliding door: it slides to the side that is chosen"),
     (FOLDS, "Folds", "One of two leaves of a folding door: it folds to the left or to the right with the other"),
+    (TILTS, "Tilts", "A front with a bin behind it, as of a shoe cabinet: about its lower border, and not far"),
     (FIXED, "Fixed", "It is no door and no drawer: it gets no joint"),
 ]
 USUAL = "usual"
@@ -65,7 +66,7 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
         layout.use_property_split = True
         layout.prop_search(self, "part", session_of(context), "parts")
         layout.prop(self, "moves")
-        if self.moves != FIXED:
+        if self.moves not in (FIXED, TILTS):
             layout.prop(self, "side", text="Border" if self.moves == TURNS else "To the")
         if self.moves == TURNS:
             layout.prop(self, "inwards")
@@ -84,6 +85,7 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
         if self.moves == FOLDS and self.side not in ("left", "right"):
             raise ValueError(f"choose the side that `{self.part}` folds to: left or right")
         side = None if self.side == USUAL or self.moves == FIXED else Side(self.side)
+        side = Side.BOTTOM if self.moves == TILTS else side
         choice = MotionChoice(Moves(self.moves), side, self.inwards and self.moves == TURNS)
         return settings.with_motion(self.part, choice)
 

@@ -28,6 +28,7 @@ from grafu.joints.rail_config import (
     RailFootingConfig,
 )
 from grafu.joints.stay_config import StayConfig
+from grafu.joints.tilting_fronts import TiltConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
@@ -36,6 +37,7 @@ SAMPLES = "how many rays, poses, heights or pieces an algorithm takes, or where 
 TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture"
 EFFORT = "after how many tries, or beyond how many pieces, a search ends or is done in a simpler way"
 NUMBERING = "the rank of a row in a table, or a direction"
+OUTLINE = "what tells a board from a box where a user states how it moves"
 LOOK = "the colour of hardware"
 GEOMETRY = "a number of geometry: what folds ends in the plane of the opening"
 CHOICE = "the range of what a user may choose"
@@ -69,22 +71,24 @@ REASONS = {
         "_HALVINGS": SAMPLES,
     },
     "measuring.py": {"_GAP_POSES": SAMPLES, "_TOUCHING": TOLERANCE, "_MEASURED_POSES": SAMPLES},
-    "motion_choice.py": {"_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
+    "motion_choice.py": {"_BOARD": OUTLINE, "_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
     "pull_outs.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING},
-    "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_ACROSS": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
+    "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "sliding_doors.py": {"_UP": NUMBERING},
     "stays.py": {"_SIDES": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
+    "tilting_fronts.py": {"(_UP, _DEPTH)": NUMBERING},
+    "behind_fronts.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, PinConfig,
     PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig,
-    SurveyConfig, TimeConfig,
+    SurveyConfig, TiltConfig, TimeConfig,
 )  # fmt: skip
 
 

@@ -60,8 +60,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         default=[],
         metavar="PART=HOW",
         help="how a part moves, whatever the motion source states: it turns about its left, right, top or bottom side "
-        "(lift: top, drop: bottom); slides or pull: out of the front; slide-left, slide-right, slide-up: along itself; "
-        "fold-left, fold-right: as one of two leaves that fold to that side; fixed; once for each part",
+        "(lift: top, drop: bottom; tilt: bottom, with its bin, and not far); slides or pull: out of the front; "
+        "slide-left, slide-right, slide-up: along itself; fold-left, fold-right: as one of two leaves that fold to that "
+        "side; fixed; once for each part",
     )
     parser.add_argument(
         "--formats",

@@ -22,6 +22,7 @@ from grafu.scene.border import part_axes
 from grafu.vocabulary import MOTION_WORDS, JointType, PartLabel
 
 _LEVEL = 1e-6  # metres: a face this near to the middle of the whole is in the middle
+_BOARD = 0.25  # a front that tilts and is thicker than this, over its next side, has its bin in its mesh
 OLD_FIXED = "not"
 """The word of earlier versions for `fixed`; saved settings are still read."""
 
@@ -33,6 +34,7 @@ class Moves(StrEnum):
     TURNS = "turns"
     SLIDES = "slides"
     FOLDS = "folds"  # one of two leaves that are hinged to one another
+    TILTS = "tilts"  # it turns about its lower edge with the bin behind it, and stops well before it is level
 
     @classmethod
     def _missing_(cls, value: object) -> "Moves | None":
@@ -69,8 +71,8 @@ class MotionChoice:
     leaves fold to. What turns opens outwards, away from the object's middle, unless `inwards`.
 
     Raises:
-        ValueError: if a part that turns has no side, one that does not turn opens inwards, or a leaf folds to a side
-            that is neither left nor right.
+        ValueError: if a part that turns has no side, one that does not turn opens inwards, a leaf folds to a side
+            that is neither left nor right, or a front tilts about another side than the bottom.
     """
 
     moves: Moves
@@ -82,6 +84,8 @@ class MotionChoice:
             raise ValueError("`MotionChoice.side` must name the border that a part turns about: got none")
         if self.moves is Moves.FOLDS and self.side not in (Side.LEFT, Side.RIGHT):
             raise ValueError(f"`MotionChoice.side` must be left or right for a leaf that folds: got {self.side}")
+        if self.moves is Moves.TILTS and self.side is not Side.BOTTOM:
+            raise ValueError(f"`MotionChoice.side` must be bottom for a front that tilts: got {self.side}")
         if self.moves is not Moves.TURNS and self.inwards:
             raise ValueError(f"`MotionChoice.inwards` is for parts that turn: got it for one that moves {self.moves}")
         if self.moves is Moves.FIXED and self.side is not None:
@@ -98,6 +102,7 @@ _TYPES: dict[Moves, JointType] = {
     Moves.TURNS: JointType.REVOLUTE,
     Moves.SLIDES: JointType.PRISMATIC,
     Moves.FOLDS: JointType.REVOLUTE,
+    Moves.TILTS: JointType.REVOLUTE,
 }
 FIXED = MotionChoice(Moves.FIXED)
 
@@ -108,6 +113,7 @@ _CHOICES: dict[str, MotionChoice] = dict(
         MOTION_WORDS,
         (
             *(MotionChoice(Moves.TURNS, Side(side)) for side in (*TURNING_SIDES, "top", "bottom")),
+            MotionChoice(Moves.TILTS, Side.BOTTOM),
             *(MotionChoice(Moves.SLIDES, side) for side in (None, None, Side.LEFT, Side.RIGHT, Side.TOP)),
             *(MotionChoice(Moves.FOLDS, side) for side in (Side.LEFT, Side.RIGHT)),
             FIXED,
@@ -152,12 +158,15 @@ def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:
     side = _own_side(axes, _direction(choice))
     if choice.moves is Moves.SLIDES:
         return Axis(axes @ local.center, side)
-    thin = axes[:, local.thin_axis]
-    if abs(float(side @ thin)) > 0.5:
-        raise OptionError(f"`{part.id}` must turn about one of its borders: its {choice.side} is a broad face")
-    opens = _outwards(thin, axes @ local.center - whole.center) * (-1.0 if choice.inwards else 1.0)
+    if choice.moves is Moves.TILTS and local.size[local.thin_axis] > _BOARD * np.median(local.size):
+        opens = _own_side(axes, DIRECTIONS[Side.FRONT])  # the bin is part of its mesh
+    else:
+        thin = axes[:, local.thin_axis]
+        if abs(float(side @ thin)) > 0.5:
+            raise OptionError(f"`{part.id}` must turn about one of its borders: its {choice.side} is a broad face")
+        opens = _outwards(thin, axes @ local.center - whole.center) * (-1.0 if choice.inwards else 1.0)
     half = np.abs(axes.T @ side) @ local.half
-    depth = float(local.half[local.thin_axis])
+    depth = float(np.abs(axes.T @ opens) @ local.half)
     return Axis(axes @ local.center + half * side + depth * opens, np.cross(-side, opens))
 
 

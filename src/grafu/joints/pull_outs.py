@@ -14,7 +14,8 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.graph.edges import Slide
-from grafu.graph.functional_graph import FunctionalGraph, joined_groups
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.joints.behind_fronts import groups_within, is_within_outline, touched_by
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.scene import metre_on
 
@@ -96,8 +97,7 @@ def _rack(
     """Returns the parts behind a front that hang together and that nothing beside, above or below them holds."""
     own = {request.moving, *request.attached}
     inside = {part.id: part.box for part in static if _is_behind(part.box, front, config)}
-    touching = {name: [other for other in graph.neighbours[name] if other in inside] for name in inside}
-    for found in joined_groups(touching):
+    for found in groups_within(inside, graph):
         box = Box.enclosing(inside[name] for name in found)
         near = abs(float(box.low[_DEPTH] - front.high[_DEPTH])) <= config.reach
         large = (
@@ -105,18 +105,16 @@ def _rack(
         )
         if len(found) < config.pieces or not (near and large):
             continue
-        touched = {name for member in found for name in graph.neighbours[member]} - set(found) - own
+        touched = touched_by(found, graph, own)
         far = float(box.high[_DEPTH]) - config.back * float(box.size[_DEPTH])
         if all(float(asset.part(name).box.low[_DEPTH]) >= far for name in touched):
-            return sorted(found)
+            return list(found)
     return []
 
 
 def _is_behind(box: Box, front: Box, config: PullOutConfig) -> bool:
     """Whether a part may be one of a rack: well within a front's outline, behind it, and no back of the case."""
-    low, high = front.low + config.clear, front.high - config.clear
     across = [0, _UP]
-    inside = np.all(box.low[across] >= low[across]) and np.all(box.high[across] <= high[across])
-    behind = box.low[_DEPTH] >= front.low[_DEPTH] and box.high[_DEPTH] > front.high[_DEPTH]
+    behind = is_within_outline(box, front, config.clear) and box.low[_DEPTH] >= front.low[_DEPTH]
     wall = box.thin_axis == _DEPTH and np.all(box.size[across] >= config.wall * front.size[across])
-    return bool(inside and behind and not wall)
+    return bool(behind and not wall)
