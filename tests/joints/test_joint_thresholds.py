@@ -15,6 +15,7 @@ from grafu.joints.drop_leaves import DropLeafConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.lift_arm_config import LiftArmConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.pull_outs import PullOutConfig
 from grafu.joints.racks import RackConfig
@@ -63,6 +64,8 @@ REASONS = {
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING, "_HEIGHT_SHIFTS": SAMPLES},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
+    "lift_arms.py": {"_SIDES": NUMBERING, "_ROUND": SAMPLES, "_QUARTER": SAMPLES},
+    "parallel_lifts.py": {"_NEAR": TOLERANCE},
     "limits.py": {
         "_REST_DENSITY": SAMPLES,
         "_DIP": TOLERANCE,
@@ -86,7 +89,7 @@ REASONS = {
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
-    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, PinConfig,
+    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, LiftArmConfig, PinConfig,
     PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig,
     SurveyConfig, TiltConfig, TimeConfig,
 )  # fmt: skip

@@ -1,6 +1,6 @@
 """What stands behind a front, told by boxes and contacts: the groups of parts within its outline, and what holds them.
 
-Racks, pull-out units and the bins of tilting fronts are told in this way; fronts that stand turned about Z are not.
+Racks, pull-out units and the bins of tilting fronts are found in this way; those of fronts turned about Z are not.
 """
 
 from collections.abc import Collection, Iterator, Mapping

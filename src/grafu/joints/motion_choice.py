@@ -34,6 +34,7 @@ class Moves(StrEnum):
     TURNS = "turns"
     SLIDES = "slides"
     FOLDS = "folds"  # one of two leaves that are hinged to one another
+    LIFTS = "lifts"  # arms lift it upright, parallel to itself
     TILTS = "tilts"  # it turns about its lower edge with the bin behind it, and stops well before it is level
 
     @classmethod
@@ -72,7 +73,7 @@ class MotionChoice:
 
     Raises:
         ValueError: if a part that turns has no side, one that does not turn opens inwards, a leaf folds to a side
-            that is neither left nor right, or a front tilts about another side than the bottom.
+            that is neither left nor right, or what tilts or lifts has another side than the bottom, or the top.
     """
 
     moves: Moves
@@ -84,8 +85,9 @@ class MotionChoice:
             raise ValueError("`MotionChoice.side` must name the border that a part turns about: got none")
         if self.moves is Moves.FOLDS and self.side not in (Side.LEFT, Side.RIGHT):
             raise ValueError(f"`MotionChoice.side` must be left or right for a leaf that folds: got {self.side}")
-        if self.moves is Moves.TILTS and self.side is not Side.BOTTOM:
-            raise ValueError(f"`MotionChoice.side` must be bottom for a front that tilts: got {self.side}")
+        if self.moves in _BORDERS and self.side is not _BORDERS[self.moves]:
+            border = _BORDERS[self.moves]
+            raise ValueError(f"`MotionChoice.side` must be {border} for a front that {self.moves}: got {self.side}")
         if self.moves is not Moves.TURNS and self.inwards:
             raise ValueError(f"`MotionChoice.inwards` is for parts that turn: got it for one that moves {self.moves}")
         if self.moves is Moves.FIXED and self.side is not None:
@@ -102,8 +104,10 @@ _TYPES: dict[Moves, JointType] = {
     Moves.TURNS: JointType.REVOLUTE,
     Moves.SLIDES: JointType.PRISMATIC,
     Moves.FOLDS: JointType.REVOLUTE,
+    Moves.LIFTS: JointType.REVOLUTE,
     Moves.TILTS: JointType.REVOLUTE,
 }
+_BORDERS = {Moves.TILTS: Side.BOTTOM, Moves.LIFTS: Side.TOP}
 FIXED = MotionChoice(Moves.FIXED)
 
 TURNING_SIDES = ("left", "right", "top", "bottom")
@@ -114,6 +118,7 @@ _CHOICES: dict[str, MotionChoice] = dict(
         (
             *(MotionChoice(Moves.TURNS, Side(side)) for side in (*TURNING_SIDES, "top", "bottom")),
             MotionChoice(Moves.TILTS, Side.BOTTOM),
+            MotionChoice(Moves.LIFTS, Side.TOP),
             *(MotionChoice(Moves.SLIDES, side) for side in (None, None, Side.LEFT, Side.RIGHT, Side.TOP)),
             *(MotionChoice(Moves.FOLDS, side) for side in (Side.LEFT, Side.RIGHT)),
             FIXED,

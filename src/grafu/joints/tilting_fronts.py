@@ -13,6 +13,7 @@ import numpy as np
 
 from grafu.asset.names import spoken
 from grafu.asset.part import Asset
+from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.graph.functional_graph import FunctionalGraph
@@ -36,7 +37,7 @@ class TiltConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("deep", "clear", "reach")
+    LENGTHS = ("deep", "clear", "reach", "touching")
     opening: float = radians(45)
     """How far a front with a bin tilts where the input states nothing (radians)."""
     most: float = radians(60)
@@ -55,27 +56,64 @@ class TiltConfig:
     """A bin stays this far within the outline of its front (metres)."""
     reach: float = 0.02
     """How far behind the front a bin's near end lies at most (metres)."""
+    low: float = 1.1
+    """Greatest height of a front that was taken for a door at a side, and has a bin (fraction of its width)."""
+    tall: float = 0.5
+    """Least height of that bin (fraction of the front's)."""
+    beyond: float = 0.02
+    """How much farther from the lower edge than the front's upper edge something of it may be (fraction)."""
+    touching: float = 0.004
+    """What is nearer to a bin than this and touches it holds it (metres)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "level", "lower", "of_height", "wide")
+        require_ratios(self, "level", "lower", "of_height", "wide", "tall", "beyond")
 
 
-def stated_tilts(motions: Mapping[str, MotionChoice]) -> frozenset[str]:
-    """Returns the ids of the parts that the user states to tilt."""
-    return frozenset(part for part, choice in motions.items() if choice.moves is Moves.TILTS)
+def with_shown_tilts(
+    plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, config: TiltConfig = TiltConfig()
+) -> RealizationPlan:
+    """Returns a predicted plan in which fronts turn about their lower edges that are called tilting, or have a bin.
+
+    A front that was taken for a door at a side has a bin behind it where that fits no other motion: it is as high as
+    half of the front at least, and nothing of it is farther from the lower edge than the front's upper edge is.
+    """
+    config = at_scale(config, metre_on(asset.extent))
+    moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
+    static = static_boxes(asset, moving)
+    joints = (_as_tilting(r, asset) if _is_shown(r, asset, static, graph, config) else r for r in plan.joints)
+    return replace(plan, joints=tuple(joints))
 
 
-def with_named_tilts(plan: RealizationPlan, asset: Asset) -> RealizationPlan:
-    """Returns a predicted plan in which fronts that are called tilting turn about their lower edges."""
-    return replace(plan, joints=tuple(_named(request, asset) for request in plan.joints))
-
-
-def _named(request: JointRequest, asset: Asset) -> JointRequest:
+def _is_shown(
+    request: JointRequest, asset: Asset, static: Mapping[str, Box], graph: FunctionalGraph, config: TiltConfig
+) -> bool:
     part = asset.part(request.moving)
-    if request.parent or request.coupling or not _WORDS & set(spoken(part.source.name)):
-        return request
-    return replace(request, type=_TILTED.type, axis=axis_of_motion(part, _TILTED, asset.box), reference=None, mounts=())
+    if request.parent or request.coupling or not part.label.is_movable:
+        return False
+    if _WORDS & set(spoken(part.source.name)):
+        return True
+    front = part.box
+    low = front.thin_axis == _DEPTH and front.size[_UP] <= config.low * front.size[0]
+    if not (low and request.kind.turns) or float(np.linalg.norm(request.axis.direction[:_UP])) > 1 - config.level:
+        return False
+    own = {part.id, *request.attached}
+    found = _bin(front, own, static, asset, graph, config)
+    points = np.vstack([asset.part(name).mesh.vertices for name in found]) if found else np.zeros((0, 3))
+    tilted = _as_tilting(request, asset)
+    return _has_bin(tilted, front, [static[name] for name in found], config) and _fits(points, tilted, front, config)
+
+
+def _fits(points: Points, tilted: JointRequest, front: Box, config: TiltConfig) -> bool:
+    """Whether a bin is high enough, and stays within the circle about the lower edge that reaches the upper one."""
+    tall = float(front.size[_UP])
+    high = float(np.ptp(points[:, _UP])) >= config.tall * tall
+    return high and float(tilted.axis.distances_to(points).max()) <= (1 + config.beyond) * tall
+
+
+def _as_tilting(request: JointRequest, asset: Asset) -> JointRequest:
+    axis = axis_of_motion(asset.part(request.moving), _TILTED, asset.box)
+    return replace(request, type=_TILTED.type, axis=axis, reference=None, mounts=())
 
 
 def with_tilts(
@@ -125,7 +163,7 @@ def _tilted(
         return request
     front = asset.part(request.moving)
     own = {front.id, *request.attached}
-    behind = _bin(front.box, own, static, graph, config)
+    behind = _bin(front.box, own, static, asset, graph, config)
     boxes = [front.box, *(asset.part(name).box for name in (*request.attached, *behind))]
     if not (is_stated or _has_bin(request, front.box, boxes, config)):
         return request
@@ -134,7 +172,12 @@ def _tilted(
 
 
 def _bin(
-    front: Box, own: set[str], static: Mapping[str, Box], graph: FunctionalGraph, config: TiltConfig
+    front: Box,
+    own: set[str],
+    static: Mapping[str, Box],
+    asset: Asset,
+    graph: FunctionalGraph,
+    config: TiltConfig,
 ) -> tuple[str, ...]:
     """Returns the parts behind a front that it alone holds: they touch it, or end right behind it, and nothing else."""
     inside = [name for name, box in static.items() if is_within_outline(box, front, config.clear)]
@@ -142,9 +185,16 @@ def _bin(
     for group in groups_within(inside, graph):
         box = Box.enclosing(static[name] for name in group)
         near = float(box.low[_DEPTH] - front.high[_DEPTH]) <= config.reach
-        if near and box.size[_DEPTH] >= config.reach and not touched_by(group, graph, own):
+        held = (name for name in touched_by(group, graph, own) if _is_near(name, group, asset, config))
+        if near and box.size[_DEPTH] >= config.reach and not any(True for _ in held):
             found += group
     return tuple(found)
+
+
+def _is_near(name: str, group: Collection[str], asset: Asset, config: TiltConfig) -> bool:
+    """Whether a part is as near to one of a group as what holds it: contacts of a graph are wider on large pieces."""
+    box = asset.part(name).box
+    return any(asset.part(member).box.gap(box) <= config.touching for member in group)
 
 
 def _has_bin(request: JointRequest, front: Box, boxes: list[Box], config: TiltConfig) -> bool:

@@ -34,7 +34,7 @@ Motions = Mapping[str, MotionChoice]
 def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
     """Returns how the parts of an object move, as choices by the id of the part; see `motion_as_choice`.
 
-    A leaf that follows the one that carries it folds, and so does that one.
+    A leaf that follows the one that carries it folds, and so does that one; one that follows hardware alone is lifted.
     """
     parts = [v for link in made.links for v in link.visuals if v.role is VisualRole.PART]
     whole = Box.enclosing([visual.mesh.box for visual in parts])
@@ -46,8 +46,13 @@ def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
 
 
 def _folded(joint: Joint, made: ArticulatedObject, choices: Motions) -> Iterator[tuple[str, MotionChoice]]:
-    """Yields a joint's child and the leaf that carries it, where both turn and it follows that, and how both fold."""
+    """Yields a joint's child and the leaf that carries it, where both turn and it follows that, and how both fold.
+
+    A leaf on arms, which are hardware alone, is lifted.
+    """
     outer = choices.get(joint.parent)
+    if joint.coupling is not None and not len(made.link(joint.parent).body_mesh.faces):
+        yield joint.child, MotionChoice(Moves.LIFTS, Side.TOP)
     if joint.coupling is None or outer is None or joint.child not in choices:
         return
     leads = made.joint_of[joint.parent].id == joint.coupling.leader

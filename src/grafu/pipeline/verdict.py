@@ -197,7 +197,7 @@ def _names(faults: tuple[FaultRecord, ...]) -> str:
 def _fronts_words(report: Report) -> str:
     """Returns how many doors and drawers there are that should move; empty where there is none."""
     category = {part.id: part.category for part in report.parts}
-    slides = [motion_kind(joint.type).slides for joint in report.joints if not joint.small]
+    slides = [motion_kind(joint.type).slides for joint in report.joints if joint.is_front]
     slides += [category.get(part) is PartLabel.DRAWER for part in parts_without_joint(report)]
     counts = Counter("drawer" if slide else "door" for slide in slides)
     counts["small part"] = sum(joint.small for joint in report.joints)
