@@ -144,8 +144,8 @@ class Result:
                 `lift` is `top`, `drop` is `bottom`; `tilt`: about the bottom, with the bin behind it, and not far;
                 `lift-parallel`: arms lift it, and it stays upright;
                 `slides` or `pull`: it slides out of the front; `slide-left`, `slide-right` or `slide-up`: it slides
-                along itself; `fold-left` or `fold-right`: it is one of two leaves that fold to that side; `fixed`: it
-                gets no joint.
+                along itself; `fold-left`, `fold-right` or `fold-up`: it is one of two leaves that fold to that side;
+                `fixed`: it gets no joint.
 
         Raises:
             TypeError: if an argument has a wrong type.

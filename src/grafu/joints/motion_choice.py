@@ -63,6 +63,10 @@ DIRECTIONS: dict[Side, Vec3] = {
 }
 
 
+FOLD_SIDES = (Side.LEFT, Side.RIGHT, Side.TOP)
+"""The sides that two leaves can fold to."""
+
+
 @final
 @dataclass(frozen=True, slots=True)
 class MotionChoice:
@@ -73,7 +77,7 @@ class MotionChoice:
 
     Raises:
         ValueError: if a part that turns has no side, one that does not turn opens inwards, a leaf folds to a side
-            that is neither left nor right, or what tilts or lifts has another side than the bottom, or the top.
+            that is neither left nor right nor the top, or the side of what tilts or lifts is not its own.
     """
 
     moves: Moves
@@ -83,8 +87,8 @@ class MotionChoice:
     def __post_init__(self) -> None:
         if self.moves is Moves.TURNS and self.side is None:
             raise ValueError("`MotionChoice.side` must name the border that a part turns about: got none")
-        if self.moves is Moves.FOLDS and self.side not in (Side.LEFT, Side.RIGHT):
-            raise ValueError(f"`MotionChoice.side` must be left or right for a leaf that folds: got {self.side}")
+        if self.moves is Moves.FOLDS and self.side not in FOLD_SIDES:
+            raise ValueError(f"`MotionChoice.side` must be left, right or top for a leaf that folds: got {self.side}")
         if self.moves in _BORDERS and self.side is not _BORDERS[self.moves]:
             border = _BORDERS[self.moves]
             raise ValueError(f"`MotionChoice.side` must be {border} for a front that {self.moves}: got {self.side}")
@@ -120,7 +124,7 @@ _CHOICES: dict[str, MotionChoice] = dict(
             MotionChoice(Moves.TILTS, Side.BOTTOM),
             MotionChoice(Moves.LIFTS, Side.TOP),
             *(MotionChoice(Moves.SLIDES, side) for side in (None, None, Side.LEFT, Side.RIGHT, Side.TOP)),
-            *(MotionChoice(Moves.FOLDS, side) for side in (Side.LEFT, Side.RIGHT)),
+            *(MotionChoice(Moves.FOLDS, side) for side in FOLD_SIDES),
             FIXED,
         ),
         strict=True,

@@ -39,6 +39,7 @@ class LeafOf(StrEnum):
     OUTER = "outer"  # it turns on pivots, if they find room, and carries the inner leaf
     INNER = "inner"  # it follows the outer leaf, and runs in a track above it
     CORNER = "corner"  # it hangs on another leaf in an inner corner, and turns by itself
+    LOWER = "lower"  # it follows the leaf above it, as the two fold up
     LIFTED = "lifted"  # it is no leaf of one: arms lift it upright where they find room
 
 

@@ -18,7 +18,15 @@ from grafu.graph.edges import Attached, Contact, Edge, MotionEdge, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.joints.make_plan import attached_to
-from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion, label_of_motion, motion_as_choice
+from grafu.joints.motion_choice import (
+    FOLD_SIDES,
+    MotionChoice,
+    Moves,
+    Side,
+    axis_of_motion,
+    label_of_motion,
+    motion_as_choice,
+)
 from grafu.joints.plan import JointChoice, JointRequest, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.refusal import Reason, Refusal
@@ -57,7 +65,7 @@ def _folded(joint: Joint, made: ArticulatedObject, choices: Motions) -> Iterator
         return
     leads = made.joint_of[joint.parent].id == joint.coupling.leader
     turn = {outer.moves, choices[joint.child].moves} == {Moves.TURNS}
-    if leads and turn and outer.side in (Side.LEFT, Side.RIGHT):
+    if leads and turn and outer.side in FOLD_SIDES:
         yield from ((leaf, MotionChoice(Moves.FOLDS, outer.side)) for leaf in (joint.parent, joint.child))
 
 

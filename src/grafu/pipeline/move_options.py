@@ -36,10 +36,10 @@ def move_options(result: Functionalized) -> dict[str, tuple[str, ...]]:
 
 def _instead(motion: MotionChoice | None) -> list[str]:
     """Returns the side that a part may turn about or fold to instead, where there is one that can be named."""
+    if motion and (motion.moves is Moves.LIFTS or (motion.moves is Moves.FOLDS and motion.side is Side.TOP)):
+        return ["lift"]
     if motion and motion.moves is Moves.FOLDS and motion.side:
         return [f"fold-{_OTHER[motion.side]}"]
-    if motion and motion.moves is Moves.LIFTS:
-        return ["lift"]
     other = _OTHER.get(motion.side) if motion and motion.moves is Moves.TURNS and motion.side else None
     return [str(other)] if other else []
 
