@@ -12,6 +12,7 @@ from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.config import BlockConfig, ClearanceConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
+from grafu.joints.extension_leaves import ExtensionConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
@@ -53,6 +54,7 @@ REASONS = {
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
     "drop_leaves.py": {"_UP": NUMBERING},
+    "extension_leaves.py": {"_UP": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
@@ -89,9 +91,9 @@ REASONS = {
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
-    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, LiftArmConfig,
-    PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig,
-    StayConfig, SurveyConfig, TiltConfig, TimeConfig,
+    DrawerConfig, DrawnConfig, DropLeafConfig, ExtensionConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig,
+    LiftArmConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig,
+    RealizationConfig, StayConfig, SurveyConfig, TiltConfig, TimeConfig,
 )  # fmt: skip
 
 

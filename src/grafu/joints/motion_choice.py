@@ -146,12 +146,21 @@ def choice_in_words(word: str) -> MotionChoice:
 
 
 def label_of_motion(part: Part, choice: MotionChoice, drawers: DrawerConfig = DrawerConfig()) -> PartLabel:
-    """Returns the category of a part that moves so: a board that slides along itself is a door, too."""
-    if choice.moves is Moves.FIXED:
+    """Returns the category of a part that moves so: an upright board that slides along itself is a door, too.
+
+    A level board that slides to the left or right, and is no drawer, is the leaf of a table: that has none of its own.
+    """
+    if choice.moves is Moves.FIXED or (choice.side in (Side.LEFT, Side.RIGHT) and _is_leaf(part, choice)):
         return part.label
     if motion_kind(choice.type).turns or slides_in_its_plane(part.mesh, _direction(choice), drawers):
         return PartLabel.DOOR
     return PartLabel.DRAWER
+
+
+def _is_leaf(part: Part, choice: MotionChoice) -> bool:
+    size = part.box.size
+    level = part.box.thin_axis == int(np.argmax(DIRECTIONS[Side.TOP])) and size.min() < _BOARD * np.median(size)
+    return choice.moves is Moves.SLIDES and bool(level) and not part.label.is_movable
 
 
 def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:

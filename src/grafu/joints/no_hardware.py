@@ -142,6 +142,19 @@ def lift_without_hardware(search: DrawerSearch) -> Placement | None:
     return None if joint is None else replace(joint, template=DRAWN, notes=())
 
 
+def leaf_without_hardware(search: DrawerSearch) -> Placement | None:
+    """Returns the joint of a leaf that makes a table longer, on the frame that the table has.
+
+    It is None in the cases of `lift_without_hardware`. The leaf comes out as far as was asked for, whatever rails give.
+    """
+    wanted = search.request.reference or search.reach
+    upper = search.travel(wanted)
+    if upper < search.config.restricted * wanted:
+        return None
+    joint = _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+    return None if joint is None else replace(joint, template=DRAWN, notes=())
+
+
 def _joint(
     search: _Search, axis: Axis, motion: PoseFunction, upper: float, in_way: tuple[str, ...]
 ) -> Placement | None:

@@ -40,6 +40,7 @@ class LeafOf(StrEnum):
     INNER = "inner"  # it follows the outer leaf, and runs in a track above it
     CORNER = "corner"  # it hangs on another leaf in an inner corner, and turns by itself
     LOWER = "lower"  # it follows the leaf above it, as the two fold up
+    EXTENSION = "extension"  # it is no leaf of one: it makes a table longer, and slides on what the table has
     LIFTED = "lifted"  # it is no leaf of one: arms lift it upright where they find room
 
 

@@ -46,10 +46,10 @@ class TiltConfig:
     """From this cosine on to the horizontal an axis is level."""
     lower: float = 0.25
     """A front tilts whose axis lies in this lower part of it (fraction of its height)."""
-    deep: float = 0.07
+    deep: float = 0.1
     """How far a bin reaches behind its front at least (metres) ..."""
-    of_height: float = 0.15
-    """... and that over the front's height (fraction)."""
+    of_height: float = 0.3
+    """... and that over the front's height (fraction): thick doors of ovens stay below."""
     wide: float = 0.6
     """Least width of a bin (fraction of the front's)."""
     clear: float = 0.002
