@@ -31,6 +31,7 @@ from grafu.joints.rail_config import (
 )
 from grafu.joints.stay_config import StayConfig
 from grafu.joints.tilting_fronts import TiltConfig
+from grafu.joints.waste_bins import WasteBinConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 JOINTS = Path(__file__).parents[2] / "src" / "grafu" / "joints"
@@ -87,13 +88,14 @@ REASONS = {
     "small_parts.py": {"_UP": NUMBERING},
     "tilting_fronts.py": {"(_UP, _DEPTH)": NUMBERING},
     "behind_fronts.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING},
+    "waste_bins.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, ExtensionConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig,
     LiftArmConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig,
-    RealizationConfig, StayConfig, SurveyConfig, TiltConfig, TimeConfig,
+    RealizationConfig, StayConfig, SurveyConfig, TiltConfig, TimeConfig, WasteBinConfig,
 )  # fmt: skip
 
 

@@ -10,7 +10,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
-from grafu.joints.plan import JointRequest
+from grafu.joints.plan import JointRequest, LeafOf
 from grafu.joints.racks import SOURCE as SHOWN
 from grafu.joints.racks import is_grid
 from grafu.joints.rail.body_region import is_shallow
@@ -68,7 +68,7 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     if is_board and part.label is PartLabel.DOOR:
         return _sliding_door(search)
     is_stated = part.label.is_movable or search.request.source == SHOWN  # a guess alone makes no grid a rack
-    if is_stated and is_grid(search.scene.moving_mesh(part.id)):
+    if search.request.leaf is LeafOf.BIN or (is_stated and is_grid(search.scene.moving_mesh(part.id))):
         return _rack(search)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
     if is_board or not _is_sure(search):
@@ -81,7 +81,7 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
 
 
 def _rack(search: DrawerSearch) -> Placement | None:
-    """Returns the joint of a wire basket or a grid, which runs on its own wheels and guides; they are seldom drawn."""
+    """Returns the joint of a rack or a bin, which runs on its own wheels and guides; they are seldom drawn."""
     wanted = min(search.request.reference or search.wanted, search.reach)
     upper = search.travel(search.reach)
     if upper < search.config.restricted * wanted or str(search.request.choice):

@@ -33,7 +33,7 @@ class Supports(StrEnum):
 
 
 class LeafOf(StrEnum):
-    """Which leaf of a folding door a part is."""
+    """Which leaf of a folding door a part is, or of what else that moves in its own way."""
 
     NONE = "none"  # it is no leaf of one
     OUTER = "outer"  # it turns on pivots, if they find room, and carries the inner leaf
@@ -41,6 +41,7 @@ class LeafOf(StrEnum):
     CORNER = "corner"  # it hangs on another leaf in an inner corner, and turns by itself
     LOWER = "lower"  # it follows the leaf above it, as the two fold up
     EXTENSION = "extension"  # it is no leaf of one: it makes a table longer, and slides on what the table has
+    BIN = "bin"  # it is no leaf: a bin behind a door, which slides out on what is there
     LIFTED = "lifted"  # it is no leaf of one: arms lift it upright where they find room
 
 

@@ -3,6 +3,7 @@
 They are found by boxes and contacts, so fronts that stand turned about Z stay as they were predicted.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -13,10 +14,12 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
+from grafu.geometry.mesh import merge_meshes
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.behind_fronts import groups_within, is_within_outline, touched_by
 from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.waste_bins import is_bucket
 from grafu.scene.scene import metre_on
 
 SOURCE = "rule"
@@ -40,7 +43,7 @@ class PullOutConfig:
     upright: float = 0.9
     """From this cosine on to the vertical the predicted hinge is at a side of the front."""
     pieces: int = 3
-    """How many parts a rack has at least: one board may be a shelf whose pins are not drawn."""
+    """How many parts a rack has at least, unless it is a bin: one board may be a shelf whose pins are not drawn."""
     tall: float = 0.5
     """Least height of a rack (fraction of the front's height)."""
     deep: float = 0.5
@@ -103,13 +106,17 @@ def _rack(
         large = (
             box.size[_UP] >= config.tall * front.size[_UP] and box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
         )
-        if len(found) < config.pieces or not (near and large):
+        if not (near and large and (len(found) >= config.pieces or _is_bin(found, asset))):
             continue
         touched = touched_by(found, graph, own)
         far = float(box.high[_DEPTH]) - config.back * float(box.size[_DEPTH])
         if all(float(asset.part(name).box.low[_DEPTH]) >= far for name in touched):
             return list(found)
     return []
+
+
+def _is_bin(parts: Sequence[str], asset: Asset) -> bool:
+    return is_bucket(merge_meshes([asset.part(name).mesh for name in parts]))
 
 
 def _is_behind(box: Box, front: Box, config: PullOutConfig) -> bool:

@@ -26,6 +26,7 @@ from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
+from grafu.joints.waste_bins import with_stated_bins
 from grafu.pipeline.additions import add_after_joints, add_before_joints, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
@@ -201,6 +202,7 @@ def functionalize(
     turning: frozenset[str] = frozenset()
     if not motion.reads_annotation:
         plan, turning = shown_by_shape(plan, asset, completion.completed, joints, motions, settings.small_parts)
+    plan = with_stated_bins(plan, asset) if motion.reads_annotation else plan
     plan = with_mechanisms(plan, motions, folds, completion, asset, joints)
     plan = with_choices(plan, settings.joints, asset, gallery, joints.plan)
     close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open

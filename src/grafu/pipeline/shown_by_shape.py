@@ -21,6 +21,7 @@ from grafu.joints.racks import with_racks
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.joints.tilting_fronts import with_shown_tilts
+from grafu.joints.waste_bins import with_waste_bins
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
 
@@ -51,6 +52,7 @@ def shown_by_shape(
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
     plan = with_racks(with_drop_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
+    plan = with_waste_bins(plan, asset, graph)
     plan = with_lifts(plan, graph, at_scale(joints.lift, metre_on(asset.extent)))
     return _without_turntables(plan, asset, small)
 
