@@ -7,7 +7,11 @@ import pytest
 import grafu
 from fold_judge import cuts, cutting_over_sweep, opened
 from grafu.asset.part import Asset, PartSource
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.joints.extension_leaves import with_extension_leaves
 from grafu.joints.motion_choice import choice_in_words, label_of_motion
+from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
 from grafu.synth.tables.extending import ExtendingTable, make_extending_table
 from grafu.vocabulary import JointType, PartLabel
 from small_scenes import box, scene
@@ -83,6 +87,22 @@ def test_a_level_board_that_slides_to_a_side_is_no_drawer(label, word, found):
     (board,) = scene(replace(box("board", (0.0, 0.0, 0.7), (0.6, 0.8, 0.72)), label=label)).parts
 
     assert label_of_motion(board, choice_in_words(word)) is found
+
+
+@pytest.mark.parametrize(
+    ("source", "direction", "is_leaf"),
+    [
+        ("annotation", (1.0, 0.0, 0.0), True),
+        ("annotation", (0.0, -1.0, 0.0), False),
+        ("network", (1.0, 0.0, 0.0), False),
+    ],
+)
+def test_trays_and_what_is_only_predicted_are_no_leaves(source, direction, is_leaf):
+    top, tray = box("top", (0.0, 0.0, 0.7), (1.0, 0.6, 0.72)), box("tray", (0.1, 0.0, 0.66), (0.9, 0.4, 0.68))
+    request = JointRequest("tray", JointType.PRISMATIC, Axis(vec3(0.5, 0.2, 0.67), vec3(*direction)), source)
+    (made,) = with_extension_leaves(RealizationPlan((request,)), scene(top, tray)).joints
+
+    assert (made.leaf is LeafOf.EXTENSION) is is_leaf
 
 
 def test_a_travel_of_all_its_length_is_refused():

@@ -27,6 +27,7 @@ SOURCE = "rule"
 """`JointRequest.source` of a leaf without annotation: its name tells."""
 _WORDS = frozenset({"extension", "extending", "extendable", "extends", "drawleaf", "ausziehplatte"})
 _OF_TABLES = frozenset({"extension", "extending", "extendable", "expandable", "ausziehtisch", "extensible"})
+_PREDICTED = ("network", SOURCE)
 _UP = 2
 _SIDES = (Side.LEFT, Side.RIGHT, Side.FRONT, Side.BACK)
 
@@ -77,7 +78,9 @@ def with_shown_extensions(
     halves = [part for part in boards if part.label in (PartLabel.TOP_PANEL, PartLabel.UNKNOWN)] if of_table else []
     pairs = [(a, b) for a, b in combinations(halves, 2) if _are_halves(a.box, b.box, config) is not None]
     found = {part.id: part for part in (*named, *(pairs[0] if len(pairs) == 1 else ()))}
-    made = (JointRequest(p.id, Slide.joint_type, _outwards(p, asset), SOURCE) for p in found.values())
+    made = (
+        JointRequest(p.id, Slide.joint_type, _outwards(p, asset), SOURCE, leaf=LeafOf.EXTENSION) for p in found.values()
+    )
     return replace(plan, joints=(*plan.joints, *made)) if found else plan
 
 
@@ -91,7 +94,10 @@ def _outwards(leaf: Part, asset: Asset) -> Axis:
 def with_extension_leaves(
     plan: RealizationPlan, asset: Asset, config: ExtensionConfig = ExtensionConfig()
 ) -> RealizationPlan:
-    """Returns the plan in which level boards near the top that slide to a side are leaves; two halves are coupled."""
+    """Returns the plan in which level boards near the top that are stated to slide to a side are leaves.
+
+    Two halves among the leaves are coupled.
+    """
     if not any(request.kind.slides for request in plan.joints):
         return plan
     config = at_scale(config, metre_on(asset.extent))
@@ -105,11 +111,14 @@ def with_extension_leaves(
 
 
 def _slides_out(request: JointRequest, asset: Asset, config: ExtensionConfig) -> bool:
-    part = asset.part(request.moving)
+    """Whether a request is of a leaf: found by its name, or stated to slide to a side; predicted ones are drawers."""
+    part, direction = asset.part(request.moving), request.axis.direction
     if not request.kind.slides or request.parent or part.label.is_movable:
         return False
-    level = abs(float(request.axis.direction[_UP])) < config.thin
-    return level and _is_leaf(part.box, asset.box, config)
+    if request.leaf is LeafOf.EXTENSION:
+        return True
+    stated = request.source not in _PREDICTED and float(direction @ DIRECTIONS[Side.FRONT]) < config.level
+    return stated and abs(float(direction[_UP])) < config.thin and _is_leaf(part.box, asset.box, config)
 
 
 def _is_leaf(box: Box, whole: Box, config: ExtensionConfig) -> bool:
