@@ -99,8 +99,9 @@ def test_a_level_board_that_slides_to_a_side_is_no_drawer(label, word, found):
 )
 def test_trays_and_what_is_only_predicted_are_no_leaves(source, direction, is_leaf):
     top, tray = box("top", (0.0, 0.0, 0.7), (1.0, 0.6, 0.72)), box("tray", (0.1, 0.0, 0.66), (0.9, 0.4, 0.68))
+    leg = box("leg", (0.0, 0.0, 0.0), (0.05, 0.05, 0.66))
     request = JointRequest("tray", JointType.PRISMATIC, Axis(vec3(0.5, 0.2, 0.67), vec3(*direction)), source)
-    (made,) = with_extension_leaves(RealizationPlan((request,)), scene(top, tray)).joints
+    (made,) = with_extension_leaves(RealizationPlan((request,)), scene(top, tray, leg)).joints
 
     assert (made.leaf is LeafOf.EXTENSION) is is_leaf
 
