@@ -7,11 +7,14 @@ from .objects import ID
 from .run_operators import Applies
 from .state import session_of, settings_of
 
-TURNS, SLIDES, FOLDS, FIXED = "turns", "slides", "folds", "fixed"
+TURNS, SLIDES, FOLDS = "turns", "slides", "folds"
+TILTS, LIFTS, FIXED = "tilts", "lifts", "fixed"
 MOVES = [
     (TURNS, "Turns", "A door, flap or lid: it turns about the border that is chosen"),
     (SLIDES, "Slides", "A drawer, or a sliding door: it slides to the side that is chosen"),
-    (FOLDS, "Folds", "One of two leaves of a folding door: it folds to the left or to the right with the other"),
+    (FOLDS, "Folds", "One of two leaves of a folding door: it folds to the left, to the right or up with the other"),
+    (TILTS, "Tilts", "A front with a bin behind it, as of a shoe cabinet: about its lower border, and not far"),
+    (LIFTS, "Lifts", "A flap that arms lift upright, where they find room; else it turns about its upper border"),
     (FIXED, "Fixed", "It is no door and no drawer: it gets no joint"),
 ]
 USUAL = "usual"
@@ -65,7 +68,7 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
         layout.use_property_split = True
         layout.prop_search(self, "part", session_of(context), "parts")
         layout.prop(self, "moves")
-        if self.moves != FIXED:
+        if self.moves not in (FIXED, TILTS, LIFTS):
             layout.prop(self, "side", text="Border" if self.moves == TURNS else "To the")
         if self.moves == TURNS:
             layout.prop(self, "inwards")
@@ -81,9 +84,10 @@ class GRAFU_OT_set_motion(Applies, bpy.types.Operator):
             raise ValueError("choose a part: select its object")
         if self.moves == TURNS and self.side == USUAL:
             raise ValueError(f"choose the border that `{self.part}` turns about")
-        if self.moves == FOLDS and self.side not in ("left", "right"):
-            raise ValueError(f"choose the side that `{self.part}` folds to: left or right")
+        if self.moves == FOLDS and self.side not in ("left", "right", "top"):
+            raise ValueError(f"choose the side that `{self.part}` folds to: left, right or top")
         side = None if self.side == USUAL or self.moves == FIXED else Side(self.side)
+        side = {TILTS: Side.BOTTOM, LIFTS: Side.TOP}.get(self.moves, side)
         choice = MotionChoice(Moves(self.moves), side, self.inwards and self.moves == TURNS)
         return settings.with_motion(self.part, choice)
 

@@ -64,7 +64,8 @@ READERS = (
 
 OF_MODULES = {
     "articulation": {
-        "mass.py": {"NO_MOMENTS": FORMULA, "_BY_WORD": MATERIALS, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA}
+        "coupled_weight.py": {"_STEP": TOLERANCE, "_EXACT": TOLERANCE, "_AT": SAMPLES},
+        "mass.py": {"NO_MOMENTS": FORMULA, "_BY_WORD": MATERIALS, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA},
     },
     "asset": {
         "bodies.py": {},

@@ -96,9 +96,10 @@ RAIL_CLASSES = (MechanismClass.CENTRE, MechanismClass.CORNER)
 
 
 MOTION_WORDS = (
-    *("left", "right", "top", "bottom", "lift", "drop"),
-    *("slides", "pull", "slide-left", "slide-right", "slide-up", "fold-left", "fold-right", "fixed"),
+    *("left", "right", "top", "bottom", "lift", "drop", "tilt", "lift-parallel"),
+    *("slides", "pull", "slide-left", "slide-right", "slide-up", "fold-left", "fold-right", "fold-up", "fixed"),
 )
-"""How a user states a motion: the border that a part turns about (`lift`: the top, `drop`: the bottom); `slides` or
-`pull`: out of the front; `slide-left` and the like: along itself; `fold-left` and `fold-right`: as one of two leaves
+"""How a user states a motion: the border that a part turns about (`lift`: the top, `drop`: the bottom; `tilt`: the
+bottom, with the bin behind it, and not far); `lift-parallel`: arms lift it, and it stays upright; `slides` or `pull`:
+out of the front; `slide-left` and the like: along itself; `fold-left`, `fold-right` and `fold-up`: as one of two leaves
 that fold to that side; `fixed`: it does not move."""

@@ -51,6 +51,7 @@ REASONS = {
         "LEVEL_TOLERANCE": TOLERANCE,
     },
     "handle/config.py": {"MOST_HANDLES": LIMIT},
+    "handle/grasp.py": {"_UP": NUMBERING},
     "handle/finger_room.py": {"OPPOSITE_STEPS": NUMBERING, "STEPS": NUMBERING, "EDGE_CELLS": SAMPLES},
     "handle/fit.py": {"SAME_SURFACE": TOLERANCE, "MOST_FOOT_POINTS": SAMPLES},
     "handle/grips.py": {"CLUSTER_CELLS": SAMPLES},

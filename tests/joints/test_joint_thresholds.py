@@ -13,10 +13,12 @@ from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.config import BlockConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
+from grafu.joints.extension_leaves import ExtensionConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
 from grafu.joints.lever_config import LeverConfig
+from grafu.joints.lift_arm_config import LiftArmConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.pull_outs import PullOutConfig
 from grafu.joints.racks import RackConfig
@@ -30,6 +32,8 @@ from grafu.joints.rail_config import (
     RailFootingConfig,
 )
 from grafu.joints.stay_config import StayConfig
+from grafu.joints.tilting_fronts import TiltConfig
+from grafu.joints.waste_bins import WasteBinConfig
 from grafu.joints.wide_bars import WideBarConfig
 from grafu.joints.window_config import WindowConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
@@ -40,6 +44,7 @@ SAMPLES = "how many rays, poses, heights or pieces an algorithm takes, or where 
 TOLERANCE = "a tolerance of computing with rounded numbers, no size of furniture"
 EFFORT = "after how many tries, or beyond how many pieces, a search ends or is done in a simpler way"
 NUMBERING = "the rank of a row in a table, or a direction"
+OUTLINE = "what tells a board from a box where a user states how it moves"
 LOOK = "the colour of hardware"
 GEOMETRY = "a number of geometry: what folds ends in the plane of the opening"
 CHOICE = "the range of what a user may choose"
@@ -59,6 +64,7 @@ REASONS = {
     "drawn_hinges.py": {"_POINT": TOLERANCE},
     "drop_leaves.py": {"_UP": NUMBERING},
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
+    "extension_leaves.py": {"_UP": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
     "wide_bars.py": {"_UP": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
@@ -71,6 +77,8 @@ REASONS = {
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING, "_HEIGHT_SHIFTS": SAMPLES},
     "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
+    "lift_arms.py": {"_SIDES": NUMBERING, "_ROUND": SAMPLES, "_QUARTER": SAMPLES},
+    "parallel_lifts.py": {"_NEAR": TOLERANCE},
     "limits.py": {
         "_REST_DENSITY": SAMPLES,
         "_DIP": TOLERANCE,
@@ -79,23 +87,27 @@ REASONS = {
         "_HALVINGS": SAMPLES,
     },
     "measuring.py": {"_MEASURED_POSES": SAMPLES},
-    "motion_choice.py": {"_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
+    "motion_choice.py": {"_BOARD": OUTLINE, "_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
     "pull_outs.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING},
-    "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_ACROSS": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
+    "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "sliding_doors.py": {"_UP": NUMBERING},
     "stays.py": {"_SIDES": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
     "windows.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
+    "tilting_fronts.py": {"(_UP, _DEPTH)": NUMBERING},
+    "behind_fronts.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING},
+    "waste_bins.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
-    DrawerConfig, DrawnConfig, DropLeafConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig, LeverConfig,
-    PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig,
-    StayConfig, SurveyConfig, TimeConfig, WideBarConfig, WindowConfig,
+    DrawerConfig, DrawnConfig, DropLeafConfig, ExtensionConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig,
+    LeverConfig, LiftArmConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig,
+    RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig, TiltConfig, TimeConfig, WasteBinConfig,
+    WideBarConfig, WindowConfig,
 )  # fmt: skip
 
 

@@ -92,3 +92,16 @@ def test_the_rack_behind_a_front_is_attached_to_it():
     (request,) = requests(FRONT, *CASE, *RACK)
     assert request.type is JointType.PRISMATIC
     assert set(request.attached) == {part.id for part in RACK}
+
+
+def test_a_bin_on_its_front_slides_out_with_it_and_a_board_does_not():
+    walls = [
+        box("b", (0.05, 0.0, 0.15), (0.25, 0.4, 0.155)),
+        *(box("b", (x, 0.0, 0.15), (x + 0.005, 0.4, 0.55)) for x in (0.05, 0.245)),
+        *(box("b", (0.05, y, 0.15), (0.25, y + 0.005, 0.55)) for y in (0.0, 0.395)),
+    ]
+    bucket = replace(box("bucket", (0, 0, 0), (1, 1, 1)), surfaces=tuple(s for wall in walls for s in wall.surfaces))
+    board = box("board", (0.05, 0.0, 0.15), (0.25, 0.4, 0.55))
+
+    assert [r.attached for r in requests(FRONT, *CASE, bucket)] == [("bucket",)]
+    assert [r.attached for r in requests(FRONT, *CASE, board)] == [()]

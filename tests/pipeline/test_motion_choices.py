@@ -276,6 +276,9 @@ def test_a_door_of_a_sample_can_be_rejected_and_hung_anew(sample):
         ("slide-right", MotionChoice(Moves.SLIDES, Side.RIGHT)),
         ("slide-up", MotionChoice(Moves.SLIDES, Side.TOP)),
         ("fold-left", MotionChoice(Moves.FOLDS, Side.LEFT)),
+        ("fold-up", MotionChoice(Moves.FOLDS, Side.TOP)),
+        ("tilt", MotionChoice(Moves.TILTS, Side.BOTTOM)),
+        ("lift-parallel", MotionChoice(Moves.LIFTS, Side.TOP)),
         ("fold-right", MotionChoice(Moves.FOLDS, Side.RIGHT)),
         ("fixed", FIXED),
     ],
@@ -287,5 +290,5 @@ def test_words_state_motions(word, choice):
 def test_the_command_offers_every_word_and_no_other():
     assert [part_move(f"door={word}") for word in MOTION_WORDS] == [("door", word) for word in MOTION_WORDS]
     assert all(choice_in_words(word) for word in MOTION_WORDS)
-    with pytest.raises(OptionError, match="fold-left, fold-right, fixed: got 'slide-down'"):
+    with pytest.raises(OptionError, match="fold-right, fold-up, fixed: got 'slide-down'"):
         choice_in_words("slide-down")

@@ -141,9 +141,11 @@ class Result:
         Args:
             part: the id of the part.
             how: `left`, `right`, `top` or `bottom`: the border that it turns about, seen from in front of the object;
-                `lift` is `top`, `drop` is `bottom`; `slides` or `pull`: it slides out of the front; `slide-left`,
-                `slide-right` or `slide-up`: it slides along itself; `fold-left` or `fold-right`: it is one of two
-                leaves that fold to that side; `fixed`: it gets no joint.
+                `lift` is `top`, `drop` is `bottom`; `tilt`: about the bottom, with the bin behind it, and not far;
+                `lift-parallel`: arms lift it, and it stays upright;
+                `slides` or `pull`: it slides out of the front; `slide-left`, `slide-right` or `slide-up`: it slides
+                along itself; `fold-left`, `fold-right` or `fold-up`: it is one of two leaves that fold to that side;
+                `fixed`: it gets no joint.
 
         Raises:
             TypeError: if an argument has a wrong type.

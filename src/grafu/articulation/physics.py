@@ -23,6 +23,7 @@ from grafu.articulation.collision_shapes import (
     shapes_of,
 )
 from grafu.articulation.counterbalance import GRAVITY, Counterbalance, CounterbalanceConfig, Holding, held
+from grafu.articulation.coupled_weight import coupled_center
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.mass import MassConfig, MassProperties, mass_of_link, moments_of, moments_of_box
 from grafu.articulation.open_together import met_at_rest, near_at_rest
@@ -87,13 +88,14 @@ def joint_dynamics(
 
     What hangs on the child moves with it and is counted in.
     """
-    carried = [masses[link] for link in _carried(articulated, joint.child)]
+    links = _carried(articulated, joint.child)
+    carried = [masses[link] for link in links]
     weight = GRAVITY * sum(m.mass for m in carried)
     if joint.kind.turns:
         inertia, pull, most = _about_axis(joint, carried)
         braking = config.hinge_braking * inertia
         both = braking, braking + config.holding * max(pull, 0.0)
-        holding = _held(articulated, joint, carried, both, config.counterbalance)
+        holding = _held(articulated, joint, masses, both, config.counterbalance)
         effort = 2.0 * most + 10.0 * holding.friction
         damping = inertia / config.settling
         return JointDynamics(damping, holding.friction, effort, config.hinge_velocity, holding.counterbalance)
@@ -111,18 +113,26 @@ def _carried(articulated: ArticulatedObject, link: str) -> list[str]:
 def _held(
     articulated: ArticulatedObject,
     joint: Joint,
-    carried: list[MassProperties],
+    masses: Mapping[str, MassProperties],
     friction: tuple[float, float],
     config: CounterbalanceConfig,
 ) -> Holding:
-    """Returns what holds a joint that turns; one that follows another, or leads it, keeps its friction."""
-    mass = sum(m.mass for m in carried)
-    coupled = any(joint.id in (other.id, other.coupling.leader) for other in articulated.joints if other.coupling)
-    if coupled or not mass > 0:
+    """Returns what holds a joint that turns; one that follows another keeps its friction, and so does its leader.
+
+    A leader about a level axis is held where all weight acts at one point of its child, as with arms that lift a flap.
+    """
+    links = _carried(articulated, joint.child)
+    mass = sum(masses[link].mass for link in links)
+    if joint.coupling is not None or not mass > 0:
+        return Holding(friction[1])
+    center: Vec3 | None = sum((masses[k].mass * masses[k].center for k in links), start=np.zeros(3)) / mass
+    if any(other.coupling is not None and other.coupling.leader == joint.id for other in articulated.joints):
+        is_level = abs(float(joint.axis.direction[2])) <= config.level
+        center = coupled_center(articulated, joint, links, masses) if is_level else None
+    if center is None:
         return Holding(friction[1])
     vertices = articulated.link(joint.child).mesh.vertices
     reach = float(joint.axis.distances_to(vertices).max()) if len(vertices) else 0.0
-    center = sum((m.mass * m.center for m in carried), start=np.zeros(3)) / mass
     return held(joint, mass, center, reach, friction, config)
 
 

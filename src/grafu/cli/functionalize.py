@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from grafu.asset.regular_files import read_head
 from grafu.cli.input_options import add_input_options, add_limit_option, load_options, positive_count, with_limits
 from grafu.cli.limit_options import add_limit_options, limits_of
-from grafu.cli.part_options import add_addition_options, motion_choice, part_move, with_moves
+from grafu.cli.part_options import MOVE_HELP, add_addition_options, motion_choice, part_move, with_moves
 from grafu.cli.verb import complain
 from grafu.errors import AssetError, OptionError
 from grafu.export.formats import DEFAULT_FORMATS, known_formats
@@ -59,9 +59,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         type=part_move,
         default=[],
         metavar="PART=HOW",
-        help="how a part moves, whatever the motion source states: it turns about its left, right, top or bottom side "
-        "(lift: top, drop: bottom); slides or pull: out of the front; slide-left, slide-right, slide-up: along itself; "
-        "fold-left, fold-right: as one of two leaves that fold to that side; fixed; once for each part",
+        help=MOVE_HELP,
     )
     parser.add_argument(
         "--formats",

@@ -117,7 +117,7 @@ def _is_worth_a_row(result: JobResult) -> bool:
 
 def _counts(result: Succeeded) -> tuple[str, ...]:
     verdict = verdict_of(result.report)
-    kinds = [motion_kind(joint.type) for joint in result.report.joints if not joint.small]
+    kinds = [motion_kind(joint.type) for joint in result.report.joints if joint.is_front]
     turning, sliding = sum(kind.turns for kind in kinds), sum(kind.slides for kind in kinds)
     return verdict.colour, str(turning), str(sliding), str(_skipped(verdict)), f"{result.seconds:.1f}"
 

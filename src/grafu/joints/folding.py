@@ -3,7 +3,7 @@
 Of a pair in one plane the outer leaf turns about its outer edge, and the inner one is hinged to it behind their seam
 and turns back by twice as much: the point of the inner leaf that mirrors the outer leaf's pivot stays in the plane of
 the opening. Of two leaves in an inner corner the first hangs on the case, the second on the first, before their seam;
-each moves by itself. Left and right are as seen from in front.
+each moves by itself. Left and right are as seen from in front. Of two leaves above each other the upper one is outer.
 """
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -19,8 +19,8 @@ from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Hinge
 from grafu.joints.fold_config import FoldConfig
-from grafu.joints.leaves import Leaf, in_corner, is_as_wide, is_beside, leaf_of
-from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, side_towards
+from grafu.joints.leaves import UP, Leaf, in_corner, is_as_wide, is_beside, leaf_of
+from grafu.joints.motion_choice import DIRECTIONS, FOLD_SIDES, MotionChoice, Moves, Side, side_towards
 from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
 from grafu.vocabulary import PartLabel
 
@@ -35,7 +35,7 @@ class Fold:
     `outer_edge` is the side of the outer leaf that its axis lies at. Positive motion opens.
 
     Raises:
-        ValueError: if both leaves are one, or the side is neither left nor right.
+        ValueError: if both leaves are one, or the side is neither left nor right nor the top.
     """
 
     outer: str
@@ -50,13 +50,18 @@ class Fold:
     def __post_init__(self) -> None:
         if self.outer == self.inner:
             raise ValueError(f"`Fold` needs two leaves: got {self.outer} twice")
-        if self.side not in (Side.LEFT, Side.RIGHT):
-            raise ValueError(f"`Fold.side` must be left or right: got {self.side}")
+        if self.side not in FOLD_SIDES:
+            raise ValueError(f"`Fold.side` must be left, right or top: got {self.side}")
 
     @property
     def leaves(self) -> tuple[str, str]:
         """Both leaves, the outer one first."""
         return self.outer, self.inner
+
+    @property
+    def has_track(self) -> bool:
+        """Whether a track above the leaves guides them: they stand beside one another in one plane."""
+        return not self.is_corner and self.side is not Side.TOP
 
     @property
     def as_turning(self) -> dict[str, MotionChoice]:
@@ -87,14 +92,14 @@ def fold_of(
     outwards = _outwards(leaf, side)
     pairs = [(leaf, other) for other in others if is_beside(leaf, other, -outwards, config)]
     pairs += [(other, leaf) for other in others if is_beside(leaf, other, outwards, config)]
-    alike = [pair for pair in pairs if is_as_wide(*pair, config)]
+    alike = [pair for pair in pairs if is_as_wide(*pair, outwards, config)]
     if alike:
         every = _leaves(asset, (), config)
         return _pair(*min(alike, key=lambda pair: _has_neighbour(pair[0], every, outwards, config)), side, outwards)
     is_door = {p.id for p in asset.parts if p.label is PartLabel.DOOR} | {*stated}
     corners = (in_corner(leaf, other, asset, config) for other in others if other.part in is_door)
     corner = next((found for found in corners if found is not None), None)
-    if corner is not None:
+    if corner is not None and side is not Side.TOP:
         return _corner(*corner, side)
     raise OptionError(_why_not(leaf, pairs, side, config))
 
@@ -104,10 +109,12 @@ def _why_not(leaf: Leaf, pairs: Sequence[tuple[Leaf, Leaf]], side: Side, config:
     instead = f"use --move {leaf.part}={side} for a door by itself"
     if pairs:
         first, second = pairs[0]
-        widths = f"{first.width:.3f} m and {second.width:.3f} m"
-        return f"`{first.part}` and `{second.part}` must be about equally wide to fold: got {widths}; {instead}"
+        direction, size = DIRECTIONS[side], "high" if side is Side.TOP else "wide"
+        sizes = f"{first.across(direction):.3f} m and {second.across(direction):.3f} m"
+        return f"`{first.part}` and `{second.part}` must be about equally {size} to fold: got {sizes}; {instead}"
     within = f"within {config.seam:g} m, as high and in its plane, or at a right angle in an inner corner"
-    return f"`{leaf.part}` needs a second leaf to fold with: none stands beside it {within}; {instead}"
+    where = f"above or below it within {config.seam:g} m" if side is Side.TOP else f"beside it {within}"
+    return f"`{leaf.part}` needs a second leaf to fold with: none stands {where}; {instead}"
 
 
 def _leaves(asset: Asset, without: Collection[str], config: FoldConfig) -> list[Leaf]:
@@ -122,7 +129,9 @@ def _is_near(leaf: Leaf, other: Leaf, config: FoldConfig) -> bool:
 
 
 def _outwards(leaf: Leaf, side: Side) -> Vec3:
-    """Returns the level direction along a leaf to a side: of the object, else as seen from before the leaf."""
+    """Returns the direction along a leaf to a side: up, or of the object, else as seen from before the leaf."""
+    if side is Side.TOP:
+        return UP
     along = float(leaf.right @ DIRECTIONS[side])
     if abs(along) > abs(float(leaf.front @ DIRECTIONS[side])):
         return leaf.right * np.sign(along)
@@ -216,7 +225,7 @@ def _requests(outer: JointRequest, inner: JointRequest, fold: Fold, config: Fold
         attached=own,
         parent=fold.outer,
         coupling=coupling,
-        leaf=LeafOf.CORNER if fold.is_corner else LeafOf.INNER,
+        leaf=LeafOf.CORNER if fold.is_corner else LeafOf.INNER if fold.has_track else LeafOf.LOWER,
     )
 
 

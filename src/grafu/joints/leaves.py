@@ -53,10 +53,20 @@ class Leaf:
         along = self.mesh.vertices @ direction
         return float(along.min()), float(along.max())
 
+    def along(self, edge: Vec3) -> Vec3:
+        """Returns the unit direction along its edge on a side: upright beside it, level above and below it."""
+        return self.right if abs(float(edge @ UP)) > abs(float(edge @ self.right)) else UP
+
     def at(self, edge: Vec3, front: float) -> Vec3:
-        """Returns the middle of its upright edge on a level side, so far along its front's direction, metres."""
-        middle = (self.height[0] + self.height[1]) / 2
-        return np.asarray(edge * self.span(edge)[1] + self.front * front + UP * middle)
+        """Returns the middle of its edge on a side, so far along its front's direction, metres."""
+        along = self.along(edge)
+        middle = sum(self.span(along)) / 2
+        return np.asarray(edge * self.span(edge)[1] + self.front * front + along * middle)
+
+    def across(self, edge: Vec3) -> float:
+        """Returns its size from its edge on a side to the opposite one, metres."""
+        low, high = self.span(edge)
+        return high - low
 
     def turned(self, front: Vec3) -> "Leaf":
         """Returns the leaf as it looks to the side of its broad faces that is nearer to a direction."""
@@ -83,17 +93,17 @@ def leaf_of(part: Part, whole: Box, config: FoldConfig) -> Leaf | None:
 
 
 def is_beside(leaf: Leaf, other: Leaf, side: Vec3, config: FoldConfig) -> bool:
-    """Whether another leaf stands at a side of a leaf, with a seam between: in one plane, as high, at one height."""
-    if float(leaf.front @ other.front) < 1 - config.askew or not _is_level(leaf, other, config):
+    """Whether another leaf is at a side of a leaf, with a seam between: in one plane, with ends at the same places."""
+    if float(leaf.front @ other.front) < 1 - config.askew or not _ends_alike(leaf, other, leaf.along(side), config):
         return False
     step = abs(leaf.back - other.span(leaf.front)[0])
     seam = other.span(side)[0] - leaf.span(side)[1]
     return step <= config.flush and abs(seam) <= config.seam
 
 
-def is_as_wide(leaf: Leaf, other: Leaf, config: FoldConfig) -> bool:
-    """Whether two leaves are about equally wide."""
-    narrow, wide = sorted((leaf.width, other.width))
+def is_as_wide(leaf: Leaf, other: Leaf, side: Vec3, config: FoldConfig) -> bool:
+    """Whether two leaves that are at a side of one another are about equally wide, or high, from edge to edge."""
+    narrow, wide = sorted((leaf.across(side), other.across(side)))
     return narrow >= (1 - config.width) * wide
 
 
@@ -102,7 +112,7 @@ def in_corner(leaf: Leaf, other: Leaf, asset: Asset, config: FoldConfig) -> tupl
 
     In an inner corner nothing stands between them, nor right above and below that place.
     """
-    if abs(float(leaf.front @ other.front)) > config.askew or not _is_level(leaf, other, config):
+    if abs(float(leaf.front @ other.front)) > config.askew or not _ends_alike(leaf, other, UP, config):
         return None
     a, b = (one.turned(_middle(two) - _middle(one)) for one, two in ((leaf, other), (other, leaf)))
     gaps = (_gap(a, b), _gap(b, a))
@@ -140,7 +150,7 @@ def _thickness(leaf: Leaf) -> float:
     return high - low
 
 
-def _is_level(leaf: Leaf, other: Leaf, config: FoldConfig) -> bool:
-    """Whether the lower and upper ends of two leaves are at the same heights."""
-    (low, high), (low_other, high_other) = leaf.height, other.height
+def _ends_alike(leaf: Leaf, other: Leaf, along: Vec3, config: FoldConfig) -> bool:
+    """Whether two leaves begin and end at the same places along a direction."""
+    (low, high), (low_other, high_other) = leaf.span(along), other.span(along)
     return max(abs(low - low_other), abs(high - high_other)) <= config.level * max(high - low, high_other - low_other)

@@ -148,7 +148,7 @@ class Builder:
         ]
         bodies = [name for name in beside if carrier or name == moving or name in levels.built]
         view = seen_from(carrier, bodies, scene, levels.parent_of, T, is_alone)
-        if is_alone and request.leaf is LeafOf.INNER:
+        if is_alone and request.leaf in (LeafOf.INNER, LeafOf.LOWER):
             view = replace(view, behind=scene.static_parts)
         carriers = scene.moving_bodies[carrier].members if carrier else ()
         measured = self._level([replace(request, carriers=carriers)], view)

@@ -22,6 +22,7 @@ from grafu.scene.border import part_axes
 from grafu.vocabulary import MOTION_WORDS, JointType, PartLabel
 
 _LEVEL = 1e-6  # metres: a face this near to the middle of the whole is in the middle
+_BOARD = 0.25  # a front that tilts and is thicker than this, over its next side, has its bin in its mesh
 OLD_FIXED = "not"
 """The word of earlier versions for `fixed`; saved settings are still read."""
 
@@ -33,6 +34,8 @@ class Moves(StrEnum):
     TURNS = "turns"
     SLIDES = "slides"
     FOLDS = "folds"  # one of two leaves that are hinged to one another
+    LIFTS = "lifts"  # arms lift it upright, parallel to itself
+    TILTS = "tilts"  # it turns about its lower edge with the bin behind it, and stops well before it is level
 
     @classmethod
     def _missing_(cls, value: object) -> "Moves | None":
@@ -60,6 +63,10 @@ DIRECTIONS: dict[Side, Vec3] = {
 }
 
 
+FOLD_SIDES = (Side.LEFT, Side.RIGHT, Side.TOP)
+"""The sides that two leaves can fold to."""
+
+
 @final
 @dataclass(frozen=True, slots=True)
 class MotionChoice:
@@ -69,8 +76,8 @@ class MotionChoice:
     leaves fold to. What turns opens outwards, away from the object's middle, unless `inwards`.
 
     Raises:
-        ValueError: if a part that turns has no side, one that does not turn opens inwards, or a leaf folds to a side
-            that is neither left nor right.
+        ValueError: if a part that turns has no side, one that does not turn opens inwards, a leaf folds to a side
+            that is neither left nor right nor the top, or the side of what tilts or lifts is not its own.
     """
 
     moves: Moves
@@ -80,8 +87,11 @@ class MotionChoice:
     def __post_init__(self) -> None:
         if self.moves is Moves.TURNS and self.side is None:
             raise ValueError("`MotionChoice.side` must name the border that a part turns about: got none")
-        if self.moves is Moves.FOLDS and self.side not in (Side.LEFT, Side.RIGHT):
-            raise ValueError(f"`MotionChoice.side` must be left or right for a leaf that folds: got {self.side}")
+        if self.moves is Moves.FOLDS and self.side not in FOLD_SIDES:
+            raise ValueError(f"`MotionChoice.side` must be left, right or top for a leaf that folds: got {self.side}")
+        if self.moves in _BORDERS and self.side is not _BORDERS[self.moves]:
+            border = _BORDERS[self.moves]
+            raise ValueError(f"`MotionChoice.side` must be {border} for a front that {self.moves}: got {self.side}")
         if self.moves is not Moves.TURNS and self.inwards:
             raise ValueError(f"`MotionChoice.inwards` is for parts that turn: got it for one that moves {self.moves}")
         if self.moves is Moves.FIXED and self.side is not None:
@@ -98,7 +108,10 @@ _TYPES: dict[Moves, JointType] = {
     Moves.TURNS: JointType.REVOLUTE,
     Moves.SLIDES: JointType.PRISMATIC,
     Moves.FOLDS: JointType.REVOLUTE,
+    Moves.LIFTS: JointType.REVOLUTE,
+    Moves.TILTS: JointType.REVOLUTE,
 }
+_BORDERS = {Moves.TILTS: Side.BOTTOM, Moves.LIFTS: Side.TOP}
 FIXED = MotionChoice(Moves.FIXED)
 
 TURNING_SIDES = ("left", "right", "top", "bottom")
@@ -108,8 +121,10 @@ _CHOICES: dict[str, MotionChoice] = dict(
         MOTION_WORDS,
         (
             *(MotionChoice(Moves.TURNS, Side(side)) for side in (*TURNING_SIDES, "top", "bottom")),
+            MotionChoice(Moves.TILTS, Side.BOTTOM),
+            MotionChoice(Moves.LIFTS, Side.TOP),
             *(MotionChoice(Moves.SLIDES, side) for side in (None, None, Side.LEFT, Side.RIGHT, Side.TOP)),
-            *(MotionChoice(Moves.FOLDS, side) for side in (Side.LEFT, Side.RIGHT)),
+            *(MotionChoice(Moves.FOLDS, side) for side in FOLD_SIDES),
             FIXED,
         ),
         strict=True,
@@ -131,12 +146,21 @@ def choice_in_words(word: str) -> MotionChoice:
 
 
 def label_of_motion(part: Part, choice: MotionChoice, drawers: DrawerConfig = DrawerConfig()) -> PartLabel:
-    """Returns the category of a part that moves so: a board that slides along itself is a door, too."""
-    if choice.moves is Moves.FIXED:
+    """Returns the category of a part that moves so: an upright board that slides along itself is a door, too.
+
+    A level board that slides to the left or right, and is no drawer, is the leaf of a table: that has none of its own.
+    """
+    if choice.moves is Moves.FIXED or (choice.side in (Side.LEFT, Side.RIGHT) and _is_leaf(part, choice)):
         return part.label
     if motion_kind(choice.type).turns or slides_in_its_plane(part.mesh, _direction(choice), drawers):
         return PartLabel.DOOR
     return PartLabel.DRAWER
+
+
+def _is_leaf(part: Part, choice: MotionChoice) -> bool:
+    size = part.box.size
+    level = part.box.thin_axis == int(np.argmax(DIRECTIONS[Side.TOP])) and size.min() < _BOARD * np.median(size)
+    return choice.moves is Moves.SLIDES and bool(level) and not part.label.is_movable
 
 
 def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:
@@ -152,12 +176,15 @@ def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:
     side = _own_side(axes, _direction(choice))
     if choice.moves is Moves.SLIDES:
         return Axis(axes @ local.center, side)
-    thin = axes[:, local.thin_axis]
-    if abs(float(side @ thin)) > 0.5:
-        raise OptionError(f"`{part.id}` must turn about one of its borders: its {choice.side} is a broad face")
-    opens = _outwards(thin, axes @ local.center - whole.center) * (-1.0 if choice.inwards else 1.0)
+    if choice.moves is Moves.TILTS and local.size[local.thin_axis] > _BOARD * np.median(local.size):
+        opens = _own_side(axes, DIRECTIONS[Side.FRONT])  # the bin is part of its mesh
+    else:
+        thin = axes[:, local.thin_axis]
+        if abs(float(side @ thin)) > 0.5:
+            raise OptionError(f"`{part.id}` must turn about one of its borders: its {choice.side} is a broad face")
+        opens = _outwards(thin, axes @ local.center - whole.center) * (-1.0 if choice.inwards else 1.0)
     half = np.abs(axes.T @ side) @ local.half
-    depth = float(local.half[local.thin_axis])
+    depth = float(np.abs(axes.T @ opens) @ local.half)
     return Axis(axes @ local.center + half * side + depth * opens, np.cross(-side, opens))
 
 

@@ -12,7 +12,7 @@ from grafu.geometry.transform import from_rotation
 from grafu.joints.gaps import gap_growth
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
-from grafu.joints.plan import JointRequest
+from grafu.joints.plan import JointRequest, LeafOf
 from grafu.joints.racks import SOURCE as SHOWN
 from grafu.joints.racks import is_grid
 from grafu.joints.rail.body_region import is_shallow
@@ -72,7 +72,7 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     if is_board and part.label is PartLabel.DOOR:
         return _sliding_door(search)
     is_stated = part.label.is_movable or search.request.source in _STATED  # a guess alone makes no grid a rack
-    if is_stated and is_grid(search.scene.moving_mesh(part.id)):
+    if search.request.leaf is LeafOf.BIN or (is_stated and is_grid(search.scene.moving_mesh(part.id))):
         return _rack(search)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
     if is_board or not _is_sure(search):
@@ -85,7 +85,7 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
 
 
 def _rack(search: DrawerSearch) -> Placement | None:
-    """Returns the joint of a wire basket or a grid, which runs on its own wheels and guides; they are seldom drawn."""
+    """Returns the joint of a rack or a bin, which runs on its own wheels and guides; they are seldom drawn."""
     wanted = min(search.request.reference or search.wanted, search.reach)
     upper = _guided_travel(search, search.travel(search.reach))
     if upper < search.config.restricted * wanted or str(search.request.choice):
@@ -155,6 +155,19 @@ def lift_without_hardware(search: DrawerSearch) -> Placement | None:
     if upper < search.config.restricted * wanted:
         return None
     joint = _joint(search, search.axis, search.motion, upper, ())
+    return None if joint is None else replace(joint, template=DRAWN, notes=())
+
+
+def leaf_without_hardware(search: DrawerSearch) -> Placement | None:
+    """Returns the joint of a leaf that makes a table longer, on the frame that the table has.
+
+    It is None in the cases of `lift_without_hardware`. The leaf comes out as far as was asked for, whatever rails give.
+    """
+    wanted = search.request.reference or search.reach
+    upper = search.travel(wanted)
+    if upper < search.config.restricted * wanted:
+        return None
+    joint = _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
     return None if joint is None else replace(joint, template=DRAWN, notes=())
 
 

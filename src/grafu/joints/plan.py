@@ -33,12 +33,16 @@ class Supports(StrEnum):
 
 
 class LeafOf(StrEnum):
-    """Which leaf of a folding door a part is."""
+    """Which leaf of a folding door a part is, or of what else that moves in its own way."""
 
     NONE = "none"  # it is no leaf of one
     OUTER = "outer"  # it turns on pivots, if they find room, and carries the inner leaf
     INNER = "inner"  # it follows the outer leaf, and runs in a track above it
     CORNER = "corner"  # it hangs on another leaf in an inner corner, and turns by itself
+    LOWER = "lower"  # it follows the leaf above it, as the two fold up
+    EXTENSION = "extension"  # it is no leaf of one: it makes a table longer, and slides on what the table has
+    BIN = "bin"  # it is no leaf: a bin behind a door, which slides out on what is there
+    LIFTED = "lifted"  # it is no leaf of one: arms lift it upright where they find room
 
 
 @final
@@ -136,7 +140,11 @@ class JointRequest:
     `parent` is the moving part that carries the joint ("": the static body); the part is among what is `attached` to
     it. With a `coupling` the joint follows that of another part, which it names; both count values from closed.
     `carriers` are the parts that alone may hold the hardware (empty: every static part). `leaf` states which leaf of a
-    folding door it is.
+    folding door it is. What turns opens no further than `stop` (radians; None: as far as such a thing does), unless the
+    user chose an opening.
+
+    Raises:
+        ValueError: if nothing moves, it is carried by or follows itself, or `stop` is not above 0.
     """
 
     moving: str
@@ -152,12 +160,15 @@ class JointRequest:
     coupling: Coupling | None = None
     carriers: tuple[str, ...] = ()
     leaf: LeafOf = LeafOf.NONE
+    stop: float | None = None
 
     def __post_init__(self) -> None:
         if not self.kind.moves:
             raise ValueError(f"`JointRequest.type` must be one that moves: got {self.type} for {self.moving}")
         if self.moving in (self.parent, self.coupling and self.coupling.leader):
             raise ValueError(f"`parent` and the leader must be other parts: got {self.moving}")
+        if self.stop is not None and not self.stop > 0:
+            raise ValueError(f"`JointRequest.stop` must be above 0: got {self.stop} for {self.moving}")
 
     @property
     def kind(self) -> MotionKind:

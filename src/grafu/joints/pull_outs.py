@@ -3,6 +3,7 @@
 They are found by boxes and contacts, so fronts that stand turned about Z stay as they were predicted.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -13,9 +14,12 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
+from grafu.geometry.mesh import merge_meshes
 from grafu.graph.edges import Slide
-from grafu.graph.functional_graph import FunctionalGraph, joined_groups
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.joints.behind_fronts import groups_within, is_within_outline, touched_by
 from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.waste_bins import is_bucket
 from grafu.scene.scene import metre_on
 
 SOURCE = "rule"
@@ -39,7 +43,7 @@ class PullOutConfig:
     upright: float = 0.9
     """From this cosine on to the vertical the predicted hinge is at a side of the front."""
     pieces: int = 3
-    """How many parts a rack has at least: one board may be a shelf whose pins are not drawn."""
+    """How many parts a rack has at least, unless it is a bin: one board may be a shelf whose pins are not drawn."""
     tall: float = 0.5
     """Least height of a rack (fraction of the front's height)."""
     deep: float = 0.5
@@ -96,27 +100,28 @@ def _rack(
     """Returns the parts behind a front that hang together and that nothing beside, above or below them holds."""
     own = {request.moving, *request.attached}
     inside = {part.id: part.box for part in static if _is_behind(part.box, front, config)}
-    touching = {name: [other for other in graph.neighbours[name] if other in inside] for name in inside}
-    for found in joined_groups(touching):
+    for found in groups_within(inside, graph):
         box = Box.enclosing(inside[name] for name in found)
         near = abs(float(box.low[_DEPTH] - front.high[_DEPTH])) <= config.reach
         large = (
             box.size[_UP] >= config.tall * front.size[_UP] and box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
         )
-        if len(found) < config.pieces or not (near and large):
+        if not (near and large and (len(found) >= config.pieces or _is_bin(found, asset))):
             continue
-        touched = {name for member in found for name in graph.neighbours[member]} - set(found) - own
+        touched = touched_by(found, graph, own)
         far = float(box.high[_DEPTH]) - config.back * float(box.size[_DEPTH])
         if all(float(asset.part(name).box.low[_DEPTH]) >= far for name in touched):
-            return sorted(found)
+            return list(found)
     return []
+
+
+def _is_bin(parts: Sequence[str], asset: Asset) -> bool:
+    return is_bucket(merge_meshes([asset.part(name).mesh for name in parts]))
 
 
 def _is_behind(box: Box, front: Box, config: PullOutConfig) -> bool:
     """Whether a part may be one of a rack: well within a front's outline, behind it, and no back of the case."""
-    low, high = front.low + config.clear, front.high - config.clear
     across = [0, _UP]
-    inside = np.all(box.low[across] >= low[across]) and np.all(box.high[across] <= high[across])
-    behind = box.low[_DEPTH] >= front.low[_DEPTH] and box.high[_DEPTH] > front.high[_DEPTH]
+    behind = is_within_outline(box, front, config.clear) and box.low[_DEPTH] >= front.low[_DEPTH]
     wall = box.thin_axis == _DEPTH and np.all(box.size[across] >= config.wall * front.size[across])
-    return bool(inside and behind and not wall)
+    return bool(behind and not wall)

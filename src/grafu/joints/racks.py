@@ -1,5 +1,6 @@
 """Racks of dishwashers and ovens: wire baskets and grids behind a door that drops. They slide out once it is open."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -16,13 +17,13 @@ from grafu.geometry.raycast import RayCaster
 from grafu.geometry.touching import near_pairs
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
+from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.scene import metre_on
 
 SOURCE = "rule"
 """`JointRequest.source` of a rack: its shape and the door before it show that it slides."""
 _UP, _DEPTH = 2, 1
-_ACROSS = [0, 2]
 _OUT = vec3(0.0, -1.0, 0.0)
 _RAYS = 24  # along each side of an outline
 
@@ -70,7 +71,7 @@ def with_racks(
         return plan
     config = at_scale(config, metre_on(asset.extent))
     moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
-    static = {part.id: part.box for part in asset.parts if part.id not in moving and not part.label.is_movable}
+    static = static_boxes(asset, moving)
     found = {rack.moving: rack for door in doors for rack in _racks(door, static, asset, graph, config)}
     refused = tuple(refusal for refusal in plan.refused if refusal.part not in found)
     return replace(plan, joints=(*plan.joints, *found.values()), refused=refused) if found else plan
@@ -104,13 +105,12 @@ def _drops(request: JointRequest, door: Box, config: RackConfig) -> bool:
 
 
 def _racks(
-    door: Box, static: dict[str, Box], asset: Asset, graph: FunctionalGraph, config: RackConfig
+    door: Box, static: Mapping[str, Box], asset: Asset, graph: FunctionalGraph, config: RackConfig
 ) -> list[JointRequest]:
-    inside = [name for name, box in static.items() if _is_behind(box, door, config)]
-    touching = {name: [other for other in graph.neighbours[name] if other in inside] for name in inside}
+    inside = [name for name, box in static.items() if is_within_outline(box, door, config.clear)]
     found = []
-    for group in joined_groups(touching):
-        parts = [asset.part(name) for name in sorted(group)]
+    for group in groups_within(inside, graph):
+        parts = [asset.part(name) for name in group]
         box = Box.enclosing(part.box for part in parts)
         wide = box.size[0] >= config.wide * door.size[0]
         deep = box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
@@ -133,10 +133,3 @@ def _hangs_together(mesh: TriangleMesh, config: RackConfig) -> bool:
         touching[str(j)].append(str(i))
     groups = (Box.enclosing(boxes[int(k)] for k in group) for group in joined_groups(touching))
     return bool(max(float(box.size[_UP]) for box in groups) >= config.whole * mesh.box.size[_UP])
-
-
-def _is_behind(box: Box, door: Box, config: RackConfig) -> bool:
-    """Whether a part lies well within a door's outline, seen from before it, and behind it."""
-    low, high = door.low + config.clear, door.high - config.clear
-    inside = np.all(box.low[_ACROSS] >= low[_ACROSS]) and np.all(box.high[_ACROSS] <= high[_ACROSS])
-    return bool(inside and box.high[_DEPTH] > door.high[_DEPTH])

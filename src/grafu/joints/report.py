@@ -9,6 +9,9 @@ from grafu.geometry.axis import Axis
 from grafu.refusal import Refusal
 from grafu.vocabulary import JointType, MechanismClass
 
+LIFT_ARMS = "lift-arms"
+"""`Installed.template` of a flap that rises upright, and of its arms."""
+
 
 @final
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ Nothing else is taken for one: a pair of doors that is taken for a folding one w
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import final
 
 import numpy as np
@@ -20,7 +20,7 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import barrels_at
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.folding import Fold, fold_of
-from grafu.joints.leaves import Leaf, in_corner, is_as_wide, is_beside, leaf_of
+from grafu.joints.leaves import UP, Leaf, in_corner, is_as_wide, is_beside, leaf_of
 from grafu.joints.motion_choice import Side
 from grafu.joints.nesting import bodies_of
 from grafu.joints.plan import JointRequest, RealizationPlan
@@ -89,10 +89,14 @@ def _named(leaves: Sequence[Leaf], doors: _Doors) -> Iterator[Fold]:
     """Yields the folds of leaves that are called folding: in rows of two or four, or two in a corner."""
     rows = [*_rows(leaves, doors.fold)]
     for row in rows:
-        if all(is_as_wide(row[0], leaf, doors.fold) for leaf in row):
+        if all(is_as_wide(row[0], leaf, leaf.right, doors.fold) for leaf in row):
             for left, right, side in _PAIRS.get(len(row), ()):
                 yield from _folded(row[left], row[right], side if len(row) > 2 else None, doors)
     single = [row[0] for row in rows if len(row) == 1]
+    for upper, lower in product(single, single):
+        if is_beside(upper, lower, -UP, doors.fold) and is_as_wide(upper, lower, UP, doors.fold):
+            yield from _folded(upper, lower, Side.TOP, doors)
+            single = [leaf for leaf in single if leaf not in (upper, lower)]
     corners = [
         (one, other)
         for k, one in enumerate(single)
@@ -136,7 +140,7 @@ def _outer(left: Leaf, right: Leaf) -> tuple[tuple[Leaf, np.ndarray], tuple[Leaf
 def _is_hinged(left: Leaf, right: Leaf, doors: _Doors) -> bool:
     """Whether hinges are drawn behind the seam of a leaf and the one at its right, in the rear half of their boards."""
     asset, fold = doors.asset, doors.fold
-    if not (is_beside(left, right, left.right, fold) and is_as_wide(left, right, fold)):
+    if not (is_beside(left, right, left.right, fold) and is_as_wide(left, right, left.right, fold)):
         return False
     request = doors.request(right)
     axis = fold_of(left.part, Side.LEFT, asset, fold).inner_axis

@@ -55,11 +55,12 @@ def _takes_stays(made: ArticulatedObject, joint: Joint, config: StayConfig) -> b
     """Whether a leaf on the case opens upwards, far enough, about a level axis, and no joint follows it."""
     if not joint.kind.turns or not joint.kind.limited or joint.parent != made.root or joint.limits.lower > 0:
         return False
+    if any(other.coupling is not None and other.coupling.leader == joint.id for other in made.joints):
+        return False
     level = abs(float(joint.axis.direction[2])) <= config.level
-    leads = any(other.coupling is not None and other.coupling.leader == joint.id for other in made.joints)
     center = made.link(joint.child).body_mesh.box.center
     rises = float(joint.kind.displacement(joint.axis, center[None], joint.limits.upper)[0, 2]) > 0
-    return level and rises and not leads and joint.limits.upper >= config.opening
+    return level and rises and joint.limits.upper >= config.opening
 
 
 @final

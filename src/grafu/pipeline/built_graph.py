@@ -60,7 +60,7 @@ def with_joints(completion: GraphCompletion, made: ArticulatedObject, mounts: Ma
     """
     graph = completion.completed
     joints = {joint.child: joint for joint in made.moving_joints if joint.child in graph}
-    moved = {joint.id: joint.child for joint in made.moving_joints}
+    moved = {joint.id: joint.child for joint in made.moving_joints if joint.child in graph}
     still = [n for n in graph.nodes if n.label.is_support and n.id not in graph.moving | joints.keys()]
     edges: list[MotionEdge] = []
     for joint in joints.values():  # what carries others comes before them
@@ -91,7 +91,10 @@ def _joint_edges(joint: Joint, graph: FunctionalGraph, carriers: list[PartNode],
 
 
 def _coupling(joint: Joint, moved: Mapping[str, str]) -> Coupling | None:
-    return joint.coupling and replace(joint.coupling, leader=moved[joint.coupling.leader])
+    """Returns how a part follows another; None where it follows none, or hardware alone, such as lift arms."""
+    if joint.coupling is None or joint.coupling.leader not in moved:
+        return None
+    return replace(joint.coupling, leader=moved[joint.coupling.leader])
 
 
 def without_removed(completion: GraphCompletion, removed: frozenset[str], heirs: Sequence[str] = ()) -> GraphCompletion:

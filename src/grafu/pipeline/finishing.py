@@ -1,4 +1,4 @@
-"""What is done to the built object last: joints of small parts, stays on lids and flaps. It decides nothing else."""
+"""What is done to the built object last: joints of small parts, lift arms, stays. It decides nothing else."""
 
 from dataclasses import replace
 from functools import partial
@@ -6,6 +6,7 @@ from functools import partial
 from grafu.additions.step import StepResult
 from grafu.asset.part import Asset
 from grafu.joints.config import RealizationConfig
+from grafu.joints.plan import LeafOf, RealizationPlan
 from grafu.joints.realize import Realized
 from grafu.pipeline.additions import fitted_object
 from grafu.pipeline.shown_by_shape import WantedSmallParts
@@ -29,6 +30,16 @@ def with_small_joints_of(
     return stages.timed(
         "small parts", partial(with_small_parts, realized, asset, joints, small.chosen), lambda _: realized
     )
+
+
+def with_lifts_of(realized: Realized, plan: RealizationPlan, joints: RealizationConfig, stages: Stages) -> Realized:
+    """Returns what was realized with arms on the flaps of a plan that they lift upright, where there is room."""
+    flaps = [request.moving for request in plan.joints if request.leaf is LeafOf.LIFTED]
+    if not flaps:  # as in most runs
+        return realized
+    from grafu.joints.parallel_lifts import with_parallel_lifts
+
+    return stages.timed("lift arms", partial(with_parallel_lifts, realized, flaps, joints), lambda _: realized)
 
 
 def with_stays_of(realized: Realized, joints: RealizationConfig, stages: Stages) -> Realized:

@@ -19,19 +19,21 @@ from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.building_doors import with_door_labels
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
-from grafu.joints.folding import as_turning, folds_in, with_folds
+from grafu.joints.folding import as_turning, folds_in
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.make_plan import plan_from_annotation, plan_from_completion
 from grafu.joints.plan import PlanConfig, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
+from grafu.joints.waste_bins import with_stated_bins
 from grafu.joints.windows import with_window_labels
 from grafu.pipeline.additions import add_after_joints, add_before_joints, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
-from grafu.pipeline.finishing import with_small_joints_of, with_stays_of
-from grafu.pipeline.motion_choices import corrected, plan_with_motions, with_motions, with_mounts, with_moving
+from grafu.pipeline.finishing import with_lifts_of, with_small_joints_of, with_stays_of
+from grafu.pipeline.mechanisms import with_mechanisms
+from grafu.pipeline.motion_choices import corrected, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.shown_by_shape import additions_wanted, shown_by_shape, small_parts_wanted
@@ -201,7 +203,8 @@ def functionalize(
     turning: frozenset[str] = frozenset()
     if not motion.reads_annotation:
         plan, turning = shown_by_shape(plan, asset, completion.completed, joints, motions, settings.small_parts)
-    plan = with_folds(plan_with_motions(plan, motions, completion, asset), folds, joints.fold)
+    plan = with_stated_bins(plan, asset) if motion.reads_annotation else plan
+    plan = with_mechanisms(plan, motions, folds, completion, asset, joints)
     plan = with_choices(plan, settings.joints, asset, gallery, joints.plan)
     close = partial(cache.value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
     plan = stages.timed("close", close, lambda _: plan)
@@ -216,6 +219,7 @@ def functionalize(
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     small = small_parts_wanted(asset, motion.reads_annotation, settings.small_parts, turning)
     realized = with_small_joints_of(realized, fittings, asset, joints, stages, small)
+    realized = with_lifts_of(realized, plan, joints, stages)
     realized = with_stays_of(realized, joints, stages) if settings.stays else realized
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))

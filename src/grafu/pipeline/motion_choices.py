@@ -18,7 +18,15 @@ from grafu.graph.edges import Attached, Contact, Edge, MotionEdge, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
 from grafu.joints.make_plan import attached_to
-from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion, label_of_motion, motion_as_choice
+from grafu.joints.motion_choice import (
+    FOLD_SIDES,
+    MotionChoice,
+    Moves,
+    Side,
+    axis_of_motion,
+    label_of_motion,
+    motion_as_choice,
+)
 from grafu.joints.plan import JointChoice, JointRequest, RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.refusal import Reason, Refusal
@@ -34,7 +42,7 @@ Motions = Mapping[str, MotionChoice]
 def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
     """Returns how the parts of an object move, as choices by the id of the part; see `motion_as_choice`.
 
-    A leaf that follows the one that carries it folds, and so does that one.
+    A leaf that follows the one that carries it folds, and so does that one; one that follows hardware alone is lifted.
     """
     parts = [v for link in made.links for v in link.visuals if v.role is VisualRole.PART]
     whole = Box.enclosing([visual.mesh.box for visual in parts])
@@ -46,13 +54,18 @@ def motions_of(made: ArticulatedObject) -> dict[str, MotionChoice]:
 
 
 def _folded(joint: Joint, made: ArticulatedObject, choices: Motions) -> Iterator[tuple[str, MotionChoice]]:
-    """Yields a joint's child and the leaf that carries it, where both turn and it follows that, and how both fold."""
+    """Yields a joint's child and the leaf that carries it, where both turn and it follows that, and how both fold.
+
+    A leaf on arms, which are hardware alone, is lifted.
+    """
     outer = choices.get(joint.parent)
+    if joint.coupling is not None and not len(made.link(joint.parent).body_mesh.faces):
+        yield joint.child, MotionChoice(Moves.LIFTS, Side.TOP)
     if joint.coupling is None or outer is None or joint.child not in choices:
         return
     leads = made.joint_of[joint.parent].id == joint.coupling.leader
     turn = {outer.moves, choices[joint.child].moves} == {Moves.TURNS}
-    if leads and turn and outer.side in (Side.LEFT, Side.RIGHT):
+    if leads and turn and outer.side in FOLD_SIDES:
         yield from ((leaf, MotionChoice(Moves.FOLDS, outer.side)) for leaf in (joint.parent, joint.child))
 
 

@@ -26,7 +26,9 @@ def move_options(result: Functionalized) -> dict[str, tuple[str, ...]]:
     if result.source.is_foreign:
         return {}
     motions = motions_of(result.object)
-    moving = {joint.child: _instead(motions.get(joint.child)) for joint in result.object.moving_joints}
+    hardware = {link.id for link in result.object.links if not len(link.body_mesh.faces)}
+    joints = (joint for joint in result.object.moving_joints if joint.child not in hardware)
+    moving = {joint.child: _instead(motions.get(joint.child)) for joint in joints}
     still = {part.id: list(_into_motion(part, result)) for part in _still(result, set(moving))}
     choices = {part: (*found, str(Moves.FIXED)) for part, found in (moving | still).items()}
     return {part: tuple(f"--move {part}={choice}" for choice in found) for part, found in choices.items()}
@@ -34,6 +36,8 @@ def move_options(result: Functionalized) -> dict[str, tuple[str, ...]]:
 
 def _instead(motion: MotionChoice | None) -> list[str]:
     """Returns the side that a part may turn about or fold to instead, where there is one that can be named."""
+    if motion and (motion.moves is Moves.LIFTS or (motion.moves is Moves.FOLDS and motion.side is Side.TOP)):
+        return ["lift"]
     if motion and motion.moves is Moves.FOLDS and motion.side:
         return [f"fold-{_OTHER[motion.side]}"]
     other = _OTHER.get(motion.side) if motion and motion.moves is Moves.TURNS and motion.side else None

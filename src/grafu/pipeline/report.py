@@ -6,7 +6,7 @@ from dataclasses import asdict, replace
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.joints.report import Installed
+from grafu.joints.report import LIFT_ARMS, Installed
 from grafu.joints.sliding_doors import SOURCE as RULE
 from grafu.pipeline.certainty import guesses_of
 from grafu.pipeline.functionalize import Functionalized
@@ -135,7 +135,8 @@ def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
 def _small_parts(result: Functionalized) -> frozenset[str]:
     """Returns the knobs, buttons, wheels and casters with a joint of their own: no plan asks for these."""
     planned = {request.moving for request in result.plan.joints}
-    return frozenset(made.moving for made in result.report.installed if made.moving not in planned)
+    others = (made for made in result.report.installed if made.template != LIFT_ARMS)
+    return frozenset(made.moving for made in others if made.moving not in planned)
 
 
 def _grasps(result: Functionalized) -> dict[str, Grasp]:
@@ -143,6 +144,9 @@ def _grasps(result: Functionalized) -> dict[str, Grasp]:
     found: dict[str, Grasp] = {moving: grasp.kind for moving, grasp in result.fittings.grasps.items()}
     found |= {a.part.carried_by: "handle" for a in result.fittings.additions if a.part.carried_by}
     found |= {c.part.id: "recess" for c in result.fittings.changes.carved}
+    for made in result.report.installed:
+        if made.template == LIFT_ARMS:
+            found.setdefault(made.moving, "driven")
     return found | {moving: _grasp_of_small(result.object, moving) for moving in _small_parts(result)}
 
 

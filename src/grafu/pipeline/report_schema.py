@@ -9,6 +9,7 @@ from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
 
 from grafu.additions.step import DeficiencyKind
 from grafu.graph.completion import Question
+from grafu.joints.report import LIFT_ARMS
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked, Reason
@@ -166,6 +167,11 @@ class JointRecord(ReportRecord):
     left_out: tuple[str, ...] = Field(
         default=(), description="which other hinges were tried and left out, and why; no fault of those that were built"
     )
+
+    @property
+    def is_front(self) -> bool:
+        """Whether a door, a drawer or the like moves on it: neither a small part nor arms alone that lift a flap."""
+        return not self.small and (self.template != LIFT_ARMS or self.follows is not None)
 
 
 class AddedRecord(ReportRecord):

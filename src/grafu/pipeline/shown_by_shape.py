@@ -13,13 +13,17 @@ from grafu.joints.building_doors import building_door, with_building_doors
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_leaves import with_drop_leaves
+from grafu.joints.extension_leaves import with_shown_extensions
 from grafu.joints.folding import with_folds
 from grafu.joints.lifts import with_lifts
+from grafu.joints.parallel_lifts import with_named_lifts
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
+from grafu.joints.tilting_fronts import with_shown_tilts
+from grafu.joints.waste_bins import with_waste_bins
 from grafu.joints.wide_bars import with_wide_bars
 from grafu.joints.windows import window, with_windows
 from grafu.scene.scene import metre_on
@@ -51,7 +55,9 @@ def shown_by_shape(
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_wide_bars(plan, asset, settled)
-    plan = with_racks(with_drop_leaves(plan, asset), asset, graph)
+    plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
+    plan = with_racks(with_drop_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
+    plan = with_waste_bins(plan, asset, graph)
     plan = with_lifts(plan, graph, at_scale(joints.lift, metre_on(asset.extent)))
     return _without_turntables(plan, asset, small)
 

@@ -201,6 +201,7 @@ def _fronts_words(report: Report) -> str:
     kinds = [
         "small part" if joint.small else _front_word(category.get(joint.part), motion_kind(joint.type).slides)
         for joint in report.joints
+        if joint.small or joint.is_front
     ]
     kinds += ["drawer" if category.get(part) is PartLabel.DRAWER else "door" for part in parts_without_joint(report)]
     counts = Counter(kinds)

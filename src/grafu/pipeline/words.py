@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from enum import StrEnum
 
+from grafu.joints.report import LIFT_ARMS
 from grafu.vocabulary import MechanismClass
 
 
@@ -60,6 +61,8 @@ def hardware_in_words(count: int, template: str, mechanism: MechanismClass) -> s
     """Returns what a joint runs on, such as `2 × butt (contact)`."""
     if template == "drawn":
         return "the hardware of the input"
+    if template == LIFT_ARMS:
+        return f"{count} × lift arms"
     return "no hardware" if mechanism is MechanismClass.NONE else f"{count} × {template} ({mechanism.in_words})"
 
 

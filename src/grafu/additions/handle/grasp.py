@@ -15,6 +15,9 @@ from grafu.vocabulary import PartLabel
 NAMELESS_LABELS = (PartLabel.MISC, PartLabel.UNKNOWN)
 
 
+_UP = 2
+
+
 def find_grasp(
     scene: Scene, moving_id: str, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None
 ) -> Grasp:
@@ -30,8 +33,19 @@ def find_grasp(
     if joint_motion.kind.slides and is_column(scene.parts[moving_id].mesh, joint_motion.axis.direction):
         return Grasp(moving_id, "driven", 1.0, "a column is lifted by its drive, or with what it carries")
     handle = held_by_label(scene, moving_id, config)
+    if handle is None and _is_leaf(scene, moving_id):
+        box = scene.parts[moving_id].box
+        edge = box.center + box.half * joint_motion.axis.direction
+        return Grasp(moving_id, "edge", 1.0, "a leaf of a table is drawn out by its edge", edge, float(box.size.max()))
     reliefs = reliefs or Reliefs(scene, config.relief)
     return handle or _without_label(scene, moving_id, reliefs.of(moving_id), config)
+
+
+def _is_leaf(scene: Scene, moving_id: str) -> bool:
+    """Whether a moving body is a level board that slides level and is no drawer: the leaf of a table."""
+    part, joint_motion = scene.parts[moving_id], scene.joint_motions[moving_id]
+    level = int(np.argmax(np.abs(joint_motion.axis.direction))) != _UP and part.box.thin_axis == _UP
+    return joint_motion.kind.slides and level and not part.label.is_movable
 
 
 def find_grasps(scene: Scene, config: GraspConfig = GraspConfig(), reliefs: Reliefs | None = None) -> dict[str, Grasp]:

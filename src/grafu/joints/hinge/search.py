@@ -259,7 +259,7 @@ def door_search(
     part = scene.parts[request.moving]
     around, drawn = config.hinge.survey, border_frame(part.mesh, request.axis)
     frame = without_handle(drawn, part.mesh, around.front, around.rounding)
-    most = config.door_opening if _is_stated(request) else _most_opening(frame, config)
+    most = config.door_opening if _is_stated(request) else min(_most_opening(frame, config), request.stop or pi)
     wanted = min(request.reference or config.hinge.usual_opening, most)
     return DoorSearch(
         request,

@@ -1,0 +1,38 @@
+"""What stands behind a front, told by boxes and contacts: the groups of parts within its outline, and what holds them.
+
+Racks, pull-out units and the bins of tilting fronts are found in this way; those of fronts turned about Z are not.
+"""
+
+from collections.abc import Collection, Iterator, Mapping
+
+import numpy as np
+
+from grafu.asset.part import Asset
+from grafu.geometry.box import Box
+from grafu.graph.functional_graph import FunctionalGraph, joined_groups
+
+_DEPTH = 1
+_ACROSS = [0, 2]
+
+
+def is_within_outline(box: Box, front: Box, clear: float) -> bool:
+    """Whether a box lies within the outline of a front that faces -Y, by `clear` metres, and ends behind it."""
+    low, high = front.low + clear, front.high - clear
+    inside = np.all(box.low[_ACROSS] >= low[_ACROSS]) and np.all(box.high[_ACROSS] <= high[_ACROSS])
+    return bool(inside and box.high[_DEPTH] > front.high[_DEPTH])
+
+
+def groups_within(inside: Collection[str], graph: FunctionalGraph) -> Iterator[tuple[str, ...]]:
+    """Yields the ids of parts in groups that hang together by contact."""
+    touching = {name: [other for other in graph.neighbours[name] if other in inside] for name in inside}
+    yield from (tuple(sorted(group)) for group in joined_groups(touching))
+
+
+def touched_by(group: Collection[str], graph: FunctionalGraph, own: Collection[str]) -> set[str]:
+    """Returns what a group of parts touches, other than itself and what is the front's `own`."""
+    return {name for member in group for name in graph.neighbours[member]} - {*group, *own}
+
+
+def static_boxes(asset: Asset, moving: Collection[str]) -> Mapping[str, Box]:
+    """Returns the boxes of the parts that neither move nor are called doors or drawers, by id."""
+    return {part.id: part.box for part in asset.parts if part.id not in moving and not part.label.is_movable}

@@ -1,0 +1,106 @@
+"""Fronts of shoe cabinets tilt about their lower edges with the bins behind them, and stop before these are level."""
+
+from dataclasses import replace
+from math import degrees, radians
+
+import pytest
+
+import grafu
+from fold_judge import cuts, cutting_over_sweep, loose, opened
+from grafu.asset.part import Asset, PartSource
+from grafu.joints.motion_choice import MotionChoice, Moves, Side
+from grafu.joints.plan import JointRequest
+from grafu.synth.cabinets.tilting import TiltingFronts, make_tilting_fronts
+from grafu.synth.case.case import Case
+from grafu.vocabulary import JointType, PartLabel
+from small_scenes import LEFT_EDGE, box, scene
+
+CABINET = TiltingFronts(in_parts=True)
+IN_ONE_MESH = replace(CABINET, rows=1, case=Case(0.5, 0.5, 0.3), in_parts=False)
+
+
+def unstated(asset: Asset) -> Asset:
+    """The same cabinet, whose input states no joints, nor which front a bin rides on; bins may be shelves."""
+    free = (
+        replace(part, carried_by=None, label=PartLabel.SHELF) if part.id.startswith("bin") else part
+        for part in asset.parts
+    )
+    return replace(asset, parts=tuple(free), joints=())
+
+
+def require_tilting(result: grafu.Result, low: float, high: float) -> None:
+    """Raises AssertionError unless each door opens within these degrees with its bin, and nothing collides."""
+    made = result.object
+    doors = [joint for joint in made.joints if joint.child.startswith("door")]
+
+    assert doors
+    assert all(low <= degrees(joint.limits.upper) <= high for joint in doors)
+    assert all(float(joint.axis.direction[0]) > 0.99 for joint in doors)
+    assert [v.name for v in made.link("body").visuals if v.name.startswith("bin")] == []
+    assert cuts(made, opened(made, 0.0)) | cutting_over_sweep(made) == set()
+    assert loose(result) == set()
+
+
+def test_predicted_fronts_take_their_bins_along_and_stop():
+    require_tilting(grafu.functionalize(unstated(make_tilting_fronts(CABINET))), 40, 46)
+
+
+@pytest.mark.parametrize("spec", [CABINET, IN_ONE_MESH], ids=["in parts", "in one mesh"])
+def test_a_front_that_the_user_states_to_tilt_takes_its_bin_along(spec):
+    asset = unstated(make_tilting_fronts(spec))
+    doors = [part.id for part in asset.parts if part.label is PartLabel.DOOR]
+
+    require_tilting(grafu.functionalize(asset, motion="rule", motions=dict.fromkeys(doors, "tilt")), 40, 46)
+
+
+def test_stated_joints_open_as_far_as_they_are_stated():
+    spec = replace(IN_ONE_MESH, opening=radians(38))
+
+    require_tilting(grafu.functionalize(make_tilting_fronts(spec), motion="annotation"), 37, 38.5)
+
+
+def test_an_opening_that_the_user_chose_wins():
+    asset = make_tilting_fronts(IN_ONE_MESH)
+    result = grafu.functionalize(asset, motion="rule", motions={"door": "tilt"})
+
+    assert degrees(result.with_hinge("door", opening=radians(60)).joint("door").upper) == pytest.approx(60, abs=1)
+
+
+FLAP = (
+    box("side_left", (-0.32, -0.2, 0.0), (-0.3, 0.2, 0.6)),
+    box("side_right", (0.3, -0.2, 0.0), (0.32, 0.2, 0.6)),
+    box("floor", (-0.3, -0.2, 0.0), (0.3, 0.2, 0.02)),
+    box("back", (-0.3, 0.18, 0.02), (0.3, 0.2, 0.6)),
+)
+
+
+def test_a_flap_without_a_bin_drops_until_it_is_level():
+    asset = scene(*FLAP, box("door", (-0.319, -0.22, 0.003), (0.319, -0.202, 0.597)))
+    result = grafu.functionalize(asset, motion="rule", motions={"door": "drop"})
+
+    assert degrees(result.joint("door").upper) > 85
+
+
+@pytest.mark.parametrize(("name", "opens"), [("tilt_door", 45), ("door", 110)])
+def test_a_name_shows_that_a_front_tilts(name, opens):
+    door = replace(box("door", (-0.319, -0.22, 0.003), (0.319, -0.202, 0.597)), source=PartSource(name))
+    upper = degrees(grafu.functionalize(scene(*FLAP, door), motion="rule").joint("door").upper)
+
+    assert upper == pytest.approx(opens, abs=1.0)
+
+
+def test_a_board_that_the_case_holds_is_no_bin():
+    shelf = box("shelf", (-0.3, -0.19, 0.3), (0.3, 0.18, 0.32))
+    asset = scene(*FLAP, shelf, box("door", (-0.319, -0.22, 0.003), (0.319, -0.202, 0.597)))
+    made = grafu.functionalize(asset, motion="rule", motions={"door": "tilt"}).object
+
+    assert "shelf" in [visual.name for visual in made.link("body").visuals]
+
+
+def test_what_cannot_tilt_is_refused():
+    with pytest.raises(ValueError, match="must be bottom"):
+        MotionChoice(Moves.TILTS, Side.LEFT)
+    with pytest.raises(ValueError, match="stop"):
+        JointRequest("door", JointType.REVOLUTE, LEFT_EDGE, "rule", stop=0.0)
+    with pytest.raises(ValueError, match="a row and a column"):
+        TiltingFronts(rows=0)
