@@ -11,7 +11,7 @@ results as URDF, which other judges read.
 
 import argparse
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import final
 
 import numpy as np
+from judge_kinds_makers import KINDS
 
 import grafu
 from grafu.articulation.articulated_object import ArticulatedObject
@@ -26,27 +27,8 @@ from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.export.files import write_files
 from grafu.export.urdf import export_urdf
 from grafu.metrics.collision import CollisionConfig, collision_shares, connected_joints
-from grafu.synth.appliances.appliance import drawn_appliance, make_appliance
-from grafu.synth.cabinets.pull_out import drawn_pull_out, make_pull_out
-from grafu.synth.cabinets.sliding import drawn_sliding_doors, make_sliding_doors
-from grafu.synth.openings.door import drawn_door, make_building_door
-from grafu.synth.openings.window import drawn_window, make_window
-from grafu.synth.tables.drop_leaf import drawn_drop_leaf_table, make_drop_leaf_table
 from grafu.synth.truth.clashes import articulated_of
 
-Maker = Callable[[np.random.Generator, str], Asset]
-KINDS: Mapping[str, Maker] = {
-    "sliding": lambda rng, name: make_sliding_doors(drawn_sliding_doors(rng, name)),
-    "drop-leaf": lambda rng, name: make_drop_leaf_table(drawn_drop_leaf_table(rng, name)),
-    "pull-out": lambda rng, name: make_pull_out(drawn_pull_out(rng, name)),
-    "dishwasher": lambda rng, name: make_appliance(drawn_appliance(rng, name, "dishwasher")),
-    "oven": lambda rng, name: make_appliance(drawn_appliance(rng, name, "oven")),
-    "microwave": lambda rng, name: make_appliance(drawn_appliance(rng, name, "microwave")),
-    "building-door": lambda rng, name: make_building_door(drawn_door(rng, name)),
-    "casement": lambda rng, name: make_window(drawn_window(rng, name, "casement")),
-    "two-leaf-window": lambda rng, name: make_window(drawn_window(rng, name, "pair")),
-    "sash": lambda rng, name: make_window(drawn_window(rng, name, "sash")),
-}
 ALIKE = np.cos(np.radians(5.0))  # of two axes
 OPEN = 0.9  # of the true range
 TOLERANCE = 0.0005  # the tolerant collision's

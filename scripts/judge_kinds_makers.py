@@ -1,0 +1,73 @@
+"""Furniture that is made for one way to move, of random size: the kinds that `judge_kinds.py` judges."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from math import radians
+from typing import Literal
+
+import numpy as np
+
+from grafu.asset.part import Asset
+from grafu.synth.appliances.appliance import drawn_appliance, make_appliance
+from grafu.synth.cabinets.folding import WARDROBE, FoldingDoors, make_folding_doors
+from grafu.synth.cabinets.pull_out import drawn_pull_out, make_pull_out
+from grafu.synth.cabinets.sliding import drawn_sliding_doors, make_sliding_doors
+from grafu.synth.cabinets.tilting import NARROW, TiltingFronts, make_tilting_fronts
+from grafu.synth.cabinets.waste import BASE_UNIT, WasteUnit, make_waste_unit
+from grafu.synth.fronts.setting import Mount
+from grafu.synth.openings.door import drawn_door, make_building_door
+from grafu.synth.openings.window import drawn_window, make_window
+from grafu.synth.sampling.chance import between, chance
+from grafu.synth.tables.drop_leaf import drawn_drop_leaf_table, make_drop_leaf_table
+from grafu.synth.tables.extending import ExtendingTable, make_extending_table
+
+Maker = Callable[[np.random.Generator, str], Asset]
+
+
+def _mount(rng: np.random.Generator) -> Mount:
+    return "overlay" if chance(rng, 0.5) else "inset"
+
+
+def _folding(rng: np.random.Generator, name: str) -> Asset:
+    case = replace(WARDROBE, width=between(rng, (0.8, 1.4)), height=between(rng, (1.6, 2.3)))
+    side: Literal["left", "right"] = "left" if chance(rng, 0.5) else "right"
+    return make_folding_doors(FoldingDoors(name, case, 2, side, _mount(rng)))
+
+
+def _tilting(rng: np.random.Generator, name: str) -> Asset:
+    rows, columns = int(rng.integers(1, 5)), int(rng.integers(1, 3))
+    height = rows * between(rng, (0.32, 0.45)) + 0.08
+    case = replace(NARROW, width=columns * between(rng, (0.45, 0.7)), height=height, depth=between(rng, (0.2, 0.36)))
+    opening = radians(between(rng, (38.0, 48.0)))
+    return make_tilting_fronts(TiltingFronts(name, case, rows, columns, _mount(rng), opening=opening))
+
+
+def _bin(rng: np.random.Generator, name: str) -> Asset:
+    size = between(rng, (0.35, 0.6)), between(rng, (0.6, 0.85)), between(rng, (0.45, 0.6))
+    case = replace(BASE_UNIT, width=size[0], height=size[1], depth=size[2])
+    room = between(rng, (0.45, 0.9)), between(rng, (0.6, 0.95))
+    return make_waste_unit(WasteUnit(name, case, _mount(rng), *room, chance(rng, 0.5), between(rng, (0.6, 0.72))))
+
+
+def _extending(rng: np.random.Generator, name: str) -> Asset:
+    kind: Literal["halves", "draw leaves"] = "halves" if chance(rng, 0.5) else "draw leaves"
+    size = between(rng, (1.0, 2.0)), between(rng, (0.7, 1.0)), between(rng, (0.7, 0.78))
+    return make_extending_table(ExtendingTable(name, kind, *size, travel=between(rng, (0.4, 0.75))))
+
+
+KINDS: Mapping[str, Maker] = {
+    "sliding": lambda rng, name: make_sliding_doors(drawn_sliding_doors(rng, name)),
+    "folding": _folding,
+    "tilting": _tilting,
+    "drop-leaf": lambda rng, name: make_drop_leaf_table(drawn_drop_leaf_table(rng, name)),
+    "extending": _extending,
+    "pull-out": lambda rng, name: make_pull_out(drawn_pull_out(rng, name)),
+    "waste-bin": _bin,
+    "dishwasher": lambda rng, name: make_appliance(drawn_appliance(rng, name, "dishwasher")),
+    "oven": lambda rng, name: make_appliance(drawn_appliance(rng, name, "oven")),
+    "microwave": lambda rng, name: make_appliance(drawn_appliance(rng, name, "microwave")),
+    "building-door": lambda rng, name: make_building_door(drawn_door(rng, name)),
+    "casement": lambda rng, name: make_window(drawn_window(rng, name, "casement")),
+    "two-leaf-window": lambda rng, name: make_window(drawn_window(rng, name, "pair")),
+    "sash": lambda rng, name: make_window(drawn_window(rng, name, "sash")),
+}
