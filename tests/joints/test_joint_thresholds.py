@@ -32,6 +32,7 @@ from grafu.joints.rail_config import (
     RailFootingConfig,
 )
 from grafu.joints.stay_config import StayConfig
+from grafu.joints.swivel_mirrors import MirrorConfig
 from grafu.joints.tilting_fronts import TiltConfig
 from grafu.joints.waste_bins import WasteBinConfig
 from grafu.joints.wide_bars import WideBarConfig
@@ -66,6 +67,7 @@ REASONS = {
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
     "extension_leaves.py": {"_UP": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
+    "swivel_mirrors.py": {"_UP": NUMBERING},
     "wide_bars.py": {"_UP": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
     "coupled.py": {"_ALIKE": TOLERANCE},
@@ -105,7 +107,7 @@ REASONS = {
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, ExtensionConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig,
-    LeverConfig, LiftArmConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig,
+    LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig,
     RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig, TiltConfig, TimeConfig, WasteBinConfig,
     WideBarConfig, WindowConfig,
 )  # fmt: skip

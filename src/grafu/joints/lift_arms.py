@@ -26,7 +26,7 @@ from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, translation
 from grafu.joints.leaves import UP, Leaf
 from grafu.joints.lift_arm_config import LiftArmConfig
-from grafu.joints.limits import in_the_way, opening_values, swept_box
+from grafu.joints.limits import PoseFunction, in_the_way, opening_values, swept_box
 from grafu.scene.scene import Obstacle
 from grafu.templates.solids import STEEL, ZINC, disc, extrude, finished, rectangle
 from grafu.vocabulary import PartLabel
@@ -183,11 +183,11 @@ def furthest(
     second = SweptBody(merge_meshes([v.mesh for v in arms.swinging]), depth)
     held = SweptBody(merge_meshes([*flap, *(v.mesh for v in arms.dynamic)]), depth)
     own, beside = place.axis(place.on_case), place.axis(place.second(place.on_case))
-    moves = (
-        (arm, own.rotation),
-        (second, beside.rotation),
-        (held, lambda value: np.asarray(translation(place.shift(value)))),
-    )
+
+    def lifted(value: float) -> Mat4:
+        return np.asarray(translation(place.shift(value)))
+
+    moves: tuple[tuple[SweptBody, PoseFunction], ...] = ((arm, own.rotation), (second, beside.rotation), (held, lifted))
     meshes = (arms.moving, arms.swinging, arms.dynamic)
     near = [
         in_the_way(obstacles, swept_box(Box.enclosing([v.mesh.box for v in of] + extra), motion, place.turn))
@@ -197,7 +197,8 @@ def furthest(
     plates.place(np.eye(4))
     if plates.penetrated([o.collider for o in obstacles]):
         return 0.0
-    free, met = 0.0, set[str]()
+    free = 0.0
+    met: set[str] = set()
     for number, value in enumerate(opening_values(place.turn, place.config.poses)):
         for (body, motion), around in zip(moves, near, strict=True):
             body.place(motion(float(value)))

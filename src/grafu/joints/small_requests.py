@@ -14,19 +14,21 @@ from grafu.joints.plan import JointRequest
 from grafu.joints.realize import Realized
 from grafu.joints.report import Installed
 from grafu.joints.small_parts import are_links, small_parts, stated_small_parts
+from grafu.joints.swivel_mirrors import mirror_requests
 
 
 def found_requests(
     made: ArticulatedObject, asset: Asset, config: RealizationConfig, chosen: Collection[str] | None
 ) -> tuple[JointRequest, ...]:
-    """Returns the levers of a building's doors, with their bolts, and the small parts that are found by shape."""
+    """Returns the levers of a building's doors, with their bolts, mirrors, and small parts that are found by shape."""
     door = building_door(asset)
     levers = lever_requests(made, [leaf.id for leaf in door.leaves] if door else (), config.lever)
-    taken = {name for request in levers for name in (request.moving, *request.attached)}
+    mirrors = mirror_requests(made, asset)
+    taken = {name for request in (*levers, *mirrors) for name in (request.moving, *request.attached)}
     others = (r for r in small_parts(made, config.small) if taken.isdisjoint((r.moving, *r.attached)))
     if chosen is not None:
         others = (r for r in others if r.moving in chosen or are_links(asset, (r.moving, *r.attached)))
-    return (*levers, *others)
+    return (*levers, *mirrors, *others)
 
 
 def stated_requests(asset: Asset, realized: Realized, config: RealizationConfig) -> tuple[JointRequest, ...]:

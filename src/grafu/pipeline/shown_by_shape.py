@@ -22,6 +22,7 @@ from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
+from grafu.joints.swivel_mirrors import swivel_mirrors
 from grafu.joints.tilting_fronts import with_shown_tilts
 from grafu.joints.waste_bins import with_waste_bins
 from grafu.joints.wide_bars import with_wide_bars
@@ -97,5 +98,6 @@ def small_parts_wanted(
     if asset.small_joints:
         return WantedSmallParts(reads_annotation)
     door = building_door(asset)
-    chosen = turning | {part.id for parts in door.on_leaf for part in parts} if door else turning
+    chosen = turning | swivel_mirrors(asset)
+    chosen |= {part.id for parts in door.on_leaf for part in parts} if door else set()
     return WantedSmallParts(bool(chosen) or any(part.source.link for part in asset.parts), chosen)
