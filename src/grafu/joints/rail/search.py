@@ -103,7 +103,7 @@ class DrawerSearch:
     def reach(self) -> float:
         """The travel that rails could give, metres: over the container's depth, or the depth behind a mere front.
 
-        Tracks of a sliding door give its own width, or what is asked for, as far as it is free and stays beside the
+        Tracks of a sliding door give what is asked for, or its own width, as far as it is free and stays beside the
         static body.
         """
         depth = max(self.frame.depth, self.region.length if self.region else 0.0)
@@ -112,7 +112,7 @@ class DrawerSearch:
 
     @cached_property
     def _free_beside(self) -> float:
-        most = min(max(self.frame.depth, self.request.reference or 0.0), self._room_along)
+        most = min(self.request.reference or self.frame.depth, self._room_along)
         return self.travel(most) if most > 0 else 0.0
 
     @property

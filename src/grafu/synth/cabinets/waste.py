@@ -6,13 +6,14 @@ from typing import final
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.graph.edges import Slide
 from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door
 from grafu.synth.fronts.setting import Mount
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, assemble, plank
 from grafu.synth.pieces.finish import PLAIN
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 BASE_UNIT = Case(0.5, 0.8, 0.56)
 _WALL = 0.004  # metres: how thick the walls of a bin are
@@ -73,7 +74,7 @@ def _bin(span: Span, spec: WasteUnit) -> PieceDraft:
         ((x0, y1 - _WALL, z0), (x1, y1, z1)),
     ]
     axis = Axis(vec3((x0 + x1) / 2, y0, z0), vec3(0.0, -1.0, 0.0))
-    motion = PieceMotion(JointType.PRISMATIC, axis, spec.travel * (y1 - y0))
+    motion = PieceMotion(Slide.joint_type, axis, spec.travel * (y1 - y0))
     return replace(plank(PartLabel.MISC, spec.bin_name, PLAIN.metal, *boards), motion=motion)
 
 

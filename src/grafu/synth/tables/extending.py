@@ -8,9 +8,10 @@ from grafu.articulation.articulated_object import Coupling
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.graph.edges import Slide
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, assemble, plank
 from grafu.synth.pieces.finish import PLAIN
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 _SINK = 0.002  # metres between a draw leaf and the top above it
 _INSET = 0.06  # metres by which apron and legs stand back from the top's edges
@@ -94,6 +95,6 @@ def _leaf(spec: ExtendingTable, side: int, start: float, end: float, heights: tu
     low, high = sorted((side * start, side * end))
     span: Span = ((low, -spec.depth / 2, heights[0]), (high, spec.depth / 2, heights[1]))
     axis = Axis(vec3((low + high) / 2, 0.0, sum(heights) / 2), vec3(float(side), 0.0, 0.0))
-    motion = PieceMotion(JointType.PRISMATIC, axis, spec.travel * (high - low))
+    motion = PieceMotion(Slide.joint_type, axis, spec.travel * (high - low))
     stem = "top_half" if spec.kind == "halves" else "extension_leaf"
     return replace(plank(PartLabel.TOP_PANEL, stem, PLAIN.case, span), motion=motion)
