@@ -28,9 +28,13 @@ def groups_within(inside: Collection[str], graph: FunctionalGraph) -> Iterator[t
     yield from (tuple(sorted(group)) for group in joined_groups(touching))
 
 
-def touched_by(group: Collection[str], graph: FunctionalGraph, own: Collection[str]) -> set[str]:
-    """Returns what a group of parts touches, other than itself and what is the front's `own`."""
-    return {name for member in group for name in graph.neighbours[member]} - {*group, *own}
+def touched_by(group: Collection[str], asset: Asset, graph: FunctionalGraph, own: Collection[str]) -> set[str]:
+    """Returns the parts that a group of them touches, other than itself and what is the front's `own`.
+
+    Nodes of the graph that are only predicted hold nothing.
+    """
+    parts = {part.id for part in asset.parts}
+    return {name for member in group for name in graph.neighbours[member] if name in parts} - {*group, *own}
 
 
 def static_boxes(asset: Asset, moving: Collection[str]) -> Mapping[str, Box]:

@@ -108,7 +108,7 @@ def _rack(
         )
         if not (near and large and (len(found) >= config.pieces or _is_bin(found, asset))):
             continue
-        touched = touched_by(found, graph, own)
+        touched = touched_by(found, asset, graph, own)
         far = float(box.high[_DEPTH]) - config.back * float(box.size[_DEPTH])
         if all(float(asset.part(name).box.low[_DEPTH]) >= far for name in touched):
             return list(found)

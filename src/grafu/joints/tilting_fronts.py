@@ -185,7 +185,7 @@ def _bin(
     for group in groups_within(inside, graph):
         box = Box.enclosing(static[name] for name in group)
         near = float(box.low[_DEPTH] - front.high[_DEPTH]) <= config.reach
-        held = (name for name in touched_by(group, graph, own) if _is_near(name, group, asset, config))
+        held = (name for name in touched_by(group, asset, graph, own) if _is_near(name, group, asset, config))
         if near and box.size[_DEPTH] >= config.reach and not any(True for _ in held):
             found += group
     return tuple(found)
