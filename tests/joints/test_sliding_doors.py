@@ -105,3 +105,16 @@ def test_a_leaf_that_passes_through_its_frame_slides_without_tracks():
     assert joint.type is JointType.PRISMATIC
     assert joint.collision_share == 0
     assert joint.opening >= 0.6
+
+
+def test_supports_of_a_track_end_where_the_next_leaf_begins():
+    shell = [
+        box(p.id, (p.box.low[0], -0.2, p.box.low[2]), tuple(p.box.high)) for p in two_sliding_doors(0.003).parts[:5]
+    ]
+    front = box("door_front", (-0.6, -0.24, 0.003), (0.02, -0.225, 0.797))
+    behind = box("door_behind", (-0.02, -0.22, 0.003), (0.6, -0.205, 0.797))
+    joints = (sliding("door_front", (1.0, 0.0, 0.0), 0.58), sliding("door_behind", (-1.0, 0.0, 0.0), 0.58))
+    made = installed(realized(scene(*shell, front, behind, joints=joints)))
+    assert {name: outcome.opening > 0.5 for name, outcome in made.items()} == dict.fromkeys(
+        ("door_front", "door_behind"), True
+    )

@@ -202,7 +202,7 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
     upper = search.travel(search.reach if search.is_leaf else template.range)
     if upper < search.config.least_opening * search.wanted:
         return None
-    template = _with_track(template, model, upper) if search.is_leaf else template
+    track = _track(template, model, upper) if search.is_leaf else template.static
     static: list[Visual] = []
     dynamic: list[Visual] = []
     mount = search.request.choice.mount
@@ -211,7 +211,8 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
         held = held_rail(template, T, side, search)
         if held is None:
             return None
-        static += held.static
+        rail, *supports = held.static  # a support holds a track where the leaf is closed: it would cross the next leaf
+        static += [replace(rail, surfaces=track.transformed(T).surfaces), *supports]
         dynamic += held.dynamic
         is_on_mount = is_on_mount or held.is_on_mount
     if not is_on_mount or _in_the_way(static, dynamic, upper, search):
@@ -229,11 +230,11 @@ def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search:
     )
 
 
-def _with_track(template: RailTemplate, model: RailModel, travel: float) -> RailTemplate:
-    """Returns rails whose static end is a track: as long as the moving end, and as far as that travels before it."""
+def _track(template: RailTemplate, model: RailModel, travel: float) -> TemplateEnd:
+    """Returns a static end as long as the moving end, and as far as that travels before it."""
     size = template.size
     track = model.build(replace(size, length=size.length + travel)).static
-    return replace(template, static=track.transformed(translation(vec3(0.0, -travel / 2, 0.0))))
+    return track.transformed(translation(vec3(0.0, -travel / 2, 0.0)))
 
 
 def _poses(spot: RailSpot, region: BodyRegion, frame: DrawerFrame) -> tuple[Mat4, Mat4]:
