@@ -1,4 +1,4 @@
-"""What touches parts behind a front is told of parts alone: nodes that are only predicted hold nothing."""
+"""What touches parts behind a front: parts alone, for nodes that are only predicted hold nothing."""
 
 from grafu.graph.parse import parse_graph
 from grafu.joints.behind_fronts import touched_by
