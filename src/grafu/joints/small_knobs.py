@@ -104,8 +104,11 @@ def round_about(piece: Piece, k: int, config: SmallPartConfig) -> Round | None:
     local = piece.mesh.vertices @ axes
     box, flat = Box.around(local), np.delete(local, k, axis=1)
     radius = float(np.linalg.norm(flat - np.delete(box.center, k), axis=1).max())
+    least = config.round * pi * radius**2
+    if float(np.delete(box.size, k).prod()) < least:  # nor is any outline in this rectangle a circle
+        return None
     area = shapely.convex_hull(shapely.multipoints(flat)).area
-    if area <= 0 or area < config.round * pi * radius**2:
+    if area <= 0 or area < least:
         return None
     return Round(piece, Axis(axes @ box.center, axes[:, k]), 2 * radius, float(box.low[k]), float(box.high[k]))
 
