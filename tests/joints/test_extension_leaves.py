@@ -11,7 +11,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.joints.extension_leaves import with_extension_leaves
 from grafu.joints.motion_choice import choice_in_words, label_of_motion
-from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
+from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
 from grafu.synth.tables.extending import ExtendingTable, make_extending_table
 from grafu.vocabulary import JointType, PartLabel
 from small_scenes import box, scene
@@ -103,7 +103,7 @@ def test_trays_and_what_is_only_predicted_are_no_leaves(source, direction, is_le
     request = JointRequest("tray", JointType.PRISMATIC, Axis(vec3(0.5, 0.2, 0.67), vec3(*direction)), source)
     (made,) = with_extension_leaves(RealizationPlan((request,)), scene(top, tray, leg)).joints
 
-    assert (made.leaf is LeafOf.EXTENSION) is is_leaf
+    assert (made.role is MotionRole.EXTENSION) is is_leaf
 
 
 def test_a_travel_of_all_its_length_is_refused():

@@ -25,7 +25,7 @@ from grafu.joints.no_hardware import (
     leaf_without_hardware,
     lift_without_hardware,
 )
-from grafu.joints.plan import JointRequest, LeafOf
+from grafu.joints.plan import JointRequest, MotionRole
 from grafu.joints.rail.place import place_rails
 from grafu.joints.rail.search import DrawerSearch, drawer_search
 from grafu.joints.report import Clearance, Placement
@@ -159,7 +159,7 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
 
 def _guided(search: DrawerSearch, gallery: Gallery) -> Placement | None:
     """Returns the rails, or what a column in its sleeve and the leaf of a table run in, which need none."""
-    if search.request.leaf is LeafOf.EXTENSION:
+    if search.request.role is MotionRole.EXTENSION:
         return leaf_without_hardware(search)
     return lift_without_hardware(search) if search.is_column else place_rails(search, gallery)
 

@@ -19,7 +19,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.graph.edges import Slide
 from grafu.joints.motion_choice import DIRECTIONS, Side
-from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
+from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
 from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
 
@@ -79,7 +79,8 @@ def with_shown_extensions(
     pairs = [(a, b) for a, b in combinations(halves, 2) if _are_halves(a.box, b.box, config) is not None]
     found = {part.id: part for part in (*named, *(pairs[0] if len(pairs) == 1 else ()))}
     made = (
-        JointRequest(p.id, Slide.joint_type, _outwards(p, asset), SOURCE, leaf=LeafOf.EXTENSION) for p in found.values()
+        JointRequest(p.id, Slide.joint_type, _outwards(p, asset), SOURCE, role=MotionRole.EXTENSION)
+        for p in found.values()
     )
     return replace(plan, joints=(*plan.joints, *made)) if found else plan
 
@@ -115,7 +116,7 @@ def _slides_out(request: JointRequest, asset: Asset, config: ExtensionConfig) ->
     part, direction = asset.part(request.moving), request.axis.direction
     if not request.kind.slides or request.parent or part.label.is_movable:
         return False
-    if request.leaf is LeafOf.EXTENSION:
+    if request.role is MotionRole.EXTENSION:
         return True
     stated = request.source not in _PREDICTED and float(direction @ DIRECTIONS[Side.FRONT]) < config.level
     return stated and abs(float(direction[_UP])) < config.thin and _is_leaf(part.box, asset.box, config)
@@ -130,7 +131,7 @@ def _is_leaf(box: Box, whole: Box, config: ExtensionConfig) -> bool:
 
 def _as_leaf(request: JointRequest, asset: Asset, config: ExtensionConfig) -> JointRequest:
     length = float(np.abs(request.axis.direction) @ asset.part(request.moving).box.size)
-    return replace(request, leaf=LeafOf.EXTENSION, reference=request.reference or config.travel * length)
+    return replace(request, role=MotionRole.EXTENSION, reference=request.reference or config.travel * length)
 
 
 def _pairs(leaves: dict[str, JointRequest], asset: Asset, config: ExtensionConfig) -> Iterator[tuple[str, str]]:

@@ -21,7 +21,7 @@ from grafu.graph.edges import Hinge
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.leaves import UP, Leaf, in_corner, is_as_wide, is_beside, leaf_of
 from grafu.joints.motion_choice import DIRECTIONS, FOLD_SIDES, MotionChoice, Moves, Side, side_towards
-from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
+from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
 from grafu.vocabulary import PartLabel
 
 _TWICE = 2.0  # the inner leaf turns back by twice what the outer one opens, so that it ends in the opening's plane
@@ -214,7 +214,7 @@ def _requests(outer: JointRequest, inner: JointRequest, fold: Fold, config: Fold
         axis=fold.outer_axis,
         reference=opening,
         attached=attached,
-        leaf=LeafOf.NONE if fold.is_corner else LeafOf.OUTER,
+        role=MotionRole.NONE if fold.is_corner else MotionRole.OUTER,
     )
     coupling = None if fold.is_corner else Coupling(fold.outer, _TWICE)
     yield replace(
@@ -225,7 +225,7 @@ def _requests(outer: JointRequest, inner: JointRequest, fold: Fold, config: Fold
         attached=own,
         parent=fold.outer,
         coupling=coupling,
-        leaf=LeafOf.CORNER if fold.is_corner else LeafOf.INNER if fold.has_track else LeafOf.LOWER,
+        role=MotionRole.CORNER if fold.is_corner else MotionRole.INNER if fold.has_track else MotionRole.LOWER,
     )
 
 

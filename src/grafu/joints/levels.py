@@ -23,7 +23,7 @@ from grafu.joints.fold_track import NO_TRACK, with_track
 from grafu.joints.measuring import Figures, Measured, measure_all
 from grafu.joints.nesting import above, brought_back, riding, seen_from
 from grafu.joints.order import BuiltJoint, OpeningOrder, order_joints, stand_aside
-from grafu.joints.plan import JointRequest, LeafOf
+from grafu.joints.plan import JointRequest, MotionRole
 from grafu.processes.cache import Cache
 from grafu.refusal import Refusal
 from grafu.scene.scene import Scene
@@ -148,7 +148,7 @@ class Builder:
         ]
         bodies = [name for name in beside if carrier or name == moving or name in levels.built]
         view = seen_from(carrier, bodies, scene, levels.parent_of, T, is_alone)
-        if is_alone and request.leaf in (LeafOf.INNER, LeafOf.LOWER):
+        if is_alone and request.role in (MotionRole.INNER, MotionRole.LOWER):
             view = replace(view, behind=scene.static_parts)
         carriers = scene.moving_bodies[carrier].members if carrier else ()
         measured = self._level([replace(request, carriers=carriers)], view)
@@ -177,9 +177,9 @@ class Builder:
 
     def _with_leaf(self, levels: Levels, request: JointRequest) -> Levels:
         """Returns the levels with what the second leaf of a folding door needs: a track, or room in a corner."""
-        if request.leaf is LeafOf.INNER and request.moving in levels.couplings:
+        if request.role is MotionRole.INNER and request.moving in levels.couplings:
             return self._with_track(levels, request.moving)
-        if request.leaf is LeafOf.CORNER and levels.parent_of.get(request.moving):
+        if request.role is MotionRole.CORNER and levels.parent_of.get(request.moving):
             return self._with_room(levels, request.moving)
         return levels
 

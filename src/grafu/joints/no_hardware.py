@@ -12,7 +12,7 @@ from grafu.geometry.transform import from_rotation
 from grafu.joints.gaps import gap_growth
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
-from grafu.joints.plan import JointRequest, LeafOf
+from grafu.joints.plan import JointRequest, MotionRole
 from grafu.joints.racks import SOURCE as SHOWN
 from grafu.joints.racks import is_grid
 from grafu.joints.rail.body_region import is_shallow
@@ -72,7 +72,7 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     if is_board and part.label is PartLabel.DOOR:
         return _sliding_door(search)
     is_stated = part.label.is_movable or search.request.source in _STATED  # a guess alone makes no grid a rack
-    if search.request.leaf is LeafOf.BIN or (is_stated and is_grid(search.scene.moving_mesh(part.id))):
+    if search.request.role is MotionRole.BIN or (is_stated and is_grid(search.scene.moving_mesh(part.id))):
         return _rack(search)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
     if is_board or not _is_sure(search):

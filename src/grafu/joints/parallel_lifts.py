@@ -21,7 +21,7 @@ from grafu.joints.leaves import Leaf, leaf_of
 from grafu.joints.lift_arm_config import DEFAULT_LIFT_ARM_CONFIG, LiftArmConfig
 from grafu.joints.lift_arms import ArmPlace, Arms, arm_places, arms_of, furthest, walls_beside
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
-from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
+from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import LIFT_ARMS, Installed, Outcome, RealizationReport
 from grafu.scene.scene import Obstacle, metre_on
@@ -46,12 +46,12 @@ def _named(request: JointRequest, asset: Asset) -> JointRequest:
     if request.parent or request.coupling or not (words & _PARALLEL and words & _LIFT):
         return request
     axis = axis_of_motion(part, _LIFTED, asset.box)
-    return replace(request, type=_LIFTED.type, axis=axis, reference=None, mounts=(), leaf=LeafOf.LIFTED)
+    return replace(request, type=_LIFTED.type, axis=axis, reference=None, mounts=(), role=MotionRole.LIFTED)
 
 
 def with_lifted(plan: RealizationPlan, stated: Collection[str]) -> RealizationPlan:
     """Returns the plan in which the stated flaps are to rise on arms."""
-    joints = (replace(r, leaf=LeafOf.LIFTED) if r.moving in stated else r for r in plan.joints)
+    joints = (replace(r, role=MotionRole.LIFTED) if r.moving in stated else r for r in plan.joints)
     return replace(plan, joints=tuple(joints)) if stated else plan
 
 

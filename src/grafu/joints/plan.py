@@ -32,17 +32,17 @@ class Supports(StrEnum):
     DIVIDER = "divider"  # an upright board along the rail, from what stands below to what stands above
 
 
-class LeafOf(StrEnum):
-    """Which leaf of a folding door a part is, or of what else that moves in its own way."""
+class MotionRole(StrEnum):
+    """What a part is within a mechanism that is built in a way of its own, such as a folding door."""
 
-    NONE = "none"  # it is no leaf of one
-    OUTER = "outer"  # it turns on pivots, if they find room, and carries the inner leaf
-    INNER = "inner"  # it follows the outer leaf, and runs in a track above it
-    CORNER = "corner"  # it hangs on another leaf in an inner corner, and turns by itself
-    LOWER = "lower"  # it follows the leaf above it, as the two fold up
-    EXTENSION = "extension"  # it is no leaf of one: it makes a table longer, and slides on what the table has
-    BIN = "bin"  # it is no leaf: a bin behind a door, which slides out on what is there
-    LIFTED = "lifted"  # it is no leaf of one: arms lift it upright where they find room
+    NONE = "none"  # an ordinary door or drawer
+    OUTER = "outer"  # of a folding door: it turns on pivots, if they find room, and carries the inner leaf
+    INNER = "inner"  # of a folding door: it follows the outer leaf, and runs in a track above it
+    CORNER = "corner"  # of a folding door: it hangs on another leaf in an inner corner, and turns by itself
+    LOWER = "lower"  # of two leaves that fold up: it follows the leaf above it
+    EXTENSION = "extension"  # it makes a table longer, and slides on what the table has
+    BIN = "bin"  # it stands behind a door, and slides out on what is there
+    LIFTED = "lifted"  # arms lift it upright where they find room
 
 
 @final
@@ -139,8 +139,8 @@ class JointRequest:
 
     `parent` is the moving part that carries the joint ("": the static body); the part is among what is `attached` to
     it. With a `coupling` the joint follows that of another part, which it names; both count values from closed.
-    `carriers` are the parts that alone may hold the hardware (empty: every static part). `leaf` states which leaf of a
-    folding door it is. What turns opens no further than `stop` (radians; None: as far as such a thing does), unless the
+    `carriers` are the parts that alone may hold the hardware (empty: every static part). `role` states what it is
+    within a mechanism. What turns opens no further than `stop` (radians; None: as far as such a thing does), unless the
     user chose an opening.
 
     Raises:
@@ -159,7 +159,7 @@ class JointRequest:
     parent: str = ""
     coupling: Coupling | None = None
     carriers: tuple[str, ...] = ()
-    leaf: LeafOf = LeafOf.NONE
+    role: MotionRole = MotionRole.NONE
     stop: float | None = None
 
     def __post_init__(self) -> None:
@@ -178,7 +178,7 @@ class JointRequest:
     @property
     def on_pivots(self) -> bool:
         """Whether discs at its ends are tried before hinges: it is the outer leaf of a pair that folds."""
-        return self.leaf is LeafOf.OUTER
+        return self.role is MotionRole.OUTER
 
     @property
     def holders(self) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ from grafu.geometry.raycast import RayCaster
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes
-from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
+from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
 from grafu.scene.scene import metre_on
 
 SOURCE = "rule"
@@ -94,13 +94,13 @@ def with_waste_bins(
 
 def with_stated_bins(plan: RealizationPlan, asset: Asset, config: WasteBinConfig = WasteBinConfig()) -> RealizationPlan:
     """Returns the plan in which buckets that slide level as the input states, and are no drawers, are bins."""
-    joints = (replace(r, leaf=LeafOf.BIN) if _is_stated(r, asset, config) else r for r in plan.joints)
+    joints = (replace(r, role=MotionRole.BIN) if _is_stated(r, asset, config) else r for r in plan.joints)
     return replace(plan, joints=tuple(joints))
 
 
 def _is_stated(request: JointRequest, asset: Asset, config: WasteBinConfig) -> bool:
     part = asset.part(request.moving)
-    free = request.leaf is LeafOf.NONE and request.source != SOURCE and not part.label.is_movable
+    free = request.role is MotionRole.NONE and request.source != SOURCE and not part.label.is_movable
     level = request.kind.slides and abs(float(request.axis.direction[_UP])) < config.upright
     return free and level and is_bucket(part.mesh, config)
 
@@ -172,4 +172,4 @@ def _sliding(parts: Sequence[Part]) -> JointRequest:
     largest = max(parts, key=lambda part: float(np.prod(part.box.size)))
     others = tuple(part.id for part in parts if part is not largest)
     axis = Axis(Box.enclosing(part.box for part in parts).center, _OUT)
-    return JointRequest(largest.id, Slide.joint_type, axis, SOURCE, attached=others, leaf=LeafOf.BIN)
+    return JointRequest(largest.id, Slide.joint_type, axis, SOURCE, attached=others, role=MotionRole.BIN)

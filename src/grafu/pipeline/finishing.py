@@ -6,7 +6,7 @@ from functools import partial
 from grafu.additions.step import StepResult
 from grafu.asset.part import Asset
 from grafu.joints.config import RealizationConfig
-from grafu.joints.plan import LeafOf, RealizationPlan
+from grafu.joints.plan import MotionRole, RealizationPlan
 from grafu.joints.realize import Realized
 from grafu.pipeline.additions import fitted_object
 from grafu.pipeline.shown_by_shape import WantedSmallParts
@@ -34,7 +34,7 @@ def with_small_joints_of(
 
 def with_lifts_of(realized: Realized, plan: RealizationPlan, joints: RealizationConfig, stages: Stages) -> Realized:
     """Returns what was realized with arms on the flaps of a plan that they lift upright, where there is room."""
-    flaps = [request.moving for request in plan.joints if request.leaf is LeafOf.LIFTED]
+    flaps = [request.moving for request in plan.joints if request.role is MotionRole.LIFTED]
     if not flaps:  # as in most runs
         return realized
     from grafu.joints.parallel_lifts import with_parallel_lifts

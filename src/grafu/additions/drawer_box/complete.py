@@ -34,7 +34,7 @@ from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import translation
-from grafu.joints.plan import JointRequest, LeafOf, RealizationPlan
+from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
 from grafu.joints.racks import is_grid
 from grafu.joints.rail.body_region import DrawerFrame, is_shallow
 from grafu.joints.rail_config import DrawerConfig
@@ -131,7 +131,7 @@ def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxCon
     """Returns what a drawer, closed, has of a box behind its front, and what is missing."""
     if closed.scene.parts[request.moving].label is PartLabel.DOOR:
         return BoxVerdict(request.moving, "no drawer", why="it is a door, which has what it carries")
-    if request.leaf is LeafOf.BIN:
+    if request.role is MotionRole.BIN:
         return BoxVerdict(request.moving, "no drawer", why="it is a bin")
     if is_grid(closed.scene.moving_mesh(request.moving)):
         return BoxVerdict(request.moving, "no drawer", why="it is a rack")

@@ -15,7 +15,7 @@ from grafu.asset.languages import word_set
 from grafu.asset.names import singular, spoken
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
-from grafu.joints.plan import JointRequest, LeafOf
+from grafu.joints.plan import JointRequest, MotionRole
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
@@ -65,7 +65,7 @@ def add_tops(scene: Scene, request: StepRequest, choice: TopChoice) -> StepResul
 def _chosen(scene: Scene, request: StepRequest, choice: TopChoice) -> ReplacedTop:
     """Returns whether there is a top, and the one to add or to put in its place."""
     parts = tuple(scene.parts.values())
-    joints = tuple(joint for joint in request.plan.joints if joint.leaf is not LeafOf.EXTENSION)  # leaves are a top
+    joints = tuple(joint for joint in request.plan.joints if joint.role is not MotionRole.EXTENSION)  # leaves are a top
     if choice.config is not None and choice.replaces:
         return replace_top(parts, joints, request.tops, choice.config, request.top)
     top = missing_tops(parts, joints, choice.config or TopConfig(), request.top)
