@@ -51,6 +51,7 @@ GEOMETRY = "a number of geometry: what folds ends in the plane of the opening"
 CHOICE = "the range of what a user may choose"
 
 REASONS = {
+    "framed_leaves.py": {"_DEPTH": NUMBERING},
     "gaps.py": {"_POSES": SAMPLES, "_TOUCHING": TOLERANCE},
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_TRAVELS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},

@@ -117,6 +117,20 @@ class RayCaster:
         return faces, distances
 
 
+def depths_below(rays: RayCaster, face: Box, along: int, count: int, above: float) -> Scalars:
+    """Returns how far below the upper face of a box, along an axis, a grid of rays first meets a mesh, metres.
+
+    The count x count rays begin `above` metres above the face; the mesh ends below that. Infinity where one meets none.
+    """
+    steps = (np.arange(count) + 0.5) / count
+    across = [k for k in range(3) if k != along]
+    grid = np.stack(np.meshgrid(*(face.low[k] + steps * face.size[k] for k in across)), -1).reshape(-1, 2)
+    origins, direction = np.zeros((len(grid), 3)), np.zeros(3)
+    origins[:, across] = grid
+    origins[:, along], direction[along] = face.high[along] + above, -1.0
+    return rays.along(origins, direction) - above
+
+
 def robust_median(distances: Scalars, reach: float, ratio: float = 0.3) -> float:
     """Returns the median of the distances within `reach`; infinity where less than `ratio` of the rays hit."""
     hits = distances[distances <= reach]

@@ -5,7 +5,7 @@ boards that reach down to it within.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -15,15 +15,14 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
-from grafu.geometry.raycast import RayCaster
-from grafu.graph.edges import Hinge, Slide
-from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
+from grafu.geometry.raycast import RayCaster, depths_below
+from grafu.graph.edges import Slide
+from grafu.joints.framed_leaves import SOURCE, FramedLeaves, nearer_to_back, relabelled, turning_leaf
+from grafu.joints.motion_choice import Side
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.border import part_axes
 from grafu.vocabulary import PartLabel
 
-SOURCE = "rule"
-"""`JointRequest.source` of a leaf in a frame: its shape tells."""
 _WIDTH, _DEPTH, _UP = 0, 1, 2
 _RAYS = 12  # along each side of a leaf
 
@@ -69,17 +68,7 @@ class BuildingDoorConfig:
         require_ratios(self, *(name for name in self.__dataclass_fields__ if name != "tall"))
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class BuildingDoor:
-    """A frame, its leaves, and what is on each leaf: panes, handles, locks."""
-
-    frame: Part
-    leaves: tuple[Part, ...]
-    on_leaf: tuple[tuple[Part, ...], ...]
-
-
-def building_door(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> BuildingDoor | None:
+def building_door(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> FramedLeaves | None:
     """Returns the door that an asset is; None where it is another piece, or has parts that no door has."""
     frame = _frame(asset, config)
     leaves = () if frame is None else tuple(_leaves(frame, asset, config))
@@ -88,7 +77,7 @@ def building_door(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig(
     others = [part for part in asset.parts if part is not frame and part not in leaves]
     on_leaf = tuple(tuple(part for part in others if _is_on(part, leaf, config)) for leaf in leaves)
     known = {part.id for parts in on_leaf for part in parts}
-    return BuildingDoor(frame, leaves, on_leaf) if all(part.id in known for part in others) else None
+    return FramedLeaves(frame, leaves, on_leaf) if all(part.id in known for part in others) else None
 
 
 def with_door_labels(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> Asset:
@@ -100,13 +89,7 @@ def with_door_labels(asset: Asset, config: BuildingDoorConfig = BuildingDoorConf
     if found is None:
         return asset
     labels = {found.frame.id: PartLabel.FACE_FRAME, **{leaf.id: PartLabel.DOOR for leaf in found.leaves}}
-    parts = (
-        part
-        if labels.get(part.id, part.label) is part.label or part.labelled_by == "user"
-        else replace(part, label=labels[part.id], labelled_by="shape")
-        for part in asset.parts
-    )
-    return replace(asset, parts=tuple(parts))
+    return relabelled(asset, labels)
 
 
 def with_building_doors(
@@ -120,10 +103,11 @@ def with_building_doors(
     if found is None:
         return plan
     sliding = {r.moving: r for r in plan.joints if r.kind.slides}
-    pairs = zip(found.leaves, found.on_leaf, strict=True)
-    requests = [sliding.get(leaf.id) or _request(leaf, on_it, found, asset, config) for leaf, on_it in pairs]
-    refused = tuple(refusal for refusal in plan.refused if refusal.part not in {part.id for part in asset.parts})
-    return replace(plan, joints=tuple(requests), refused=refused)
+
+    def request(leaf: Part, on_it: Sequence[Part]) -> JointRequest:
+        return sliding.get(leaf.id) or _request(leaf, on_it, found, asset, config)
+
+    return found.with_joints(plan, asset, request)
 
 
 def _frame(asset: Asset, config: BuildingDoorConfig) -> Part | None:
@@ -148,7 +132,8 @@ def _leaves(frame: Part, asset: Asset, config: BuildingDoorConfig) -> Iterator[P
     for part in sorted(asset.parts, key=lambda part: -float(np.prod(part.box.size[[_WIDTH, _UP]]))):
         if part is frame or not _is_board(part, whole, config) or any(_within(part.box, one.box) for one in found):
             continue
-        if _covered(rays, part.box, whole) <= config.open:
+        depths = depths_below(rays, part.box, _DEPTH, _RAYS, whole.diagonal)
+        if float(np.isfinite(depths).mean()) <= config.open:
             found.append(part)
     yield from found
 
@@ -165,18 +150,8 @@ def _within(box: Box, other: Box) -> bool:
     return bool(np.all(box.low[[_WIDTH, _UP]] >= other.low[[_WIDTH, _UP]]) and np.all(box.high <= other.high))
 
 
-def _covered(rays: RayCaster, leaf: Box, whole: Box) -> float:
-    """Returns what of a leaf lies behind or before the frame, seen from before it (fraction)."""
-    steps = (np.arange(_RAYS) + 0.5) / _RAYS
-    across, up = (leaf.low[k] + steps * leaf.size[k] for k in (_WIDTH, _UP))
-    grid = np.stack(np.meshgrid(across, up), -1).reshape(-1, 2)
-    before = np.full(len(grid), whole.low[_DEPTH] - whole.size[_DEPTH])
-    origins = np.column_stack([grid[:, 0], before, grid[:, 1]])
-    return float(np.isfinite(rays.along(origins, np.array([0.0, 1.0, 0.0]))).mean())
-
-
 def _request(
-    leaf: Part, on_it: Sequence[Part], door: BuildingDoor, asset: Asset, config: BuildingDoorConfig
+    leaf: Part, on_it: Sequence[Part], door: FramedLeaves, asset: Asset, config: BuildingDoorConfig
 ) -> JointRequest:
     frame, leaves = door.frame, door.leaves
     attached = tuple(part.id for part in on_it)
@@ -187,11 +162,7 @@ def _request(
         wide = float(leaf.box.size[_WIDTH])
         return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, wide, (), attached, abs(shift))
     side = _hinged_side(leaf, leaves, on_it, config)
-    outwards = axis_of_motion(leaf, MotionChoice(Moves.TURNS, side), asset.box)
-    inwards = axis_of_motion(leaf, MotionChoice(Moves.TURNS, side, inwards=True), asset.box)
-    backwards = _opens_backwards(leaf, frame, on_it, config)
-    axis = outwards if (_sets_off(outwards, side) > 0) == backwards else inwards
-    return JointRequest(leaf.id, Hinge.joint_type, axis, SOURCE, attached=attached)
+    return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, frame, on_it, config))
 
 
 def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: BuildingDoorConfig) -> bool:
@@ -200,19 +171,13 @@ def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: Bui
     In the middle of its frame it opens to the viewer, unless what it is grasped by is on the viewer's side alone: that
     is the outer side of an entrance.
     """
+    at_back = nearer_to_back(leaf, frame, config.flush)
+    if at_back is not None:
+        return at_back
     low, high = leaf.box.low[_DEPTH], leaf.box.high[_DEPTH]
-    nearer = (low - frame.box.low[_DEPTH]) - (frame.box.high[_DEPTH] - high)
-    if abs(nearer) > config.flush * frame.box.size[_DEPTH]:
-        return bool(nearer > 0)
     before = any(one.box.low[_DEPTH] < low - config.flush * leaf.box.size[_DEPTH] for one in on_it)
     behind = any(one.box.high[_DEPTH] > high + config.flush * leaf.box.size[_DEPTH] for one in on_it)
     return before and not behind
-
-
-def _sets_off(axis: Axis, side: Side) -> float:
-    """Returns the depth component of the direction in which a leaf's free edge sets off."""
-    towards = vec3(1.0 if side is Side.LEFT else -1.0, 0.0, 0.0)
-    return float(np.cross(axis.direction, towards)[_DEPTH])
 
 
 def _is_on(part: Part, leaf: Part, config: BuildingDoorConfig) -> bool:

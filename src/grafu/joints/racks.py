@@ -13,7 +13,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import RayCaster
+from grafu.geometry.raycast import RayCaster, depths_below
 from grafu.geometry.touching import near_pairs
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
@@ -83,18 +83,9 @@ def is_grid(mesh: TriangleMesh, config: RackConfig = RackConfig()) -> bool:
     if not (box.size > 0).all():
         return False
     rays, flat = RayCaster(mesh), box.size[_UP] <= config.flat * box.size[:_UP].min()
-    return all(_covered(rays, box, along) <= config.covered for along in ((_UP,) if flat else range(3)))
-
-
-def _covered(rays: RayCaster, box: Box, along: int) -> float:
-    """Returns what of a body's outline its surface covers, seen along an axis (fraction)."""
-    steps = (np.arange(_RAYS) + 0.5) / _RAYS
-    across = [k for k in range(3) if k != along]
-    grid = np.stack(np.meshgrid(*(box.low[k] + steps * box.size[k] for k in across)), -1).reshape(-1, 2)
-    origins, direction = np.zeros((len(grid), 3)), np.zeros(3)
-    origins[:, across] = grid
-    origins[:, along], direction[along] = box.high[along] + box.size.max(), -1.0
-    return float(np.isfinite(rays.along(origins, direction)).mean())
+    above = float(box.size.max())
+    depths = (depths_below(rays, box, along, _RAYS, above) for along in ((_UP,) if flat else range(3)))
+    return all(float(np.isfinite(one).mean()) <= config.covered for one in depths)
 
 
 def _drops(request: JointRequest, door: Box, config: RackConfig) -> bool:

@@ -30,6 +30,12 @@ class TakenPart:
     link: Link
     others: tuple[Visual, ...]
 
+    @property
+    def carriers(self) -> tuple[Visual, ...]:
+        """What else its link consists of: that carries it."""
+        names = {visual.name for visual in self.visuals}
+        return tuple(visual for visual in self.link.visuals if visual.name not in names)
+
 
 def fitted(
     taken: TakenPart, wanted: float, made: ArticulatedObject, config: RealizationConfig
@@ -56,8 +62,7 @@ def fitted(
 def _passes_through(taken: TakenPart, depth: float) -> bool:
     """Whether a part stands out of both sides of what carries it along its axis, by more than `depth` metres."""
     direction = taken.request.axis.direction
-    names = {visual.name for visual in taken.visuals}
-    carrier = np.concatenate([v.mesh.vertices @ direction for v in taken.link.visuals if v.name not in names])
+    carrier = np.concatenate([visual.mesh.vertices @ direction for visual in taken.carriers])
     own = np.concatenate([visual.mesh.vertices @ direction for visual in taken.visuals])
     return bool(own.min() < carrier.min() - depth and own.max() > carrier.max() + depth)
 
@@ -122,8 +127,7 @@ def _pressed(taken: TakenPart, depth: float) -> TakenPart:
 def _outward(taken: TakenPart) -> Vec3:
     """Returns the direction of the axis that leads away from the middle of what carries the part."""
     direction = taken.request.axis.direction
-    names = {visual.name for visual in taken.visuals}
-    carrier = Box.enclosing(visual.mesh.box for visual in taken.link.visuals if visual.name not in names)
+    carrier = Box.enclosing(visual.mesh.box for visual in taken.carriers)
     own = Box.enclosing(visual.mesh.box for visual in taken.visuals)
     return direction if float((own.center - carrier.center) @ direction) >= 0 else -direction
 

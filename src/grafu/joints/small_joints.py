@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import MeshCollider
@@ -130,14 +130,9 @@ def _built(
 def _growth(taken: TakenPart, opening: float) -> float:
     """Returns by how much the gap between the part and what carries it grows as it moves, in metres."""
     own = [MeshCollider(visual.mesh) for visual in taken.visuals]
-    held = [MeshCollider(visual.mesh) for visual in _carriers(taken)]
+    held = [MeshCollider(visual.mesh) for visual in taken.carriers]
     kind = taken.request.kind
     return gap_growth(own, held, kind.along(taken.request.axis), opening, kind.slides)
-
-
-def _carriers(taken: TakenPart) -> list[Visual]:
-    names = {visual.name for visual in taken.visuals}
-    return [visual for visual in taken.link.visuals if visual.name not in names]
 
 
 def _figures(
@@ -154,6 +149,6 @@ def _figures(
     others = [obstacle for obstacle in near if obstacle.id not in bearings]
     ratio = sweep(body, request.kind.along(request.axis), opening, others, config.fine_poses).ratio
     own = [MeshCollider(visual.mesh) for visual in taken.visuals]
-    gaps = {v.name: gap_between(own, [MeshCollider(v.mesh)], np.eye(4)) for v in _carriers(taken)}
+    gaps = {v.name: gap_between(own, [MeshCollider(v.mesh)], np.eye(4)) for v in taken.carriers}
     nearest = min(gaps, key=lambda name: gaps[name])
     return ratio, gaps[nearest], nearest

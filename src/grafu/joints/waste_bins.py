@@ -17,7 +17,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import RayCaster
+from grafu.geometry.raycast import RayCaster, depths_below
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes
@@ -150,22 +150,12 @@ def is_bucket(mesh: TriangleMesh, config: WasteBinConfig = WasteBinConfig()) -> 
     box = mesh.box
     if not (box.size > 0).all():
         return False
-    rays = RayCaster(mesh)
-    depths = _met(rays, box, _UP)
+    rays, above = RayCaster(mesh), float(box.size.max())
+    depths = depths_below(rays, box, _UP, _RAYS, above)
     deep = np.isfinite(depths) & (depths >= float(box.size[_UP]) / 2)
     is_open = float(deep.mean()) >= config.open and float(np.isfinite(depths).mean()) >= config.floor
-    return is_open and all(float(np.isfinite(_met(rays, box, k)).mean()) >= config.walls for k in (0, _DEPTH))
-
-
-def _met(rays: RayCaster, box: Box, along: int) -> np.ndarray:
-    """Returns how deep below a face of a body's box, seen along an axis, rays first meet the body, metres."""
-    steps = (np.arange(_RAYS) + 0.5) / _RAYS
-    across = [k for k in range(3) if k != along]
-    grid = np.stack(np.meshgrid(*(box.low[k] + steps * box.size[k] for k in across)), -1).reshape(-1, 2)
-    origins, direction, before = np.zeros((len(grid), 3)), np.zeros(3), float(box.size.max())
-    origins[:, across] = grid
-    origins[:, along], direction[along] = box.high[along] + before, -1.0
-    return np.asarray(rays.along(origins, direction)) - before
+    sides = (depths_below(rays, box, k, _RAYS, above) for k in (0, _DEPTH))
+    return is_open and all(float(np.isfinite(side).mean()) >= config.walls for side in sides)
 
 
 def _sliding(parts: Sequence[Part]) -> JointRequest:

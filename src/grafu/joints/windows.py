@@ -5,42 +5,28 @@ handle. Leaves that lap in two planes slide.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import final
 
 import numpy as np
 from jaxtyping import Float
 
 from grafu.asset.part import Asset, Part
-from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import merge_meshes
-from grafu.geometry.raycast import RayCaster
-from grafu.graph.edges import Hinge, Slide
+from grafu.geometry.raycast import RayCaster, depths_below
+from grafu.graph.edges import Slide
 from grafu.joints.building_doors import building_door
+from grafu.joints.framed_leaves import SOURCE, FramedLeaves, nearer_to_back, relabelled, turning_leaf
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.window_config import WindowConfig
 from grafu.vocabulary import PartLabel
 
-SOURCE = "rule"
-"""`JointRequest.source` of a leaf of a window: its shape tells."""
 _WIDTH, _DEPTH, _UP = 0, 1, 2
 _PLANE = [_WIDTH, _UP]
 _RAYS = 12  # along each side of a leaf
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Window:
-    """A frame, its leaves, and what is on each leaf: panes, bars, handles."""
-
-    frame: Part
-    leaves: tuple[Part, ...]
-    on_leaf: tuple[tuple[Part, ...], ...]
-
-
-def window(asset: Asset, config: WindowConfig = WindowConfig()) -> Window | None:
+def window(asset: Asset, config: WindowConfig = WindowConfig()) -> FramedLeaves | None:
     """Returns the window that an asset is; None where it is another piece, or something stands behind its leaves.
 
     A door of a building with a threshold is closed all around, too: it is no window.
@@ -55,7 +41,7 @@ def window(asset: Asset, config: WindowConfig = WindowConfig()) -> Window | None
     held = {part.id for parts in on_leaf for part in parts}
     blocked = any(_lies_before(part, leaf, config) for part in rest if part.id not in held for leaf in leaves)
     glazed = all(_has_panes(leaf, parts, config) for leaf, parts in zip(leaves, on_leaf, strict=True))
-    return Window(frame, leaves, on_leaf) if leaves and glazed and not blocked else None
+    return FramedLeaves(frame, leaves, on_leaf) if leaves and glazed and not blocked else None
 
 
 def with_window_labels(asset: Asset, config: WindowConfig = WindowConfig()) -> Asset:
@@ -71,13 +57,7 @@ def with_window_labels(asset: Asset, config: WindowConfig = WindowConfig()) -> A
     labels = {leaf.id: PartLabel.FACE_FRAME if leaf.id in stay else PartLabel.DOOR for leaf in found.leaves}
     labels[found.frame.id] = PartLabel.FACE_FRAME
     labels |= dict.fromkeys(panes, PartLabel.MISC)
-    parts = (
-        part
-        if labels.get(part.id, part.label) is part.label or part.labelled_by == "user"
-        else replace(part, label=labels[part.id], labelled_by="shape")
-        for part in asset.parts
-    )
-    return replace(asset, parts=tuple(parts))
+    return relabelled(asset, labels)
 
 
 def with_windows(plan: RealizationPlan, asset: Asset, config: WindowConfig = WindowConfig()) -> RealizationPlan:
@@ -85,10 +65,7 @@ def with_windows(plan: RealizationPlan, asset: Asset, config: WindowConfig = Win
     found = window(asset, config)
     if found is None:
         return plan
-    pairs = zip(found.leaves, found.on_leaf, strict=True)
-    requests = [request for leaf, on_it in pairs if (request := _request(leaf, on_it, found, asset, config))]
-    refused = tuple(refusal for refusal in plan.refused if refusal.part not in {part.id for part in asset.parts})
-    return replace(plan, joints=tuple(requests), refused=refused)
+    return found.with_joints(plan, asset, lambda leaf, on_it: _request(leaf, on_it, found, asset, config))
 
 
 def _frame(asset: Asset, config: WindowConfig) -> Part | None:
@@ -144,10 +121,7 @@ def _middle(box: Box, config: WindowConfig) -> Box:
 
 def _covered(rays: RayCaster, area: Box, whole: Box) -> float:
     """Returns what of an area is covered, seen from before it (fraction)."""
-    steps = (np.arange(_RAYS) + 0.5) / _RAYS
-    across, up = (area.low[k] + steps * area.size[k] for k in _PLANE)
-    grid = np.stack(np.meshgrid(across, up), -1).reshape(-1, 2)
-    return _hit(rays, np.column_stack([grid[:, 0], np.zeros(len(grid)), grid[:, 1]]), whole)
+    return float(np.isfinite(depths_below(rays, area, _DEPTH, _RAYS, whole.diagonal)).mean())
 
 
 def _hit(rays: RayCaster, points: Float[np.ndarray, "n 3"], whole: Box) -> float:
@@ -179,7 +153,7 @@ def _lies_before(part: Part, leaf: Part, config: WindowConfig) -> bool:
 
 
 def _request(
-    leaf: Part, on_it: Sequence[Part], found: Window, asset: Asset, config: WindowConfig
+    leaf: Part, on_it: Sequence[Part], found: FramedLeaves, asset: Asset, config: WindowConfig
 ) -> JointRequest | None:
     """Returns the joint of a leaf; None for one that stays where it is as another slides past it."""
     attached = tuple(part.id for part in on_it)
@@ -192,10 +166,7 @@ def _request(
             return None
         return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, reach, attached=attached)
     side = _hinged_side(leaf, found.leaves, on_it, config)
-    axes = [axis_of_motion(leaf, MotionChoice(Moves.TURNS, side, inwards=k), asset.box) for k in (False, True)]
-    backwards = _opens_backwards(leaf, found.frame, on_it, config)
-    axis = next(axis for axis in axes if (_sets_off(axis, side) > 0) == backwards)
-    return JointRequest(leaf.id, Hinge.joint_type, axis, SOURCE, attached=attached)
+    return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, found.frame, on_it, config))
 
 
 def _past(leaf: Part, leaves: Sequence[Part], config: WindowConfig) -> Part | None:
@@ -247,15 +218,10 @@ def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: Win
 
     In the middle of its frame it opens to the side of its handle, and without one to the viewer.
     """
+    at_back = nearer_to_back(leaf, frame, config.flush)
+    if at_back is not None:
+        return at_back
     low, high = leaf.box.low[_DEPTH], leaf.box.high[_DEPTH]
-    nearer = (low - frame.box.low[_DEPTH]) - (frame.box.high[_DEPTH] - high)
-    if abs(nearer) > config.flush * frame.box.size[_DEPTH]:
-        return bool(nearer > 0)
     before = max((low - one.box.low[_DEPTH] for one in on_it), default=0.0)
     behind = max((one.box.high[_DEPTH] - high for one in on_it), default=0.0)
     return bool(behind > before)
-
-
-def _sets_off(axis: Axis, side: Side) -> float:
-    """Returns the depth component of the direction in which a leaf's free edge sets off."""
-    return float(np.cross(axis.direction, -DIRECTIONS[side])[_DEPTH])

@@ -252,9 +252,9 @@ def _with_source(
         return stages.timed("match", lambda: attach_motions(asset, source)), MotionSource(source.source)
     chosen = choose_source(asset, source, settings.weights)
     _require_attached(asset, chosen)
-    return asset if MOTIONS[chosen].reads_annotation else with_window_labels(
-        with_door_labels(asset.without_annotation())
-    ), chosen
+    if MOTIONS[chosen].reads_annotation:
+        return asset, chosen
+    return with_window_labels(with_door_labels(asset.without_annotation())), chosen
 
 
 def _as_built(

@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
-from grafu.geometry.arrays import Mat3, Points
+from grafu.geometry.arrays import Mat3, Points, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.components import part_numbers
 from grafu.geometry.intersection import MeshCollider, SweptBody
@@ -39,6 +39,16 @@ class Path:
     reach: float
     axes: Mat3
     is_turn: bool
+
+    @property
+    def shift(self) -> Vec3:
+        """How far what slides is moved at the end, along each of `axes`, metres."""
+        return np.asarray(self.motion(self.reach)[:3, 3] @ self.axes)
+
+    @property
+    def slide_axis(self) -> int:
+        """Along which of `axes` it slides."""
+        return int(np.argmax(np.abs(self.shift)))
 
 
 @final

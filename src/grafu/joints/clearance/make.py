@@ -100,7 +100,7 @@ def narrow(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConf
     """
     part = scene.parts[path.moving]
     size = box_in(path.axes, part.mesh).size
-    across = size > size.min() if path.is_turn else np.abs(path.motion(path.reach)[:3, 3] @ path.axes) < 1e-9
+    across = size > size.min() if path.is_turn else np.abs(path.shift) < 1e-9
     for gap in (plays * config.depth * scene.extent for plays in GAPS):
         if not (gap <= config.max_trim * size[across]).all():
             break

@@ -62,14 +62,9 @@ def _of_faces(part: Part, faces: _FaceMask) -> tuple[Surface, ...]:
 
 def _host(scene: Scene, shell: TriangleMesh, ids: Sequence[str]) -> str | None:
     """Returns the static part whose box a shell reaches into most, None where it reaches into none."""
-    shared = {name: _shared_volume(scene.parts[name].mesh, shell) for name in ids}
+    shared = {name: scene.parts[name].box.shared_volume(shell.box) for name in ids}
     best = max(shared, key=lambda name: shared[name])
     return best if shared[best] > 0 else None
-
-
-def _shared_volume(one: TriangleMesh, other: TriangleMesh) -> float:
-    sides = np.minimum(one.box.high, other.box.high) - np.maximum(one.box.low, other.box.low)
-    return float(np.prod(np.maximum(sides, 0.0)))
 
 
 def _shells_of_case(part: Part, path: Path, whole: float, config: RealizationConfig) -> Iterator[_FaceMask]:
@@ -108,7 +103,7 @@ def _stands_out(sliver: TriangleMesh, rest: Box, path: Path, config: Realization
     if not box_in(path.axes, sliver).overlaps(rest, config.contact):
         return False
     points = sliver.triangles.mean(axis=1) @ path.axes
-    across = [k for k in range(3) if k != _forward(path)]
+    across = [k for k in range(3) if k != path.slide_axis]
     inside = ((points > rest.low) & (points < rest.high))[:, across].all(axis=1)
     return bool(inside.mean() < config.clearance.inside)
 
@@ -116,7 +111,7 @@ def _stands_out(sliver: TriangleMesh, rest: Box, path: Path, config: Realization
 def _surrounds(frame: TriangleMesh, rest: TriangleMesh, path: Path, config: RealizationConfig) -> bool:
     """Whether a shell is a frame around the rest, which reaches through it: none of it lies before or behind that."""
     outer, inner = box_in(path.axes, frame), box_in(path.axes, rest)
-    axis = _forward(path)
+    axis = path.slide_axis
     across = [k for k in range(3) if k != axis]
     margins = np.concatenate([(inner.low - outer.low)[across], (outer.high - inner.high)[across]])
     reaches = min(inner.high[axis] - outer.low[axis], outer.high[axis] - inner.low[axis])
@@ -130,8 +125,3 @@ def _surrounds(frame: TriangleMesh, rest: TriangleMesh, path: Path, config: Real
     low, high = inner.low + config.thinnest_front, inner.high - config.thinnest_front
     within = ((points > low) & (points < high))[:, across].all(axis=1)
     return bool(np.count_nonzero(within) <= config.max_carve_seen * _SAMPLES)
-
-
-def _forward(path: Path) -> int:
-    """Returns the axis of the part's box along which it slides."""
-    return int(np.argmax(np.abs(path.motion(path.reach)[:3, 3] @ path.axes)))

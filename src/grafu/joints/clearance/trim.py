@@ -112,9 +112,8 @@ def drawer_front(points: Points, path: Path, step: float) -> DrawerFront | None:
     """
     if path.is_turn:
         return None
-    shift = path.motion(path.reach)[:3, 3] @ path.axes
-    axis = int(np.argmax(np.abs(shift)))
-    sign = float(np.sign(shift[axis]))
+    axis = path.slide_axis
+    sign = float(np.sign(path.shift[axis]))
     along = sign * points[:, axis]
     order = np.argsort(along)
     low, high = np.minimum.accumulate(points[order]), np.maximum.accumulate(points[order])
@@ -228,5 +227,4 @@ def _swept(box: Box, path: Path) -> Box:
     """Returns the box of a sliding piece's whole path (of a turning piece: its rest box)."""
     if path.is_turn:
         return box
-    shift = (path.motion(path.reach)[:3, 3]) @ path.axes
-    return box.union(Box(box.low + shift, box.high + shift))
+    return box.union(Box(box.low + path.shift, box.high + path.shift))

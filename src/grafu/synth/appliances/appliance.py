@@ -80,12 +80,11 @@ def make_appliance(spec: Appliance) -> Asset:
 
 def _outer(spec: Appliance) -> tuple[Span, Span]:
     """Returns the boxes of the body and of the door before it."""
-    x, y, foot, gap = spec.width / 2, spec.depth / 2, 0.06, 0.003
-    foot = foot if spec.kind != "microwave" else 0.0
+    x, y, gap, beside = spec.width / 2, spec.depth / 2, 0.003, _PANEL[spec.kind]
+    foot = 0.0 if spec.kind == "microwave" else 0.06
     body = ((-x, -y, foot), (x, y, spec.height))
-    beside = _PANEL[spec.kind]
-    right = x if spec.kind != "microwave" else x - beside * spec.width
-    top = spec.height if spec.kind != "oven" else spec.height - beside * spec.height
+    right = x - beside * spec.width if spec.kind == "microwave" else x
+    top = spec.height - beside * spec.height if spec.kind == "oven" else spec.height
     front = -y - 0.002
     return body, ((-x + gap, front - 0.03, foot + gap), (right - gap, front, top - gap))
 

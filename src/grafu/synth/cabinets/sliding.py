@@ -93,10 +93,9 @@ def _bypass(spec: SlidingDoors) -> Iterator[tuple[Span, PieceMotion]]:
         x = opening.x0 + spec.gap + k * (width - spec.lap)
         y = spec.case.front + spec.gap + (k % 2) * step
         span = ((x, y, opening.z0 + spec.gap), (x + width, y + spec.thickness, opening.z1 - spec.gap))
-        is_last = k == spec.leaves - 1
-        travel = (spec.leaves - 1) * (width - spec.lap) if spec.leaves == 2 or k == 1 else width - 2 * spec.lap
-        travel = width - spec.lap if k == 1 and spec.leaves == 3 else travel
-        yield span, _slide(span, -1.0 if is_last else 1.0, travel)
+        meets_one = spec.leaves == 3 and k != 1  # the outer two of three are in one plane
+        travel = width - 2 * spec.lap if meets_one else width - spec.lap
+        yield span, _slide(span, -1.0 if k == spec.leaves - 1 else 1.0, travel)
 
 
 def _barn(spec: SlidingDoors) -> Iterator[tuple[Span, PieceMotion]]:

@@ -1,0 +1,73 @@
+"""What doors and windows of buildings have in common: leaves in a frame, with what is on each of them."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Asset, Part
+from grafu.geometry.axis import Axis
+from grafu.graph.edges import Hinge
+from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, axis_of_motion
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.vocabulary import PartLabel
+
+SOURCE = "rule"
+"""`JointRequest.source` of a leaf in a frame: its shape tells."""
+_DEPTH = 1
+
+LeafRequest = Callable[[Part, Sequence[Part]], JointRequest | None]
+"""Returns the joint of a leaf with what is on it; None where it stays."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class FramedLeaves:
+    """A frame, its leaves, and what is on each leaf: panes, bars, handles, locks."""
+
+    frame: Part
+    leaves: tuple[Part, ...]
+    on_leaf: tuple[tuple[Part, ...], ...]
+
+    def with_joints(self, plan: RealizationPlan, asset: Asset, request: LeafRequest) -> RealizationPlan:
+        """Returns the plan whose joints are those of the leaves alone."""
+        pairs = zip(self.leaves, self.on_leaf, strict=True)
+        joints = tuple(made for leaf, on_it in pairs if (made := request(leaf, on_it)) is not None)
+        parts = {part.id for part in asset.parts}
+        return replace(plan, joints=joints, refused=tuple(r for r in plan.refused if r.part not in parts))
+
+
+def relabelled(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:
+    """Returns the asset in which shape has given some parts other labels; those that the user gave stay."""
+    parts = (
+        part
+        if labels.get(part.id, part.label) is part.label or part.labelled_by == "user"
+        else replace(part, label=labels[part.id], labelled_by="shape")
+        for part in asset.parts
+    )
+    return replace(asset, parts=tuple(parts))
+
+
+def turning_leaf(leaf: Part, on_it: Sequence[Part], asset: Asset, side: Side, opens_backwards: bool) -> JointRequest:
+    """Returns the joint of a leaf that turns about one of its edges, to the viewer or away from them."""
+    axes = (axis_of_motion(leaf, MotionChoice(Moves.TURNS, side, inwards=k), asset.box) for k in (False, True))
+    axis = next(axis for axis in axes if (_sets_off(axis, side) > 0) == opens_backwards)
+    return JointRequest(leaf.id, Hinge.joint_type, axis, SOURCE, attached=tuple(part.id for part in on_it))
+
+
+def _sets_off(axis: Axis, side: Side) -> float:
+    """Returns the depth component of the direction in which a leaf's free edge sets off."""
+    return float(np.cross(axis.direction, -DIRECTIONS[side])[_DEPTH])
+
+
+def nearer_to_back(leaf: Part, frame: Part, flush: float) -> bool | None:
+    """Whether a leaf is nearer to the back face of its frame than to the front; None where it is in the middle.
+
+    It is in the middle where the two gaps differ by at most the fraction `flush` of the frame's depth.
+    """
+    before = float(leaf.box.low[_DEPTH] - frame.box.low[_DEPTH])
+    behind = float(frame.box.high[_DEPTH] - leaf.box.high[_DEPTH])
+    if abs(before - behind) <= flush * float(frame.box.size[_DEPTH]):
+        return None
+    return before > behind
