@@ -6,7 +6,7 @@ What the verbs that train have in common: where models come from, what computes,
 import argparse
 import logging
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from grafu.cli.input_options import positive_count
 from grafu.cli.synth import whole_number
 from grafu.cli.verb import complain, say
-from grafu.errors import FunctionalizationError
+from grafu.errors import FunctionalizationError, WeightsError
 
 if TYPE_CHECKING:
     from grafu.training.checkpoint import BestWeights
@@ -88,6 +88,12 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "tiny: to see that all works (default: base)",
     )
     parser.add_argument("--resume", action="store_true", help="go on where the run in DIR was cut, if there is one")
+    parser.add_argument(
+        "--start",
+        type=Path,
+        metavar="FILE",
+        help="begin a new run with the weights in FILE (`--export` of another run), not with random ones",
+    )
     add_training_options(parser)
     parser.add_argument(
         "--steps", type=positive_count, metavar="N", help="how many steps in all (default: the config's)"
@@ -159,7 +165,7 @@ def run_training(options: argparse.Namespace) -> int:
     use_threads(options.threads)
     jobs = options.jobs or min(_MOST_JOBS, os.cpu_count() or 1)
     with joined_workers(options.device) as workers:
-        reports = train(config, source, options.out, workers, RunOptions(jobs, options.resume))
+        reports = train(config, source, options.out, workers, RunOptions(jobs, options.resume), _start(options))
         first = last = next(reports)
         _say(workers, _begun(options, config, source, workers, first))
         try:
@@ -190,6 +196,16 @@ def export_weights(folder: Path, target: Path) -> int:
     score = best.figures["score"]
     say(f"written to {target}: {len(content) / 1e6:.1f} MB, the weights of step {best.step} (score {score:.4f})")
     return EXIT_DONE
+
+
+def _start(options: argparse.Namespace) -> Mapping[str, Any] | None:
+    from grafu.network.stored import stored_weights
+
+    if options.start is None:
+        return None
+    if not options.start.is_file():
+        raise WeightsError(f"`--start` must be a file that `grafu train --export` wrote: there is no {options.start}")
+    return stored_weights(options.start.read_bytes())
 
 
 def _config(options: argparse.Namespace) -> "TrainingConfig":

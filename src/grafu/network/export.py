@@ -17,10 +17,11 @@ from jaxtyping import Float32, Int64
 from torch import Tensor, nn
 from torch.nn.functional import pad
 
-from grafu.graph.arrays import LABELS
+from grafu.graph.arrays import LABELS, KindSet
 from grafu.network.batch import Predictions, one_graph
 from grafu.network.config import LABEL_COUNT
 from grafu.network.grafu import GraFu
+from grafu.network.stored import HALF, name_weights
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
 INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
@@ -29,18 +30,21 @@ PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
 _SMALLEST = 64  # numbers; a weight with fewer is left as it is: nothing is saved
 
 
-def onnx_bytes(model: GraFu, *, points: int, anchors: int, neighbours: int, half_weights: bool) -> bytes:
+def onnx_bytes(
+    model: GraFu, *, points: int, anchors: int, neighbours: int, kinds: KindSet = "all", half_weights: bool
+) -> bytes:
     """Returns an ONNX file; its metadata hold the network's config, what it sees of points, and the labels in order.
 
-    Of the `points` of a part, `anchors` groups of `neighbours` points each are seen: the `features` of the file. With
-    `half_weights` the weights are stored in 16 bits and widened when the file is loaded: half the size, and all is
-    computed in 32 bits as before.
+    Of the `points` of a part, `anchors` groups of `neighbours` points each are seen, and edges of these `kinds`: the
+    `features` of the file. Weights have their names in the network (`grafu.network.stored`). With `half_weights` they
+    are stored in 16 bits and widened when the file is loaded: half the size, and all is computed in 32 bits as before.
     """
     proto = _exported(deepcopy(model).cpu(), anchors, neighbours)
     _without_traces(proto)
+    name_weights(proto, model)
     facts = {
         "config": asdict(model.config),
-        "features": {"points": points, "anchors": anchors, "neighbours": neighbours, "kinds": model.config.kinds},
+        "features": {"points": points, "anchors": anchors, "neighbours": neighbours, "kinds": kinds},
         "labels": [label.value for label in LABELS],
     }
     onnx.helper.set_model_props(proto, {key: json.dumps(value) for key, value in facts.items()})
@@ -56,7 +60,7 @@ def with_half_weights(file: bytes) -> bytes:
     for weight in proto.graph.initializer:
         if weight.data_type != onnx.TensorProto.FLOAT or np.prod(weight.dims) < _SMALLEST:
             continue
-        wide, stored = weight.name, f"{weight.name}.half"
+        wide, stored = weight.name, weight.name + HALF
         values = onnx.numpy_helper.to_array(weight).astype(np.float16)
         weight.CopyFrom(onnx.numpy_helper.from_array(values, stored))
         casts.append(onnx.helper.make_node("Cast", [stored], [wide], to=onnx.TensorProto.FLOAT))

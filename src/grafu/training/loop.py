@@ -6,7 +6,7 @@ DIR/train.csv, DIR/validation.csv, DIR/tensorboard/   see `grafu.training.logboo
 """
 
 import json
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import closing
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -14,11 +14,12 @@ from time import monotonic
 from typing import final
 
 import torch
-from torch import nn
+from torch import Tensor, nn
 
 from grafu.errors import ExportError
 from grafu.export.whole_file import write_whole
 from grafu.network.grafu import GraFu
+from grafu.network.stored import start_from
 from grafu.training.batching import TrainingBatch, stream_batches
 from grafu.training.checkpoint import Progress, has_progress, load_progress, require_own, save_best, save_progress
 from grafu.training.config import TrainingConfig
@@ -63,18 +64,21 @@ def train(
     folder: Path,
     workers: Workers,
     options: RunOptions = RunOptions(),
+    start: Mapping[str, Tensor] | None = None,
 ) -> Generator[StepReport, None, None]:
     """Trains until all steps are done or a signal comes, and leaves the files of the run in the folder.
 
-    It yields once at the start and then after each step: take all that it yields to train to the end.
+    A new run begins with the weights `start`, where they are given (`grafu.network.stored`), else with random ones. It
+    yields once at the start and then after each step: take all that it yields to train to the end.
 
     Raises:
         ExportError: if the folder holds a run that is not to be resumed, or cannot be written.
         UnreadableAsset: if what is to be resumed, or a model, cannot be read.
+        WeightsError: if the weights to start from are of another network.
         ArithmeticError: if losses stay no numbers.
     """
     torch.manual_seed(config.seed)
-    progress = _begin(config, folder, workers, options.resume)
+    progress = _begin(config, folder, workers, options.resume, start)
     keeper = _Keeper(config, source, folder, options, progress.step) if workers.is_first else None
     torch.manual_seed(config.seed + 1000 * workers.rank + progress.step)  # dropout differs between processes
     batches = stream_batches(source, config, progress.step, options.jobs, (workers.rank, workers.count))
@@ -94,9 +98,13 @@ def train(
     workers.wait()
 
 
-def _begin(config: TrainingConfig, folder: Path, workers: Workers, resume: bool) -> Progress:
+def _begin(
+    config: TrainingConfig, folder: Path, workers: Workers, resume: bool, start: Mapping[str, Tensor] | None
+) -> Progress:
     """Returns a run at its beginning, or where it was cut."""
     network = GraFu(config.network).to(workers.device)
+    if start is not None and not has_progress(folder):
+        start_from(network, start)
     average = averaged(network, config.optimiser.average)
     progress = Progress(network, Optimiser(network, config.optimiser), average)
     if has_progress(folder):
