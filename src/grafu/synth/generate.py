@@ -116,7 +116,7 @@ def _with_names_lost(whole: Asset, truth: FunctionalGraph, given: Asset) -> tupl
 
 def removable_parts(whole: Asset, truth: FunctionalGraph) -> frozenset[str]:
     """Returns the parts without which everything still hangs on something: none that moves, rides unseen or carries."""
-    moving = {joint.part for joint in whole.joints}
+    moving = {joint.part for joint in (*whole.joints, *whole.small_joints)}
     keep = moving | carriers(truth)
     able = (p for p in whole.parts if p.label in RESTORABLE and p.id not in keep)
     return frozenset(p.id for p in able if p.carried_by is None or p.label is PartLabel.HANDLE)

@@ -51,7 +51,8 @@ def runners(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     still = [p for p in asset.parts if p.label.is_support]
     for joint in asset.joints:
         along = int(np.argmax(np.abs(joint.axis.direction)))
-        if motion_kind(joint.type).turns or along == 2 or abs(joint.axis.direction[along]) < 0.999:
+        drawer = asset.part(joint.part).label is PartLabel.DRAWER
+        if not drawer or along == 2 or abs(joint.axis.direction[along]) < 0.999:
             continue
         body = _body(asset.part(joint.part), along, float(joint.axis.direction[along]))
         if body is None:
