@@ -15,7 +15,8 @@ from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner
 from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.fronts.layout import Blank, CellRow, Door, Layout, OpenCell, Pair, Rect, Side, Stack
+from grafu.synth.fronts.gliding import Bins, Folding, PullOut
+from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack
 from grafu.synth.sampling.carpentry import FREE, PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick
@@ -63,6 +64,10 @@ TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "ove
 NARROW = 0.09  # base units for bottles, towels, trays
 BRIDGES = 0.41  # wall units that are wide and low, over a hood or a fridge (46408)
 ON_WALL = PieceSite(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
+# Metres: base units whose front mostly pulls out; fractions of those, and of slim tall units; of base units with bins
+SLIM, PULL_OUTS, PANTRIES = (0.15, 0.4), 0.25, 0.25
+LEAST_BINS, WASTE = 0.3, 0.045  # metres
+FOLD_UPS = 0.075  # of wall units with a flap: two leaves that fold up
 BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
 
@@ -76,6 +81,10 @@ def base_cabinet(rng: np.random.Generator) -> Cabinet:
 def base_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layout:
     """Returns the fronts of a base unit of this size."""
     width, _, height = size
+    if SLIM[0] <= width <= SLIM[1] and chance(rng, PULL_OUTS):
+        return PullOut(number=count(rng, 2, 3))
+    if width > LEAST_BINS and chance(rng, WASTE):
+        return _waste(rng, style, width)
     kind = pick(rng, BASE_FRONTS)
     if kind == "drawers":
         return drawer_stack(rng, style, count(rng, 2, 5))
@@ -86,6 +95,16 @@ def base_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
     if kind == "open":
         return Stack((doors_across(rng, width), OpenCell()), (between(rng, (1.0, 2.5)), 1.0))
     return doors_across(rng, width)
+
+
+def _waste(rng: np.random.Generator, style: MakerStyle, width: float) -> Layout:
+    """Returns a front with bins behind it: they come out with it, or slide out once the door is open."""
+    if width < 0.62 and chance(rng, 0.5):
+        drawn: Layout = PullOut("bins", count(rng, 1, 3))
+        return drawn if chance(rng, 0.6) else Stack((drawn, Drawer()), (between(rng, (3.0, 5.0)), 1.0), style.between)
+    room = between(rng, (0.45, 0.9)), between(rng, (0.6, 0.95))
+    bins = Bins(1 if width < 0.45 else count(rng, 1, 2), *room, chance(rng, 0.5), between(rng, (0.55, 0.75)))
+    return Door(behind=bins) if width < 0.6 else Pair(behind=bins)
 
 
 def wall_cabinet(rng: np.random.Generator) -> Cabinet:
@@ -102,7 +121,7 @@ def wall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
     """Returns the fronts of a wall unit of this size."""
     width, _, height = size
     if width > 1.5 * height and chance(rng, 0.8):
-        return Door("top")
+        return Folding("top") if chance(rng, FOLD_UPS) else Door("top")
     if height > 0.6 and width > 0.5 and chance(rng, 0.08):
         return Stack((Door("top"), Door("top")), between=style.between)
     doors = doors_across(rng, width)
@@ -122,6 +141,8 @@ def tall_cabinet(rng: np.random.Generator) -> Cabinet:
 def tall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layout:
     """Returns the fronts of a tall unit of this size."""
     width = size[0]
+    if width < SLIM[1] and size[1] > 0.45 and chance(rng, PANTRIES):
+        return _pantry(rng, style, size[2])
     doors = doors_across(rng, width)
     kind = pick(rng, {"two": 0.42, "one": 0.28, "drawers": 0.17, "niche": 0.08, "three": 0.05})
     if kind == "one":
@@ -133,6 +154,14 @@ def tall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
         return Stack((drawer_stack(rng, style, count(rng, 1, 2)), OpenCell(), doors), (1.0, 0.8, 1.2))
     cells = (doors,) * (2 if kind == "two" else 3)
     return Stack(cells, (low, *(1.0 for _ in cells[1:])), style.between)
+
+
+def _pantry(rng: np.random.Generator, style: MakerStyle, height: float) -> Layout:
+    """Returns a rack behind a slim front over all its height, or below a door."""
+    trays = max(3, round(height / between(rng, (0.3, 0.5))))
+    if chance(rng, 0.6):
+        return PullOut(number=trays)
+    return Stack((PullOut(number=max(2, trays - 2)), Door()), (between(rng, (1.5, 2.5)), 1.0), style.between)
 
 
 def sink_cabinet(rng: np.random.Generator) -> Cabinet:

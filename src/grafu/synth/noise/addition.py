@@ -9,7 +9,6 @@ from typing import final
 
 import numpy as np
 
-from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box

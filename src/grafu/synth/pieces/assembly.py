@@ -1,7 +1,7 @@
 """Pieces of synthetic furniture and their asset: boards, names, attachments, joints, the centred frame."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import final
 

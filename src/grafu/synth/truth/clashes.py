@@ -146,7 +146,7 @@ _known: dict[int, Clashes] = {}
 
 
 def articulated_of(whole: Asset) -> ArticulatedObject:
-    """Returns one static root link with all still parts, and a link for each joint with what moves as one with its part.
+    """Returns one static root link with all still parts, and a link for each joint with what moves as one with it.
 
     Joints open from 0 to their upper limit. A joint waits (`after`) for each moving part that it would run into where
     that part is closed, but not where it is open: a drawer waits for the doors before it. One that follows another
@@ -165,8 +165,7 @@ def articulated_of(whole: Asset) -> ArticulatedObject:
     free = (joint for joint in whole.joints if joint.coupling is None)
     for joint in sorted(free, key=lambda j: len(clashes.bodies_hit(j.part))):
         waits[joint.part] = _waits_for(joint.part, clashes, waits)
-    for joint in whole.joints:
-        links.append(Link(joint.part, tuple(_visual(p) for p in whole.parts if bodies[p.id] == joint.part)))
+    links += [Link(j.part, tuple(_visual(p) for p in whole.parts if bodies[p.id] == j.part)) for j in whole.joints]
     made: dict[str, Joint] = {}
     for joint in _leaders_first(whole.joints):
         plain = _joint(joint, carriers[joint.part] or root, waits.get(joint.part, ()))
