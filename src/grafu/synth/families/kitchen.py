@@ -12,6 +12,7 @@ import numpy as np
 
 from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner
+from grafu.synth.cabinets.folding import FoldingCorner
 from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
@@ -20,6 +21,7 @@ from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, Open
 from grafu.synth.sampling.carpentry import FREE, PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.synth.sampling.fit_gliding import FLAT
 from grafu.synth.sampling.fittings import fit_door
 from grafu.synth.sampling.style import MakerStyle, chunky, draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
@@ -67,6 +69,7 @@ ON_WALL = PieceSite(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
 # Metres: base units whose front mostly pulls out; fractions of those, and of slim tall units; of base units with bins
 SLIM, PULL_OUTS, PANTRIES = (0.15, 0.4), 0.25, 0.25
 LEAST_BINS, WASTE = 0.3, 0.045  # metres
+FOLDING_CORNERS, POST = 0.3, 0.004  # of L-shaped corner units; metres that the post is wider than its leaves are thick
 FOLD_UPS = 0.075  # of wall units with a flap: two leaves that fold up
 BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
@@ -190,8 +193,8 @@ def _beside(rng: np.random.Generator, site: PieceSite) -> PieceSite:
 FRONT = Rect(0.0, 0.4, 0.1, 0.75)  # metres: about what a corner's door closes
 
 
-def corner_cabinet(rng: np.random.Generator) -> CornerCabinet | InnerCorner:
-    """Returns a corner unit: six in ten have an angled front, the others are L-shaped."""
+def corner_cabinet(rng: np.random.Generator) -> CornerCabinet | InnerCorner | FoldingCorner:
+    """Returns a corner unit: six in ten have an angled front, the others are L-shaped, their doors folding in few."""
     style = draw_style(rng, KITCHEN)
     return _angled(rng, style) if chance(rng, 0.6) else _inner(rng, style)
 
@@ -213,12 +216,13 @@ def _angled(rng: np.random.Generator, style: MakerStyle) -> CornerCabinet:
     )
 
 
-def _inner(rng: np.random.Generator, style: MakerStyle) -> InnerCorner:
-    """Returns an L-shaped unit; its doors hang at the far ends, as the shape demands."""
-    depth, post = between(rng, (0.3, 0.6)), between(rng, (0.05, 0.09))
+def _inner(rng: np.random.Generator, style: MakerStyle) -> InnerCorner | FoldingCorner:
+    """Returns an L-shaped unit; its doors hang at the far ends, as the shape demands, or on one another."""
+    folds = chance(rng, FOLDING_CORNERS)
+    depth, post = between(rng, (0.3, 0.6)), style.front + POST if folds else between(rng, (0.05, 0.09))
     along = depth + post + between(rng, (0.28, 0.5))
     base = between(rng, (0.08, 0.14)) if depth > 0.4 else 0.0
-    return InnerCorner(
+    case = InnerCorner(
         along_x=along,
         along_y=along if chance(rng, 0.7) else depth + post + between(rng, (0.28, 0.5)),
         depth=depth,
@@ -235,6 +239,10 @@ def _inner(rng: np.random.Generator, style: MakerStyle) -> InnerCorner:
         gap=max(style.gap, needed_gap(Door(), Rect(0.0, 0.28, 0.0, 0.6), style.front)),
         finish=style.finish,
     )
+    if not folds:
+        return case
+    flat = replace(case.door, leaf=case.door.leaf if case.door.leaf in FLAT else "slab")
+    return FoldingCorner(case=replace(case, door=flat, second=None), side="left" if chance(rng, 0.5) else "right")
 
 
 def _door(rng: np.random.Generator, style: MakerStyle, side: Side | None = None) -> Door:

@@ -17,6 +17,8 @@ from grafu.synth.sampling.chance import Span, between, chance, count, only, pick
 from grafu.synth.sampling.style import MakerStyle, draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
 from grafu.synth.tables.desk import Desk
+from grafu.synth.tables.drop_leaf import DropLeafTable, drawn_drop_leaf_table
+from grafu.synth.tables.extending import ExtendingTable
 from grafu.synth.tables.table import DrawerTable
 
 HOME: Mapping[TraditionName, float] = {
@@ -49,6 +51,7 @@ APRONS: Mapping[str, Span] = {
 RAILED, SPINED, PARTED, MOULDED, MODEST = 0.3, 0.45, 0.45, 0.12, 0.1
 BOARDED = 0.5  # of tables with such bars: one board with an opening for each drawer (26608)
 MIDDLE, TRAY, DESK_TRAY = 0.35, 0.5, 0.25  # of desks with something between their pedestals, a keyboard's tray (32052)
+SWIVELLED = 0.3  # of mirrors on dressing tables
 THICK_LEGS = 0.4  # of small tables: legs and boards thick for their size (20411)
 
 
@@ -129,7 +132,42 @@ def vanity(rng: np.random.Generator) -> DrawerTable:
     style = draw_style(rng, HOME)
     size = draw_size(rng, (0.75, 1.3), (0.38, 0.55), (0.7, 0.8))
     mirror = between(rng, (0.4, 0.9)) if chance(rng, 0.75) else 0.0
-    return _table(rng, "vanity", style, size, count(rng, 2, 3), (0.06, 0.2), mirror=mirror)
+    table = _table(rng, "vanity", style, size, count(rng, 2, 3), (0.06, 0.2), mirror=mirror)
+    return replace(table, swivel=between(rng, (0.28, 0.6))) if mirror and chance(rng, SWIVELLED) else table
+
+
+def drop_leaf_table(rng: np.random.Generator) -> DropLeafTable:
+    """Returns a table with one leaf or two that hang from its top, straight or half round."""
+    style = draw_style(rng, HOME)
+    plain = drawn_drop_leaf_table(rng, "drop_leaf_table")
+    leg = _table_leg(rng, style, min(plain.width, plain.depth))
+    return replace(
+        plain,
+        leg=min(leg.thick, plain.width / 5),
+        leg_shape=leg.shape,
+        leg_foot=leg.foot,
+        finish=style.finish,
+        is_round=chance(rng, 0.3),
+    )
+
+
+def extending_table(rng: np.random.Generator) -> ExtendingTable:
+    """Returns a table whose halves slide apart, or with leaves that come out from under its top."""
+    style = draw_style(rng, HOME)
+    size = draw_size(rng, (1.0, 2.1), (0.7, 1.05), (0.7, 0.78))
+    leg = _table_leg(rng, style, size[1])
+    return ExtendingTable(
+        "extending_table",
+        "halves" if chance(rng, 0.5) else "draw leaves",
+        *size,
+        top=between(rng, (0.015, 0.035)),
+        leg=max(leg.thick, 0.035),
+        apron=between(rng, (0.06, 0.12)),
+        travel=between(rng, (0.4, 0.8)),
+        finish=style.finish,
+        leg_shape=leg.shape,
+        leg_foot=leg.foot,
+    )
 
 
 def _table(

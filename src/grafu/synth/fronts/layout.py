@@ -20,6 +20,7 @@ from grafu.synth.fronts.leaf_style import check_grip
 DrawerBox = Literal["whole", "no bottom", "shell", "front only", "floating", "tray", "four walls"]
 Between = Literal["panel", "rail", "frame", "nothing"]
 
+
 @final
 @dataclass(frozen=True, slots=True)
 class Door:
