@@ -27,7 +27,8 @@ _PRESS = 0.003  # metres: how far a button goes
 class Appliance:
     """An appliance, metres: `racks` slide in it, of a dishwasher baskets; `knobs` and `buttons` are on its panel.
 
-    With a `window` its door is a frame around a pane. A microwave oven has its panel at the right of its door, an oven above; a dishwasher has none.
+    With a `window` its door is a frame around a pane. A microwave oven has its panel at the right of its door, an oven
+    above; a dishwasher has none.
 
     Raises:
         ValueError: if there is a negative number of something, or a panel's things without a panel.

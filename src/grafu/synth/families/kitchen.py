@@ -85,7 +85,7 @@ def base_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
     """Returns the fronts of a base unit of this size."""
     width, _, height = size
     if SLIM[0] <= width <= SLIM[1] and chance(rng, PULL_OUTS):
-        return PullOut(number=count(rng, 2, 3))
+        return PullOut(number=2 if chance(rng, 0.7) else 3)
     if width > LEAST_BINS and chance(rng, WASTE):
         return _waste(rng, style, width)
     kind = pick(rng, BASE_FRONTS)

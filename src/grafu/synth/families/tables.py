@@ -31,6 +31,7 @@ STAND = PieceSite(hand=0.9)
 ON_TABLE = Build(bases=("none",), tops=("between",), moulded=False, framed=False, open_back=True)
 STRETCHERS: Mapping[Stretcher, float] = {"none": 0.6, "sides": 0.1, "H": 0.1, "box": 0.08, "shelf": 0.12}
 TABLE_LEGS: tuple[LegShape, ...] = ("square", "tapered", "round", "cone", "turned", "splayed", "cabriole")
+UPRIGHT_LEGS: tuple[LegShape, ...] = ("square", "tapered", "round", "cone", "turned")  # beside leaves that hang
 # width, depth, height in metres, and how many drawers beside each other
 TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
     "side": ((0.35, 0.7), (0.35, 0.55), (0.45, 0.8), (1, 1)),
@@ -140,7 +141,7 @@ def drop_leaf_table(rng: np.random.Generator) -> DropLeafTable:
     """Returns a table with one leaf or two that hang from its top, straight or half round."""
     style = draw_style(rng, HOME)
     plain = drawn_drop_leaf_table(rng, "drop_leaf_table")
-    leg = _table_leg(rng, style, min(plain.width, plain.depth))
+    leg = _table_leg(rng, style, min(plain.width, plain.depth), UPRIGHT_LEGS)
     return replace(
         plain,
         leg=min(leg.thick, plain.width / 5),
@@ -230,9 +231,11 @@ def _table(
     )
 
 
-def _table_leg(rng: np.random.Generator, style: MakerStyle, side: float) -> Leg:
+def _table_leg(
+    rng: np.random.Generator, style: MakerStyle, side: float, shapes: tuple[LegShape, ...] = TABLE_LEGS
+) -> Leg:
     """Returns a leg of a shape that carries tables; no feet and casters."""
-    return replace(draw_leg(rng, style, side), shape=pick(rng, only(style.rules.leg, TABLE_LEGS)))
+    return replace(draw_leg(rng, style, side), shape=pick(rng, only(style.rules.leg, shapes)))
 
 
 def _hutch(rng: np.random.Generator, style: MakerStyle, width: float, depth: float) -> Cabinet:

@@ -139,7 +139,7 @@ def _attached_faults(whole: Asset) -> Iterator[Fault]:
             yield Fault("attached part", (part.id,), f"it rides on {part.carried_by}")
         else:
             gap = _gap_to_link(part, whole)
-            if gap > ATTACHED_REACH:
+            if gap > (MOUNT_REACH if part.id in moving_bodies else ATTACHED_REACH):
                 yield Fault("attached part", (part.id,), f"{gap:.3f} m off {part.carried_by} and all that rides on it")
 
 
