@@ -275,7 +275,8 @@ def _misfits(rng: np.random.Generator, parts: Sequence[Part], extent: float) -> 
 def _ajar(rng: np.random.Generator, asset: Asset) -> tuple[tuple[str, float], ...]:
     """Returns one front of those that nothing stands before, and how far it is open."""
     front = min((asset.part(j.part).box.low[1] for j in asset.joints), default=0.0)
-    open_able = [j.part for j in asset.joints if asset.part(j.part).box.low[1] < front + 0.03]
+    free = (j.part for j in asset.joints if j.coupling is None)
+    open_able = [part for part in free if asset.part(part).box.low[1] < front + 0.03]
     if not open_able:
         return ()
     part = open_able[int(rng.integers(len(open_able)))]

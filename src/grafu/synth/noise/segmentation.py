@@ -38,7 +38,10 @@ def with_joined(asset: Asset, ids: Collection[str], label: PartLabel, name: str)
 
 
 def with_attached_joined(asset: Asset, ids: Collection[str]) -> Asset:
-    """Returns the named attached parts as geometry of what carries them: a handle in its door is no part any more."""
+    """Returns the named attached parts as geometry of what carries them: a handle in its door is no part any more.
+
+    Nor does a lever turn by itself there.
+    """
     attached = [p for p in asset.parts if p.id in ids and p.carried_by]
     gone = {p.id for p in attached}
     parts = []
@@ -46,7 +49,8 @@ def with_attached_joined(asset: Asset, ids: Collection[str]) -> Asset:
         own = [s for other in attached if other.carried_by == part.id for s in other.surfaces]
         if part.id not in gone:
             parts.append(replace(part, surfaces=(*part.surfaces, *own)) if own else part)
-    return replace(asset, parts=tuple(parts))
+    small = tuple(joint for joint in asset.small_joints if joint.part not in gone)
+    return replace(asset, parts=tuple(parts), small_joints=small)
 
 
 def in_pieces(asset: Asset, part_id: str, label: PartLabel | None = None) -> Asset:
