@@ -97,7 +97,7 @@ def _with_slide(draft: PieceDraft, rect: Rect, sense: int, travel: float) -> Pie
         raise ValueError(f"a sliding door has no room: got {travel:.3f} m of {rect.width:.3f} m")
     x, z = rect.center
     y = float(draft.surfaces[0].mesh.box.center[1])
-    return replace(draft, motion=PieceMotion(JointType.PRISMATIC, Axis(vec3(x, y, z), vec3(sense, 0, 0)), travel))
+    return replace(draft, motion=PieceMotion(JointType.PRISMATIC, Axis(vec3(x, y, z), vec3(float(sense), 0.0, 0.0)), travel))
 
 
 def _free(draft: PieceDraft, others: Sequence[PieceDraft], sense: int) -> float:
@@ -154,7 +154,7 @@ def folding_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     towards: Side = "top" if front.side == "top" else opposite(front.side)
     inner_shape, plain = _shape(front, inner, y, t, towards), replace(front, grip="none")
     handle = handle_pieces(front.handle, front.hold, inner_shape, towards, setting.finish.metal)
-    turn = {"left": vec3(0, 0, -1), "right": vec3(0, 0, 1), "top": vec3(-1, 0, 0)}[front.side]
+    turn = {"left": vec3(0.0, 0.0, -1.0), "right": vec3(0.0, 0.0, 1.0), "top": vec3(-1.0, 0.0, 0.0)}[front.side]
     on_case = PieceMotion(JointType.REVOLUTE, Axis(_edge(front.side, outer, y), turn), front.opening)
     behind = Axis(_edge(front.side, inner, y + t), -turn)
     follows = PieceMotion(JointType.REVOLUTE, behind, 2 * front.opening, follows=2.0)

@@ -43,7 +43,7 @@ def pull_out_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     ends = setting.behind, setting.behind + 0.95 * depth
     load = _rack(front, inner, ends, setting) if front.load == "trays" else _bins_behind(front, inner, ends, setting)
     x, z = rect.center
-    out = PieceMotion(JointType.PRISMATIC, Axis(vec3(x, setting.front, z), vec3(0, -1, 0)), front.travel * depth)
+    out = PieceMotion(JointType.PRISMATIC, Axis(vec3(x, setting.front, z), vec3(0.0, -1.0, 0.0)), front.travel * depth)
     surfaces = leaf_surfaces(shape, setting.finish)
     yield PieceDraft(PartLabel.DOOR, "door", surfaces, out, (*handle, *load))
     if front.runner:
@@ -109,7 +109,7 @@ def bin_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     for k in range(bins.number):
         at = x0 + k * pitch
         boards = _bin((at + PLAY, near, low), (at + pitch - PLAY, far, high))
-        axis = Axis(vec3(at + pitch / 2, near, low), vec3(0, -1, 0))
+        axis = Axis(vec3(at + pitch / 2, near, low), vec3(0.0, -1.0, 0.0))
         motion = PieceMotion(JointType.PRISMATIC, axis, bins.travel * (far - near))
         piece = plank(PartLabel.MISC, "bin", setting.finish.metal, *boards)
         yield PieceDraft(piece.label, piece.stem, piece.surfaces, motion)
