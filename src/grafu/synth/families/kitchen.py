@@ -70,12 +70,12 @@ ON_WALL = PieceSite(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
 SLIM, PULL_OUTS, PANTRIES = (0.15, 0.4), 0.25, 0.25
 LEAST_BINS, WASTE = 0.3, 0.045  # metres
 FOLDING_CORNERS, POST = 0.3, 0.004  # of L-shaped corner units; metres that the post is wider than its leaves are thick
-FOLD_UPS = 0.075  # of wall units with a flap: two leaves that fold up
+FOLD_UPS = 0.06  # of wall units with a flap: two leaves that fold up
 BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
 
 def base_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a base unit: doors, doors under drawers, or drawers alone."""
+    """Returns a base unit: doors, doors under drawers, drawers alone; racks or bins that come out."""
     style = pushed(rng, draw_style(rng, KITCHEN), 0.06)
     size = draw_size(rng, (0.15, 0.3) if chance(rng, NARROW) else (0.3, 1.2), (0.42, 0.65), (0.72, 0.9))
     return build_cabinet(rng, "base_cabinet", style, size, base_layout(rng, style, size), BASE)
@@ -111,7 +111,7 @@ def _waste(rng: np.random.Generator, style: MakerStyle, width: float) -> Layout:
 
 
 def wall_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a wall unit: doors, or a lift-up flap where it is wide and low (four in five of those)."""
+    """Returns a wall unit: doors; a flap that lifts, or folds, up on four in five that are wide and low."""
     style = chunky(rng, draw_style(rng, KITCHEN), 0.06)
     bridge = chance(rng, BRIDGES)
     size = draw_size(rng, (0.6, 1.25) if bridge else (0.2, 1.0), (0.28, 0.38), (0.28, 0.42) if bridge else (0.3, 0.95))
@@ -134,7 +134,7 @@ def wall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
 
 
 def tall_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a tall unit: doors above doors, above drawers, or one door over all its height."""
+    """Returns a tall unit: doors above doors, above drawers, one over all its height, or a rack that pulls out."""
     style = draw_style(rng, KITCHEN)
     size = draw_size(rng, (0.25, 0.95), (0.3, 0.62), (1.35, 2.35))
     layout = tall_layout(rng, style, size)

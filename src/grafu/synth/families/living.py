@@ -93,11 +93,11 @@ GLASS: Mapping[LeafStyle, float] = {"glass": 0.65, "muntins": 0.35}
 
 # Of sideboards, TV stands and lowboards, and of bookcases; a door on a rail before the case, of the first two and these
 SLIDING, FEW, BARN = 0.08, 0.02, 0.01
-PANES, NARROWEST_SLIDING = 0.14, 0.7  # of display cabinets as wide as this, one in ten of all; metres
+PANES, NARROWEST_SLIDING = 0.18, 0.7  # of display cabinets as wide as this, one in ten of all; metres
 
 
 def sideboard(rng: np.random.Generator) -> Cabinet:
-    """Returns a sideboard: doors, drawers beside or above them, an open bay now and then."""
+    """Returns a sideboard: doors, few of which slide, drawers beside or above them, an open bay now and then."""
     style = draw_style(rng, LIVING)
     size = draw_size(rng, (0.8, 2.0), (0.33, 0.5), (0.6, 1.0))
     width = size[0]
@@ -133,7 +133,7 @@ def _beside_flap(rng: np.random.Generator, style: MakerStyle, width: float) -> L
 
 
 def tv_stand(rng: np.random.Generator) -> Cabinet:
-    """Returns a low TV stand: open bays between drawers and doors."""
+    """Returns a low TV stand: open bays between drawers and doors, few of which slide."""
     style = draw_style(rng, LIVING)
     size = draw_size(rng, (1.0, 2.9), (0.33, 0.5), (0.3, 0.65))
     low = style.between
@@ -200,7 +200,7 @@ def bookcase(rng: np.random.Generator) -> Cabinet:
 
 
 def display_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a cabinet with glass doors, over all its height or above plain doors or drawers."""
+    """Returns a cabinet with glass doors or sliding panes, over all its height or above plain doors or drawers."""
     style = draw_style(rng, LIVING)
     size = draw_size(rng, (0.35, 1.4), (0.3, 0.45), (1.1, 2.1))
     glass = pick(rng, GLASS)

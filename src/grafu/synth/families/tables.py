@@ -40,6 +40,7 @@ TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
     "dining": ((1.3, 2.3), (0.75, 1.0), (0.68, 0.78), (1, 4)),
     "long": ((2.0, 3.0), (0.6, 1.05), (0.66, 0.78), (3, 6)),
 }
+TRAY_ZONE = 0.1  # metres: below a top, for a keyboard's tray and the hands on it
 LOW_APRON = 0.06  # metres: a lower one has no room for bars and drawers
 KINDS: Mapping[str, float] = {"side": 0.31, "console": 0.18, "coffee": 0.11, "dining": 0.1, "long": 0.34}
 # metres: the height of a table's apron, from a pencil drawer's to a drawer's for cutlery or linen
@@ -129,7 +130,7 @@ def drawer_table(rng: np.random.Generator) -> DrawerTable:
 
 
 def vanity(rng: np.random.Generator) -> DrawerTable:
-    """Returns a dressing table with small drawers, mostly with a mirror."""
+    """Returns a dressing table with small drawers, mostly with a mirror, which swivels on three in ten of these."""
     style = draw_style(rng, HOME)
     size = draw_size(rng, (0.75, 1.3), (0.38, 0.55), (0.7, 0.8))
     mirror = between(rng, (0.4, 0.9)) if chance(rng, 0.75) else 0.0
@@ -189,11 +190,12 @@ def _table(
     if thick:
         leg = replace(leg, thick=between(rng, (0.045, 0.08)))
     zone = min(spread(rng, apron), 0.35 * height)
-    rails = between(rng, (0.1, 0.22)) * zone if chance(rng, RAILED) and zone > LOW_APRON else 0.0
+    tray = number == 1 and name == "writing_desk" and chance(rng, DESK_TRAY)
+    zone = max(zone, TRAY_ZONE) if tray else zone
+    rails = between(rng, (0.1, 0.22)) * zone if chance(rng, RAILED) and zone > LOW_APRON and not tray else 0.0
     gaps: Between = "panel" if chance(rng, PARTED) else "nothing"
     drawers: Layout = CellRow((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
     if number == 1:
-        tray = name == "writing_desk" and chance(rng, DESK_TRAY)
         drawers = Drawer("tray", handle="none") if tray else Drawer()
     room = Rect(leg.thick - width / 2, width / 2 - leg.thick, height - zone, height)
     low = chance(rng, 0.25)

@@ -97,7 +97,9 @@ def _with_slide(draft: PieceDraft, rect: Rect, sense: int, travel: float) -> Pie
         raise ValueError(f"a sliding door has no room: got {travel:.3f} m of {rect.width:.3f} m")
     x, z = rect.center
     y = float(draft.surfaces[0].mesh.box.center[1])
-    return replace(draft, motion=PieceMotion(JointType.PRISMATIC, Axis(vec3(x, y, z), vec3(float(sense), 0.0, 0.0)), travel))
+    return replace(
+        draft, motion=PieceMotion(JointType.PRISMATIC, Axis(vec3(x, y, z), vec3(float(sense), 0.0, 0.0)), travel)
+    )
 
 
 def _free(draft: PieceDraft, others: Sequence[PieceDraft], sense: int) -> float:
