@@ -22,7 +22,7 @@ FLAT: frozenset[LeafStyle] = frozenset(
 # Sliding doors are mostly drawn by something cut into them: a bar would keep them from passing one another.
 CUT: Mapping[Grip, float] = {"slot": 0.3, "finger hole": 0.25, "edge channel": 0.3, "scoop": 0.15}
 CUT_IN = 0.6  # of sliding slabs
-SMALL_HELD = {"knob-round": 0.3, "knob-flat": 0.4, "bar-slim": 0.3}  # on others, where a style's own would be pushed
+SMALL_HELD: Mapping[HandleStyle, float] = {"knob-round": 0.3, "knob-flat": 0.4, "bar-slim": 0.3}  # on others, where a style's own would be pushed
 TRACKS: Mapping[Span, float] = {(0.0, 0.0): 0.45, (0.003, 0.008): 0.3, (0.012, 0.04): 0.25}  # metres: rails, if drawn
 RUNNERS = 0.3  # of pull-outs: the runner below is drawn
 
@@ -44,7 +44,7 @@ def fit_sliding(rng: np.random.Generator, sliding: Sliding, room: Rect, style: M
         shelves=draw_shelves(rng, sliding.shelves, room, False, style),
         inside=draw_inside(rng, sliding.inside, leaf, style),
         lap=between(rng, (0.02, 0.05)),
-        left_first=chance(rng, 0.5) and (sliding.leaves == 2 or grip != "none" or handle == "none"),
+        left_first=chance(rng, 0.5) and sliding.leaves == 2,  # a handle between two leaves in front would stop them
         track=between(rng, pick(rng, TRACKS)),
     )
 
