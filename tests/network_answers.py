@@ -9,7 +9,7 @@ import numpy as np
 
 from grafu.completion.features import GraphFeatures, Scores, graph_features
 from grafu.geometry.box import Box
-from grafu.graph.arrays import KINDS, LABELS, NULL
+from grafu.graph.arrays import EDGE_CODES, KIND_CODES, LABELS, NULL
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import EdgeKind, PartLabel
 
@@ -82,7 +82,7 @@ class _Blank:
             "category": np.zeros((s, len(LABELS)), f32),
             "centre": np.zeros((s, 3), f32),
             "half": np.full((s, 3), 0.1, f32),
-            "edge": np.zeros((s, s, len(KINDS) + 1), f32),
+            "edge": np.zeros((s, s, EDGE_CODES["all"]), f32),
             "parent": np.zeros((s, s), f32),
             "hinge_target": np.zeros((s, s), f32),
             "border": np.zeros((s, s, 4), f32),
@@ -98,7 +98,7 @@ class _Blank:
     def kind(self, a: str, b: str, kind: EdgeKind | dict[EdgeKind, float]) -> None:
         i, j = self.place[a], self.place[b]
         for one, logit in kind.items() if isinstance(kind, dict) else [(kind, 2 * SURE)]:
-            self.arrays["edge"][i, j, KINDS.index(one)] = self.arrays["edge"][j, i, KINDS.index(one)] = logit
+            self.arrays["edge"][i, j, KIND_CODES[one]] = self.arrays["edge"][j, i, KIND_CODES[one]] = logit
 
     def pairs(self, name: str, logits: dict[tuple[str, str], float]) -> None:
         for (child, parent), logit in logits.items():

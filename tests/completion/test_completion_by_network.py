@@ -15,7 +15,7 @@ from grafu.completion.network import complete_by_network
 from grafu.completion.rule_scene import RuleScene
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.graph.arrays import KINDS, LABELS
+from grafu.graph.arrays import EDGE_CODES, LABELS
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import relabelled
@@ -529,7 +529,7 @@ def any_scores(features: GraphFeatures, seed: int) -> Scores:
         return (4 * rng.standard_normal(shape)).astype(np.float32)
 
     centre, half = rng.random((s, 3), np.float32), rng.random((s, 3), np.float32) - np.float32(0.2)
-    kinds, labels = len(KINDS) + 1, len(LABELS)
+    kinds, labels = EDGE_CODES["all"], len(LABELS)
     return Scores(
         *(logits(s), logits(s, labels), centre, half, logits(s, s, kinds)),
         *(logits(s, s), 1.0, logits(s, s), -1.0, logits(s, s, 4), logits(s, s, 2), logits(s, s, 6)),

@@ -7,7 +7,7 @@ from grafu.completion.config import ADDABLE
 from grafu.completion.features import FeatureConfig, GraphFeatures, Scores
 from grafu.completion.network import complete_by_network
 from grafu.completion.session import GraphNetwork
-from grafu.graph.arrays import graph_arrays
+from grafu.graph.arrays import EDGE_CODES, graph_arrays
 from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.metrics.graph_accuracy import graph_accuracy, total_accuracy
@@ -41,7 +41,7 @@ def oracle(truth: FunctionalGraph) -> GraphNetwork:
             category=one_hot(known.labels[of], len(PartLabel)),
             centre=((known.boxes[of, :3] - features.origin) / features.scale).astype(np.float32),
             half=(known.boxes[of, 3:] / features.scale).astype(np.float32),
-            edge=one_hot(known.edges[np.ix_(of, of)], 5) * 2,
+            edge=one_hot(known.edges[np.ix_(of, of)], EDGE_CODES["all"]) * 2,
             parent=chosen,
             parent_abstain=-2.0,
             hinge_target=chosen,

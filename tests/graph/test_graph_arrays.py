@@ -6,13 +6,16 @@ from grafu.graph.arrays import (
     ATTACHED,
     CONTACT,
     DOOR,
+    EDGE_CODES,
+    EDGE_WORDS,
     HINGE,
-    KINDS,
     LABEL_CODES,
     LABELS,
     NONE,
     NULL,
     RAIL,
+    SLIDE,
+    TURN,
     graph_arrays,
 )
 from grafu.graph.functional_graph import FunctionalGraph
@@ -51,7 +54,9 @@ def test_boxes_are_centres_and_half_sizes() -> None:
 
 def test_the_codes_are_those_that_the_network_sees() -> None:
     assert {label: LABELS.index(label) for label in LABELS} == LABEL_CODES
-    assert (len(KINDS), KINDS[HINGE]) == (NULL, "hinge")
+    assert [EDGE_WORDS[code] for code in (CONTACT, HINGE, RAIL, ATTACHED)] == ["contact", "hinge", "rail", "attached"]
+    assert (EDGE_WORDS[NULL], EDGE_WORDS[SLIDE], EDGE_WORDS[TURN]) == ("none", "slide", "turn")
+    assert (EDGE_CODES["paper"], EDGE_CODES["all"]) == (NULL + 1, len(EDGE_WORDS))
 
 
 def test_a_graph_without_nodes_is_empty_arrays() -> None:

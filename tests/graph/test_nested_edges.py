@@ -110,13 +110,17 @@ def test_a_mirror_image_turns_the_other_way() -> None:
     assert mirrored(GRAPH, 0).edges[1].coupling == FOLDS
 
 
-def test_the_network_and_the_authors_files_see_contacts() -> None:
+def test_the_paper_s_kinds_and_the_authors_files_state_contacts() -> None:
     touching = {Contact("leaf_1", "leaf_2"), Contact("leaf_2", "tray"), Contact("leaf_1", "knob")}
     assert set(paper_edges(GRAPH)) == {FIRST, *touching}
-    arrays = graph_arrays(GRAPH)
+    arrays = graph_arrays(GRAPH, "paper")
     assert arrays.edges[0, 1] == HINGE
     assert arrays.border[2] == arrays.slide[3] == NONE
     assert (arrays.edges != NULL).sum() == 8
+    ours = graph_arrays(GRAPH)
+    place = {node.id: k for k, node in enumerate(GRAPH.nodes)}
+    assert all(ours.child[place[edge.child], place[edge.parent]] for edge in GRAPH.motions)
+    assert ours.slide[place["knob"]] == TURNS.axis
     assert graph_from_official(functional_to_official(GRAPH)).graph.edges == paper_edges(GRAPH)
 
 

@@ -57,10 +57,13 @@ def test_a_joint_that_slides_a_door_gets_the_edge():
     assert joint_edges(joint, drawer, [CASE]) == [Rail("case", "front", 1)]
 
 
-def test_the_network_and_the_authors_files_see_a_contact():
+def test_the_paper_s_kinds_and_the_authors_files_state_a_contact():
     assert paper_edges(GRAPH) == (Contact("case", "front"),)
-    arrays = graph_arrays(GRAPH)
+    arrays = graph_arrays(GRAPH, "paper")
     assert (arrays.edges[0, 1], arrays.child.any()) == (KIND_CODES[EdgeKind.CONTACT], False)
+    ours = graph_arrays(GRAPH)
+    assert (ours.edges[0, 1], ours.child.tolist()) == (KIND_CODES[EdgeKind.SLIDE], [[False, False], [True, False]])
+    assert ours.slide.tolist() == [-1, SLIDE.axis]
     assert [edge["kind"] for edge in functional_to_official(GRAPH)["edges"]] == ["contact"]
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Attached, Contact, Hinge, Rail
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, Turn, ends_of
 from grafu.graph.edit import as_contacts, with_edges, without_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.metrics.graph_accuracy import GraphAccuracy, Ratio, graph_accuracy, total_accuracy
@@ -35,6 +35,8 @@ def with_knob_again(label: PartLabel, x: float) -> FunctionalGraph:
 def test_the_truth_is_right_in_everything() -> None:
     figures = graph_accuracy(TRUTH, TRUTH).by_name()
     assert figures.pop("added") != figures.pop("added_centre")  # nothing was added: both are not numbers
+    assert isnan(figures.pop("slides"))  # a cabinet has neither
+    assert isnan(figures.pop("turns"))
     assert {name: value for name, value in figures.items() if value != (0.0 if name in ERRORS else 1.0)} == {}
 
 
@@ -136,3 +138,18 @@ def test_shares_of_many_graphs_add_up() -> None:
     total = total_accuracy([graph_accuracy(TRUTH, TRUTH), graph_accuracy(as_contacts(TRUTH), TRUTH)])
     assert total.joint == Ratio(2.0, 4.0)
     assert total.existence.value == 1.0
+
+
+def test_what_slides_and_turns_is_counted_by_kind_and_axis() -> None:
+    ends = ({"left", "door_1"}, {"door_1", "knob_1"})
+    kept = tuple(edge for edge in TRUTH.edges if set(ends_of(edge)) not in ends)
+    slides = Slide("left", "door_1", 3)
+
+    def graph(*edges: Edge) -> FunctionalGraph:
+        return replace(TRUTH, edges=(*kept, *edges))
+
+    truth = graph(slides, Turn("door_1", "knob_1", 2))
+    assert {graph_accuracy(truth, truth).by_name()[name] for name in ("slides", "turns", "slide")} == {1.0}
+    figures = graph_accuracy(graph(slides, Turn("door_1", "knob_1", 3)), truth).by_name()
+    assert (figures["slides"], figures["turns"], figures["slide"]) == (1.0, 1.0, pytest.approx(3 / 4))
+    assert graph_accuracy(graph(Contact("left", "door_1")), truth).by_name()["slides"] == 0.0

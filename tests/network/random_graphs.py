@@ -3,8 +3,9 @@
 import torch
 from torch import Tensor
 
+from grafu.graph.arrays import EDGE_CODES, NULL
 from grafu.network.batch import GraphBatch, Predictions, one_graph
-from grafu.network.config import EDGE_COUNT, LABEL_COUNT, GraFuConfig
+from grafu.network.config import LABEL_COUNT, GraFuConfig
 from grafu.network.grafu import GraFu
 
 TINY = GraFuConfig(
@@ -18,14 +19,14 @@ PAIR_FIELDS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
 def arrays(n: int, seed: int = 0) -> dict[str, Tensor]:
     """Returns the features of one graph by name."""
     draw = torch.Generator().manual_seed(seed)
-    edges = torch.randint(0, EDGE_COUNT, (n, n), generator=draw).triu(1)
+    edges = torch.randint(0, EDGE_CODES["all"], (n, n), generator=draw).triu(1)
     edges = edges + edges.T
     return {
         "labels": torch.randint(0, LABEL_COUNT, (n,), generator=draw),
         "boxes": torch.rand(n, 6, generator=draw) * 0.5,
         "anchors": torch.rand(n, ANCHORS, 3, generator=draw),
         "groups": torch.rand(n, ANCHORS, NEIGHBOURS, 3, generator=draw) * 0.1,
-        "edges": edges.fill_diagonal_(EDGE_COUNT - 1),
+        "edges": edges.fill_diagonal_(NULL),
     }
 
 

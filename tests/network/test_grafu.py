@@ -30,7 +30,7 @@ def total(answers: Predictions) -> torch.Tensor:
 @pytest.mark.parametrize("n", [0, 1, 2, 200])
 def test_graphs_of_all_sizes_get_answers(n: int) -> None:
     answers = tiny_network()(graph(n))
-    assert answers.edge.shape == (1, n + 3, n + 3, 5)
+    assert answers.edge.shape == (1, n + 3, n + 3, 7)
     assert answers.category.shape == (1, n + 3, 14)
     assert answers.mask.all()
     assert all(v.isfinite().all() for v in vars(answers).values())

@@ -4,7 +4,7 @@ from dataclasses import asdict
 
 import pytest
 
-from grafu.network.config import EDGE_COUNT, LABEL_COUNT, PAPER, GraFuConfig
+from grafu.network.config import LABEL_COUNT, PAPER, GraFuConfig
 from grafu.network.grafu import GraFu
 
 AUTHORS_PARAMETERS = 9_224_401  # of the authors' network, with 17 categories
@@ -22,7 +22,7 @@ def test_the_network_is_as_large_as_the_paper_s(config: GraFuConfig) -> None:
 def test_a_node_s_latent_has_the_paper_s_width() -> None:
     config = GraFuConfig()
     assert config.category + config.points + config.geometry == 224
-    assert (LABEL_COUNT, EDGE_COUNT) == (14, 5)
+    assert (LABEL_COUNT, PAPER.edge_codes, config.edge_codes) == (14, 5, 7)
 
 
 @pytest.mark.parametrize(

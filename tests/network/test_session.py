@@ -89,7 +89,7 @@ def test_a_file_that_is_silent_about_its_points_is_shown_the_usual_number(weight
     onnx.helper.set_model_props(proto, facts | {"config": json.dumps({"points": 8, "anchors": 4, "neighbours": 3})})
     onnx.save(proto, str(older))
 
-    assert NetworkSession(older).features == FeatureConfig(anchors=4, neighbours=3)
+    assert NetworkSession(older).features == FeatureConfig(anchors=4, neighbours=3, kinds="paper")
 
 
 @pytest.mark.parametrize("features", ["many", "{}{}", '{"points": 2}', '{"pixels": 2}', "7"])

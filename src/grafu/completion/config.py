@@ -53,6 +53,12 @@ class DecodeConfig:
     """Below this probability of every hinge the rule decides how a door hangs: with sides missing from real cabinets
     the network was right about 2 of 22 such doors, the rule about all. On whole furniture it is above 0.9."""
 
+    slides: float = 0.5
+    """A door slides in its own plane from this probability of a slide on, if that of a hinge is lower."""
+
+    nested: float = 0.6
+    """A door may hang on another door from this probability of a hinge between them on."""
+
     second_rail: float = 0.3
     """The rail on a drawer's other flank is taken from this probability on."""
 
@@ -104,7 +110,7 @@ class DecodeConfig:
             self.flank,
             self.some_parent,
         )
-        if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.no_parent)):
+        if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.slides, self.nested, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
         if min(self.rounds, self.reach, self.grasp, self.outward, self.least_half, self.slack) < 0:
             raise ValueError(f"counts, lengths and powers of a DecodeConfig must not be negative: got {self}")

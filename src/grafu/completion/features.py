@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int64
 
 from grafu.geometry.arrays import ArrayValue, Points, freeze_arrays
-from grafu.graph.arrays import graph_arrays
+from grafu.graph.arrays import KindSet, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
 
 
@@ -130,7 +130,7 @@ def _nearest(clouds: Float32[np.ndarray, "n p 3"], centres: Float32[np.ndarray, 
 @final
 @dataclass(frozen=True, slots=True)
 class FeatureConfig:
-    """How many points of a part the network sees.
+    """How many points of a part the network sees, and which kinds of edges it knows.
 
     The paper samples 512 points a part and groups them in two stages; `anchors` x `neighbours` is the first. Few groups
     cost accuracy nothing that was seen and save most of the encoder's time; the authors' first stage has 256 x 32.
@@ -142,6 +142,7 @@ class FeatureConfig:
     points: int = 512
     anchors: int = 32
     neighbours: int = 16
+    kinds: KindSet = "all"
 
     def __post_init__(self) -> None:
         if not all(1 <= number <= self.points for number in (self.anchors, self.neighbours)):
@@ -176,7 +177,7 @@ class GraphFeatures(ArrayValue):
 def graph_features(graph: FunctionalGraph, config: FeatureConfig = FeatureConfig()) -> GraphFeatures:
     """Returns what the network sees of a graph; nodes without points are seen as the surface of their box."""
     origin, scale = object_frame(graph)
-    arrays = graph_arrays(graph)
+    arrays = graph_arrays(graph, config.kinds)
     centre, half = arrays.boxes[:, :3], arrays.boxes[:, 3:]
     boxes = np.hstack([centre - origin, half]) / scale
     clouds = (_clouds(graph, centre - half, centre + half, config.points) - origin) / scale

@@ -24,9 +24,9 @@ from grafu.completion.rule_scene import RuleScene
 from grafu.completion.view import GraphView
 from grafu.completion.votes import Ranking, chosen_of, ranking_of
 from grafu.geometry.arrays import Indices, Scalars
-from grafu.graph.arrays import ATTACHED, HINGE, RAIL
+from grafu.graph.arrays import ATTACHED, HINGE, RAIL, SLIDE
 from grafu.graph.completion import BY_BOTH, BY_RULE, Decision
-from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, HingeBorder, Rail, SignedAxis
+from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, HingeBorder, Rail, SignedAxis, Slide
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import opening_face
 from grafu.refusal import Reason, Refusal
@@ -86,7 +86,7 @@ def parent_ratios(slot: int, slots: Indices, view: GraphView) -> tuple[Scalars, 
 
 
 def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene) -> MotionAnswer:
-    """Returns the hinge of a door with the confidence of each choice, or why it gets none.
+    """Returns the hinge of a door, or its slide, with the confidence of each choice, or why it gets none.
 
     The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
     missing it never saw any, and the rule hangs them on what there is. Where it is of two minds, the door opens
@@ -95,7 +95,10 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene) -> MotionAns
     if not len(view.supports):
         return Refusal(door.id, Reason.NO_MOTION, _NO_SUPPORT)
     slot, slots = view.place[door.id], view.within_reach(door, view.supports)
-    hinged = view.probabilities.edge[slot, slots, HINGE]
+    slots = np.concatenate([slots, view.hinged_doors(door)])
+    hinged, slid = (view.probabilities.edge[slot, slots, kind] for kind in (HINGE, SLIDE))
+    if slid.max() >= view.config.slides and slid.max() > hinged.max():
+        return _choose_slide(door, slots, slid, view)
     if hinged.max() < view.config.sure and (answer := _on_given(hang_door(door, scene), view)) is not None:
         return answer
     if hinged.max() < view.config.least_edge:
@@ -119,6 +122,16 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene) -> MotionAns
         decision_of(door.id, "mount", mount, "" if on is None else BY_RULE),
     )
     return (edge,), decisions
+
+
+def _choose_slide(door: PartNode, slots: Indices, slid: Scalars, view: GraphView) -> MotionAnswer:
+    """Returns the slide of a door within its own plane, on the part that most likely carries its track."""
+    slot, thin = view.place[door.id], door.box.thin_axis
+    within = tuple(code for code in SIGNED_AXES if code // 2 != thin)
+    slide = ranking_of(within, (slid @ view.probabilities.slide[slot, slots])[list(within)])
+    mount = ranking_of(view.ids(slots), slid)
+    decisions = (decision_of(door.id, "slide", slide), decision_of(door.id, "mount", mount))
+    return (Slide(mount.choice, door.id, slide.choice),), decisions
 
 
 def choose_rails(drawer: PartNode, view: GraphView, scene: RuleScene) -> MotionAnswer:

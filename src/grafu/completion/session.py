@@ -13,10 +13,11 @@ from types import ModuleType
 from typing import Any, final
 
 import numpy as np
+from jaxtyping import Float
 
 from grafu.completion.features import SCORE_NAMES, FeatureConfig, GraphFeatures, Scores
 from grafu.errors import WeightsError
-from grafu.graph.arrays import LABELS
+from grafu.graph.arrays import EDGE_CODES, LABELS, NULL
 from grafu.processes.lifetime import keep_private
 
 
@@ -66,8 +67,10 @@ class NetworkSession:
     def __call__(self, features: GraphFeatures) -> Scores:
         """Returns what the network states about a graph of at least one node."""
         found: list[Any] = self._session.run(list(SCORE_NAMES), {name: getattr(features, name) for name in _INPUTS})
-        values: list[Any] = [array if array.ndim else float(array) for array in map(np.asarray, found)]
-        return Scores(*values)
+        arrays = {name: np.asarray(array) for name, array in zip(SCORE_NAMES, found, strict=True)}
+        arrays["edge"] = with_all_kinds(arrays["edge"])
+        values: dict[str, Any] = {name: array if array.ndim else float(array) for name, array in arrays.items()}
+        return Scores(**values)
 
     def _checked(self, path: Path) -> FeatureConfig:
         names = {item.name for item in self._session.get_inputs()}, {item.name for item in self._session.get_outputs()}
@@ -78,11 +81,20 @@ class NetworkSession:
             raise WeightsError(f"`{path}` was trained on other labels: train it again")
         try:
             if "features" in facts:
-                return FeatureConfig(**json.loads(facts["features"]))
+                return FeatureConfig(**({"kinds": "paper"} | json.loads(facts["features"])))  # older: the paper's kinds
             older = json.loads(facts["config"])  # it holds two of the three numbers
-            return FeatureConfig(anchors=older["anchors"], neighbours=older["neighbours"])
+            return FeatureConfig(anchors=older["anchors"], neighbours=older["neighbours"], kinds="paper")
         except (KeyError, TypeError, ValueError) as error:
             raise WeightsError(f"`{path}` must state how many points of a part it sees: {error!r}") from error
+
+
+_NEVER = -60.0  # the logit of a kind of edge that a network does not know
+
+
+def with_all_kinds(edge: Float[np.ndarray, "s s kinds"]) -> Float[np.ndarray, "s s all"]:
+    """Returns the logits of all kinds of edges: one that knows the paper's kinds alone never predicts another."""
+    assert edge.shape[-1] > NULL
+    return np.pad(edge, ((0, 0), (0, 0), (0, EDGE_CODES["all"] - edge.shape[-1])), constant_values=_NEVER)
 
 
 def has_shipped_weights() -> bool:

@@ -10,7 +10,9 @@ from jaxtyping import Int64
 from grafu.completion.config import DecodeConfig
 from grafu.completion.probabilities import Probabilities
 from grafu.geometry.arrays import Indices, Scalars
+from grafu.graph.arrays import HINGE
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.vocabulary import PartLabel
 
 
 @final
@@ -56,6 +58,19 @@ class GraphView:
     def high(self) -> np.ndarray:
         """The high corners of all boxes, metres."""
         return np.array([n.box.high for n in self.graph.nodes]).reshape(-1, 3)
+
+    @cached_property
+    def held(self) -> Scalars:
+        """How likely a hinge joins each slot to a part that may carry it."""
+        hinges = self.probabilities.edge[: len(self.graph.nodes), self.supports, HINGE]
+        return np.asarray(hinges.max(axis=1, initial=0.0))
+
+    def hinged_doors(self, door: PartNode) -> Indices:
+        """Returns the slots of the doors that this one likely hangs on: such are held better themselves."""
+        slot = self.place[door.id]
+        doors = [k for k, n in enumerate(self.graph.nodes) if n.label is PartLabel.DOOR and n.id in self.given]
+        likely = (k for k in doors if self.probabilities.edge[slot, k, HINGE] >= self.config.nested)
+        return np.array([k for k in likely if (self.held[k], -k) > (self.held[slot], -slot)], dtype=np.int64)
 
     def within_reach(self, node: PartNode, slots: Indices) -> Int64[np.ndarray, " near"]:
         """Returns those of the slots whose boxes are near enough to the node's; all of them where none is."""

@@ -15,14 +15,14 @@ from grafu.data.pair import Record
 from grafu.data.shards_arrays import DEFECT_KINDS, ModelArrays, arrays_to_record, record_to_arrays
 from grafu.data.shards_file import read_array_file, require_columns, write_array_file
 from grafu.errors import UnreadableAsset
-from grafu.graph.arrays import KINDS, LABELS
+from grafu.graph.arrays import EDGE_WORDS, LABELS
 from grafu.synth.specimen import Defect
 from grafu.version import __version__
 
 SCHEMA = "grafu.shard/1"
 MODELS_PER_SHARD = 1000
 
-_WORDS = {"labels": list(LABELS), "edge_kinds": list(KINDS), "defect_kinds": list(DEFECT_KINDS)}
+_WORDS = {"labels": list(LABELS), "edge_kinds": list(EDGE_WORDS), "defect_kinds": list(DEFECT_KINDS)}
 _NO_WORDS = np.zeros(0, np.uint32)
 
 

@@ -22,9 +22,9 @@ from grafu.errors import GraphError
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.arrays import KIND_CODES, KINDS, LABEL_CODES, LABELS
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, ends_of, kind_of
-from grafu.graph.functional_graph import FunctionalGraph, PartNode, paper_edges
+from grafu.graph.arrays import KIND_CODES, KIND_OF, LABEL_CODES, LABELS
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, Turn, ends_of, kind_of
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.synth.specimen import Defect, DefectKind
 from grafu.vocabulary import EdgeKind
 
@@ -91,7 +91,8 @@ class ModelArrays:
 
     `labels` are codes (`grafu.graph.arrays`), `given_labels` too, or `ABSENT`. `boxes` hold low and high corner,
     metres. A row of `edges` (the truth's) and `given_edges` is: place of the first node (the parent), of the second
-    (the child), code of the kind, motion: 2 * border + sign of a hinge, signed axis of a rail, else 0.
+    (the child), code of the kind, motion: 2 * border + sign of a hinge, signed axis of a rail, slide or turn, else 0.
+    That a part follows another is left out.
     `points` are coded as in `shards_points`, `counts` of them for each node.
     """
 
@@ -131,8 +132,8 @@ def record_to_arrays(record: Record) -> ModelArrays:
         np.array([given.get(n.id, ABSENT) for n in nodes], dtype=np.uint8),
         np.array([n.id in record.removable for n in nodes], dtype=np.bool_),
         boxes,
-        _edge_array(paper_edges(record.truth), places),
-        _edge_array(paper_edges(record.given), places),
+        _edge_array(record.truth.edges, places),
+        _edge_array(record.given.edges, places),
         record.defects,
         counts,
         points_to_codes(np.concatenate(clouds) if clouds else np.zeros((0, 3)), boxes, counts),
@@ -194,11 +195,11 @@ def _edge_array(edges: Sequence[Edge], places: dict[str, int]) -> EdgeArray:
 def _motion_code(edge: Edge) -> int:
     if isinstance(edge, Hinge):
         return 2 * edge.border + edge.sign
-    return edge.axis if isinstance(edge, Rail) else 0
+    return 0 if isinstance(edge, Contact | Attached) else edge.axis
 
 
 def _edges(rows: EdgeArray, ids: Sequence[str]) -> tuple[Edge, ...]:
-    return tuple(_edge(ids[a], ids[b], KINDS[kind], code) for a, b, kind, code in rows.tolist())
+    return tuple(_edge(ids[a], ids[b], KIND_OF[kind], code) for a, b, kind, code in rows.tolist())
 
 
 def _edge(first: str, second: str, kind: EdgeKind, code: int) -> Edge:
@@ -208,4 +209,5 @@ def _edge(first: str, second: str, kind: EdgeKind, code: int) -> Edge:
         return Attached(first, second)
     if kind is EdgeKind.HINGE:
         return Hinge(first, second, code // 2, code % 2)  # type: ignore[arg-type]  # the edge checks its codes
-    return Rail(first, second, code)  # type: ignore[arg-type]
+    along: type[Rail | Slide | Turn] = Rail if kind is EdgeKind.RAIL else Slide if kind is EdgeKind.SLIDE else Turn
+    return along(first, second, code)  # type: ignore[arg-type]

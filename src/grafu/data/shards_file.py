@@ -21,7 +21,7 @@ from grafu.asset.scan_files import array_from
 from grafu.data.shards_arrays import ABSENT, DEFECT_KINDS
 from grafu.errors import AssetTooLarge, UnreadableAsset
 from grafu.export.whole_file import whole_file
-from grafu.graph.arrays import KINDS, LABELS
+from grafu.graph.arrays import KIND_OF, LABELS
 
 _WORD: Final = ("<u4", ())
 _PLACE: Final = ("<i8", ())
@@ -97,7 +97,8 @@ def _wrong_codes(columns: Mapping[str, np.ndarray]) -> str:
     nodes = np.diff(columns["nodes_from"])
     for name in ("edge", "given_edge"):
         counts = np.repeat(nodes, np.diff(columns[f"{name}s_from"]))
-        if (columns[name][:, :2] >= counts[:, None]).any() or _most(columns[name][:, 2]) >= len(KINDS):
+        known = np.isin(columns[name][:, 2], list(KIND_OF))
+        if (columns[name][:, :2] >= counts[:, None]).any() or not known.all():
             return f"`{name}` names nodes or kinds that are not there"
     return ""
 

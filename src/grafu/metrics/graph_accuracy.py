@@ -13,7 +13,19 @@ import numpy as np
 from jaxtyping import Bool, Int64
 from scipy.optimize import linear_sum_assignment
 
-from grafu.graph.arrays import ATTACHED, CONTACT, HINGE, NONE, NULL, RAIL, UNKNOWN, GraphArrays, graph_arrays
+from grafu.graph.arrays import (
+    ATTACHED,
+    CONTACT,
+    HINGE,
+    NONE,
+    NULL,
+    RAIL,
+    SLIDE,
+    TURN,
+    UNKNOWN,
+    GraphArrays,
+    graph_arrays,
+)
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 
@@ -47,8 +59,8 @@ class GraphAccuracy:
       only with the label of a missing one and its centre within `NEAR`.
     - `category`: found nodes with the true label. `centre`, `half`: their mean absolute errors per coordinate (the
       paper's centroid MAE); `added_centre`: that of added nodes alone; all as fractions of the object's largest side.
-    - `edges`: true edges found with their kind. `contact`, `hinge`, `rail`, `attached`: F1 by kind.
-    - `border`, `sign`, `joint` (both) of true hinged doors, `slide` of true drawers.
+    - `edges`: true edges found with their kind. `contact`, `hinge`, `rail`, `attached`, `slides`, `turns`: F1 by kind.
+    - `border`, `sign`, `joint` (both) of true hinged doors, `slide`: the signed axis of what truly slides or turns.
     - `mount`: hinged doors that hang on a part that they truly hang on; `parent`: attached handles on their part.
     """
 
@@ -63,6 +75,8 @@ class GraphAccuracy:
     hinge: Ratio = Ratio()
     rail: Ratio = Ratio()
     attached: Ratio = Ratio()
+    slides: Ratio = Ratio()
+    turns: Ratio = Ratio()
     border: Ratio = Ratio()
     sign: Ratio = Ratio()
     joint: Ratio = Ratio()
@@ -152,7 +166,7 @@ def _node_figures(
 
 
 def _edge_figures(found: GraphArrays, truth: GraphArrays, place: np.ndarray) -> tuple[Ratio, ...]:
-    """Returns edges, contact, hinge, rail, attached; each pair of nodes counts once."""
+    """Returns edges and the six kinds in the order of `GraphAccuracy`; each pair of nodes counts once."""
     once = np.triu(np.ones_like(truth.edges, dtype=bool), 1)
     answered = np.where((place == NONE)[:, None] | (place == NONE)[None, :], NULL, _at(found.edges, place, place))
     true, answer = truth.edges[once], answered[once]
@@ -160,7 +174,7 @@ def _edge_figures(found: GraphArrays, truth: GraphArrays, place: np.ndarray) -> 
     right = true == answer
     kinds = (
         _f1(int((right & (true == kind)).sum()), int((all_found == kind).sum()), int((true == kind).sum()))
-        for kind in (CONTACT, HINGE, RAIL, ATTACHED)
+        for kind in (CONTACT, HINGE, RAIL, ATTACHED, SLIDE, TURN)
     )
     return _ratio(right[true != NULL]), *kinds
 

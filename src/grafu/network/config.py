@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 from typing import Literal, final
 
-from grafu.graph.arrays import KINDS, LABELS
+from grafu.graph.arrays import EDGE_CODES, LABELS, KindSet
 
 LABEL_COUNT = len(LABELS)  # 13 categories and `unknown`
-EDGE_COUNT = len(KINDS) + 1  # contact, hinge, rail, attached, null
 
 PointsFrame = Literal["object", "part"]
 PairFeatures = Literal["faces", "signed", "unsigned"]
@@ -36,6 +35,8 @@ class GraFuConfig:
             them slots and boxes only, so that the kinds of edges in the input reach them through nodes alone.
         free_boxes: the paper has free slots say their boxes in the object's frame ("absolute"). "pointed" ones point at
             nodes and say theirs in units of those: a handle sits so far along its door, a top as wide as its case.
+        kinds: the paper has four kinds of edges. "all" has ours, too: a door that slides, what turns about no border of
+            its box, and motions on what moves itself.
         geometry_dropout: in training, the fraction of graphs whose parts' points are hidden (authors: .3, of whole
             batches): real surfaces differ more from synthetic ones than boxes and contacts do.
 
@@ -60,6 +61,12 @@ class GraFuConfig:
     pair_boxes: PairBoxes = "input"
     pair_edges: bool = True
     free_boxes: FreeBoxes = "pointed"
+    kinds: KindSet = "all"
+
+    @property
+    def edge_codes(self) -> int:
+        """How many codes of edges are predicted, that of no edge among them."""
+        return EDGE_CODES[self.kinds]
 
     def __post_init__(self) -> None:
         sizes = ("hidden", "heads", "encoder_layers", "decoder_layers", "edge", "category", "points", "geometry")
@@ -82,5 +89,6 @@ PAPER = GraFuConfig(
     pair_boxes="predicted",
     pair_edges=False,
     free_boxes="absolute",
+    kinds="paper",
 )
 """The network without our departures."""

@@ -16,7 +16,7 @@ from jaxtyping import Bool, Float
 from torch import Tensor, nn
 
 from grafu.network.batch import GraphBatch
-from grafu.network.config import EDGE_COUNT, LABEL_COUNT, GraFuConfig, PairFeatures, PointsFrame
+from grafu.network.config import LABEL_COUNT, GraFuConfig, PairFeatures, PointsFrame
 from grafu.network.layers import EdgeAttention, PairLinear, perceptron
 
 EDGE_TERMS = 8
@@ -95,10 +95,10 @@ PART = 64  # width of the kind and of the geometric terms before they are joined
 class EdgeEncoder(nn.Module):
     """From each pair of nodes to the feature z_e."""
 
-    def __init__(self, width: int, features: PairFeatures) -> None:
+    def __init__(self, width: int, features: PairFeatures, codes: int) -> None:
         super().__init__()
         self.features = features
-        self.kind = nn.Embedding(EDGE_COUNT, PART)
+        self.kind = nn.Embedding(codes, PART)
         self.terms = perceptron(EDGE_TERMS + (FACE_TERMS if features == "faces" else 0), PART, PART)
         self.joined = nn.Linear(2 * PART, width)
 
@@ -247,7 +247,7 @@ class GraphEncoder(nn.Module):
         super().__init__()
         self.nodes = NodeEncoder(config)
         self.into_hidden = nn.Linear(NodeEncoder.width(config), config.hidden)
-        self.edges = EdgeEncoder(config.edge, config.pair_features)
+        self.edges = EdgeEncoder(config.edge, config.pair_features, config.edge_codes)
         self.layers = nn.ModuleList([GraphLayer(config) for _ in range(config.encoder_layers)])
         # Nothing would read what the last layer makes of the edges, if the pair heads do not
         updates = config.encoder_layers if config.pair_edges else config.encoder_layers - 1

@@ -40,7 +40,7 @@ def onnx_bytes(model: GraFu, *, points: int, anchors: int, neighbours: int, half
     _without_traces(proto)
     facts = {
         "config": asdict(model.config),
-        "features": {"points": points, "anchors": anchors, "neighbours": neighbours},
+        "features": {"points": points, "anchors": anchors, "neighbours": neighbours, "kinds": model.config.kinds},
         "labels": [label.value for label in LABELS],
     }
     onnx.helper.set_model_props(proto, {key: json.dumps(value) for key, value in facts.items()})

@@ -81,7 +81,7 @@ class GraFu(nn.Module):
         self.decoder = SlotDecoder(config)
         terms = pair_term_count(config.pair_features) + (config.edge if config.pair_edges else 0)
         self.slot_heads = SlotHeads(config)
-        self.pair_heads = PairHeads(config.hidden, terms)
+        self.pair_heads = PairHeads(config.hidden, terms, config.edge_codes)
         self.motion_heads = MotionHeads(config.hidden, terms)
 
     def forward(self, batch: GraphBatch) -> Predictions:

@@ -12,7 +12,7 @@ from torch import Tensor, nn
 from torch.nn.functional import gelu, pad, softplus
 
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
-from grafu.network.config import EDGE_COUNT, LABEL_COUNT, GraFuConfig
+from grafu.network.config import LABEL_COUNT, GraFuConfig
 from grafu.network.layers import PairLinear, attention_weights, perceptron
 
 WIDTH = 128
@@ -126,9 +126,9 @@ class PairHead(nn.Module):
 class PairHeads(nn.Module):
     """Three heads; an edge has one kind, whichever end is asked, so its logits are the mean of both ways."""
 
-    def __init__(self, hidden: int, terms: int) -> None:
+    def __init__(self, hidden: int, terms: int, codes: int) -> None:
         super().__init__()
-        self.edge = PairHead(hidden, terms, *EDGE_HEAD, EDGE_COUNT)
+        self.edge = PairHead(hidden, terms, *EDGE_HEAD, codes)
         self.parent = PairHead(hidden, terms, HEAD, 1)
         self.hinge_target = PairHead(hidden, terms, HEAD, 1)
         self.parent_abstain = nn.Parameter(torch.zeros(()))
@@ -156,7 +156,7 @@ class MotionAnswers(NamedTuple):
 
 @final
 class MotionHeads(nn.Module):
-    """The border that carries a door's pin, the sense of its axis, and the signed axis of a drawer."""
+    """The border that carries a door's pin, the sense of its axis, and the signed axis of what slides or turns."""
 
     def __init__(self, hidden: int, terms: int) -> None:
         super().__init__()

@@ -104,6 +104,9 @@ class TrainingConfig:
     def __post_init__(self) -> None:
         if self.steps < 1 or self.seed < 0 or not 0 <= self.mirror <= 1 or not set(self.mirror_axes) <= {0, 1}:
             raise ValueError(f"the numbers of `TrainingConfig` are out of range: got {self}")
+        if self.network.kinds != self.features.kinds:
+            kinds = f"{self.network.kinds} and {self.features.kinds}"
+            raise ValueError(f"network and features must know the same kinds of edges: got {kinds}")
 
 
 BASE = TrainingConfig(
@@ -138,7 +141,7 @@ BASE = TrainingConfig(
 )
 
 PAPER = TrainingConfig(
-    network=GraFuConfig(),
+    network=GraFuConfig(kinds="paper"),
     loss=PAPER_LOSS,
     mix=CopyMix(natural=1 / 18, masked=0.0, corruption=_UNMIRRORED, folds=17),
     sampling=SamplerConfig(models=16, copies=1, reuse=1, spread=16),
@@ -152,6 +155,7 @@ PAPER = TrainingConfig(
         period=94_500,  # 450 epochs (supplement) of 186 models x 18 pairs in batches of 16
         average=0.0,
     ),
+    features=FeatureConfig(kinds="paper"),
     steps=25_200,  # the authors' 120 epochs
     mirror_axes=(0, 1),
     precision="fp32",

@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float, Int64
 from torch import Tensor
 from torch.nn import functional
 
-from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, RAIL, UNKNOWN
+from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, NULL, RAIL, SLIDE, TURN, UNKNOWN
 from grafu.network.batch import Predictions
 from grafu.training.loss_config import BoxError, LossConfig
 from grafu.training.matcher import SlotTruth, match_slots, slot_truth
@@ -23,7 +23,7 @@ from grafu.training.targets import TargetBatch
 @final
 @dataclass(frozen=True)
 class MotionLosses:
-    """Three numbers: two over hinges, one over rails."""
+    """Three numbers: two over hinges, one over rails, slides and turns."""
 
     border: Float[Tensor, ""]
     sign: Float[Tensor, ""]
@@ -32,11 +32,12 @@ class MotionLosses:
 
 def motion_losses(predictions: Predictions, truth: SlotTruth) -> MotionLosses:
     """Returns the cross-entropies of border, sign and slide, read at (moving part, what carries it)."""
-    hinges, rails = truth.child & (truth.edges == HINGE), truth.child & (truth.edges == RAIL)
+    hinges = truth.child & (truth.edges == HINGE)
+    along = truth.child & torch.isin(truth.edges, torch.tensor([RAIL, SLIDE, TURN], device=truth.edges.device))
     return MotionLosses(
         border=code_loss(predictions.border.float(), truth.border, hinges),
         sign=code_loss(predictions.sign.float(), truth.sign, hinges),
-        slide=code_loss(predictions.slide.float(), truth.slide, rails),
+        slide=code_loss(predictions.slide.float(), truth.slide, along),
     )
 
 
@@ -158,7 +159,12 @@ def pair_losses(predictions: Predictions, truth: SlotTruth, edge_kinds: tuple[fl
     return PairLosses(
         edge=edge_loss(predictions.edge.float(), truth, edge_kinds),
         parent=parent_loss(predictions.parent.float(), predictions.parent_abstain.float(), truth),
-        hinge_target=hinge_target_loss(predictions.hinge_target.float(), predictions.hinge_abstain.float(), truth),
+        hinge_target=hinge_target_loss(
+            predictions.hinge_target.float(),
+            predictions.hinge_abstain.float(),
+            truth,
+            predictions.edge.shape[-1] > NULL + 1,
+        ),
     )
 
 
@@ -177,13 +183,15 @@ def parent_loss(scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], trut
 
 
 def hinge_target_loss(
-    scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], truth: SlotTruth
+    scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], truth: SlotTruth, nested: bool
 ) -> Float[Tensor, ""]:
-    """Returns how badly doors choose what they hang on, among all that is neither door, drawer nor handle.
+    """Returns how badly doors choose what they hang on, among all that is neither drawer nor handle.
 
-    A door that truly hangs on several parts may choose any of them; one whose mount is no slot should abstain.
+    With the paper's kinds of edges no door is asked, either. A door that truly hangs on several parts may choose any of
+    them; one whose mount is no slot, or that does not hang, should abstain.
     """
-    support = ~torch.isin(truth.labels, torch.tensor([DOOR, DRAWER, HANDLE], device=scores.device))
+    others = [DRAWER, HANDLE] if nested else [DOOR, DRAWER, HANDLE]
+    support = ~torch.isin(truth.labels, torch.tensor(others, device=scores.device))
     right = truth.child & (truth.edges == HINGE)
     return choice_loss(scores, abstain, truth.labels == DOOR, support[:, None, :] & truth.real_pairs, right)
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any, Literal, final
 
+from grafu.graph.arrays import EDGE_CODES
 from grafu.visible import ShortRepr
 
 ClassCost = Literal["cross-entropy", "probability"]
@@ -65,8 +66,8 @@ class LossConfig(ShortRepr):
     free_half: float = 0.0
 
     edge: float = 1.0
-    edge_kinds: tuple[float, ...] = (1.0, 5.0, 5.0, 3.0, 0.2)
-    """Weights of contact, hinge, rail, attached and null."""
+    edge_kinds: tuple[float, ...] = (1.0, 5.0, 5.0, 3.0, 0.2, 5.0, 5.0)
+    """Weights of contact, hinge, rail, attached and null (paper), and of slide and turn, which it does not have."""
     parent: float = 0.5
     hinge_target: float = 0.5
 
@@ -79,8 +80,8 @@ class LossConfig(ShortRepr):
         negative = {name: value for name, value in numbers.items() if value < 0}
         if negative or min(self.edge_kinds, default=-1.0) < 0:
             raise ValueError(f"weights of losses must not be negative: got {negative or self.edge_kinds}")
-        if len(self.edge_kinds) != 5:
-            raise ValueError(f"`edge_kinds` must be five weights: got {self.edge_kinds}")
+        if len(self.edge_kinds) != EDGE_CODES["all"]:
+            raise ValueError(f"`edge_kinds` must be {EDGE_CODES['all']} weights: got {self.edge_kinds}")
 
 
 PAPER = LossConfig(pinned=False)

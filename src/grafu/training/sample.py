@@ -25,7 +25,7 @@ from grafu.data.corruption.corrupt import fold, masked_pair
 from grafu.data.pair import GraphPair
 from grafu.data.stream import ordered_map
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
-from grafu.graph.arrays import graph_arrays
+from grafu.graph.arrays import KindSet, graph_arrays
 from grafu.training.source import Source
 from grafu.training.targets import GraphTargets, graph_targets
 
@@ -111,7 +111,7 @@ def make_sample(pairs: Sequence[GraphPair], features: FeatureConfig) -> Sample:
         pairs[0].model_id,
         whole.anchors,
         whole.groups,
-        tuple(_copy(pair, whole.origin, whole.scale) for pair in pairs),
+        tuple(_copy(pair, whole.origin, whole.scale, features.kinds) for pair in pairs),
     )
 
 
@@ -127,13 +127,13 @@ def _pair(natural: GraphPair, kind: CopyKind, mix: CopyMix, rng: np.random.Gener
     return natural if kind == "natural" else masked_pair(natural)
 
 
-def _copy(pair: GraphPair, origin: np.ndarray, scale: float) -> Copy:
+def _copy(pair: GraphPair, origin: np.ndarray, scale: float, kinds: KindSet) -> Copy:
     given = pair.input
-    seen = graph_arrays(given)
+    seen = graph_arrays(given, kinds)
     new_origin, new_scale = object_frame(given)
     rows = {node.id: k for k, node in enumerate(pair.target.nodes)}
     names = [node.id for node in given.nodes]
-    targets = graph_targets(pair.target, names, new_origin, new_scale)
+    targets = graph_targets(pair.target, names, new_origin, new_scale, kinds)
     places = np.array([rows[name] for name in names], dtype=np.int64)
     return Copy(
         seen.labels,

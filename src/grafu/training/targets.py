@@ -15,7 +15,7 @@ from jaxtyping import Bool, Float32, Float64, Int64
 from torch import Tensor
 
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
-from grafu.graph.arrays import NONE, NULL, UNKNOWN, graph_arrays
+from grafu.graph.arrays import NONE, NULL, UNKNOWN, KindSet, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
 
 SLOT_STEP = 4  # graphs of a batch have so many nodes, or a multiple
@@ -83,7 +83,11 @@ class TargetBatch:
 
 
 def graph_targets(
-    target: FunctionalGraph, given: Sequence[str], origin: Float64[np.ndarray, "3"], scale: float
+    target: FunctionalGraph,
+    given: Sequence[str],
+    origin: Float64[np.ndarray, "3"],
+    scale: float,
+    kinds: KindSet = "all",
 ) -> GraphTargets:
     """Returns the answers for a functional graph of which the nodes `given` are seen, in the order of the input.
 
@@ -92,7 +96,7 @@ def graph_targets(
     Raises:
         KeyError: if a given id is not in the target.
     """
-    arrays = graph_arrays(target)
+    arrays = graph_arrays(target, kinds)
     place = {node.id: k for k, node in enumerate(target.nodes)}
     boxes = np.hstack([(arrays.boxes[:, :3] - origin) / scale, arrays.boxes[:, 3:] / scale])
     return GraphTargets(

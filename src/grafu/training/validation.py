@@ -13,7 +13,19 @@ import torch
 from torch import Tensor, nn
 
 from grafu.data.corruption.corrupt import VARIANTS, asked_pairs
-from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, NULL, RAIL, GraphArrays
+from grafu.graph.arrays import (
+    ATTACHED,
+    DOOR,
+    DRAWER,
+    HANDLE,
+    HINGE,
+    NONE,
+    NULL,
+    RAIL,
+    SLIDE,
+    TURN,
+    GraphArrays,
+)
 from grafu.metrics.graph_accuracy import GraphAccuracy, compare_graphs, pair_added, total_accuracy
 from grafu.network.batch import Predictions
 from grafu.training.batching import Showing, TrainingBatch, stack_showings
@@ -25,6 +37,7 @@ from grafu.training.source import RESERVED_SEEDS, VALIDATION_SEED, FurFunSource,
 from grafu.training.targets import TargetBatch
 
 _CHILD_OF = {HINGE: DOOR, RAIL: DRAWER, ATTACHED: HANDLE}
+_ALONG = (RAIL, SLIDE, TURN)  # the kinds of edges whose motion is a signed axis
 
 
 def batch_accuracy(predictions: Predictions, targets: TargetBatch) -> list[GraphAccuracy]:
@@ -63,18 +76,28 @@ def _found(scores: dict[str, np.ndarray], width: int) -> tuple[GraphArrays, np.n
     edges = scores["edge"][pairs].argmax(axis=-1)
     np.fill_diagonal(edges, NULL)
     child = np.zeros_like(edges, dtype=bool)
-    for kind, label in _CHILD_OF.items():
-        child |= (edges == kind) & (labels == label)[:, None]
     boxes = np.hstack([scores["centre"][slots], scores["half"][slots]]).astype(np.float64)
-    hinged, railed = child & (edges == HINGE), child & (edges == RAIL)
-    mount = _best(scores["hinge_target"][pairs], hinged)
-    runner = _best(scores["edge"][pairs][..., RAIL], railed)
+    smaller, target = _is_smaller(boxes), scores["hinge_target"][pairs]
+    for kind, label in _CHILD_OF.items():
+        rather = target > target.T if kind == HINGE else smaller  # which of two doors hangs on the other
+        child |= (edges == kind) & (labels == label)[:, None] & (rather | (labels != label)[None, :])
+    child |= np.isin(edges, (SLIDE, TURN)) & smaller
+    hinged, along = child & (edges == HINGE), child & np.isin(edges, _ALONG)
+    mount = _best(target, hinged)
+    chances = scores["edge"][pairs]
+    runner = _best(chances[..., [k for k in _ALONG if k < chances.shape[-1]]].max(axis=-1), along)
     motions = (
         _at(scores["border"][pairs], mount),
         _at(scores["sign"][pairs], mount),
         _at(scores["slide"][pairs], runner),
     )
     return GraphArrays(labels, boxes, edges, child, *motions), slots
+
+
+def _is_smaller(boxes: np.ndarray) -> np.ndarray:
+    """Returns whether i is smaller than j: what slides or turns is smaller than what carries it."""
+    volume = np.prod(boxes[:, 3:], axis=1)
+    return np.asarray(volume[:, None] <= volume[None, :])
 
 
 def _best(scores: np.ndarray, among: np.ndarray) -> np.ndarray:
