@@ -39,7 +39,10 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
     name = f"synth_{seed}_{index:07d}"
     for _ in range(ATTEMPTS):
         blueprint, made = draw_made(rng)
-        tidy, absent = repaired(blueprint, made, rng)
+        try:
+            tidy, absent = repaired(blueprint, made, rng)
+        except ValueError:
+            continue  # no room for handles between doors that slide past one another
         if len(tidy.parts) > MOST_PARTS or faults_of(tidy):
             continue
         noise = draw_noise(rng, tidy, blueprint.family, absent)
