@@ -76,10 +76,10 @@ class Clashes:
         values = {other: self._joints[other].upper for other in opened | open_too}
         poses = poses_at(self._joints, self._carriers, values)
         boxes = pieces.posed(poses)
-        riders = {part, *(other for other in self._joints if part in self._above(other))}
-        others = np.flatnonzero(~np.isin(pieces.bodies, [pieces.number(rider) for rider in riders]))
+        carried = [part, *(other for other in self._joints if part in self._above(other))]
+        others = np.flatnonzero(~np.isin(pieces.bodies, [pieces.number(body) for body in carried]))
         found: set[str] = set()
-        for motion, own in self._paths(joint, riders, poses.get(self._carriers[part])):
+        for motion, own in self._paths(joint, carried, poses.get(self._carriers[part])):
             path = SweptPath(joint, pieces.boxes[own], motion)
             near = near_path(boxes, others, path)
             if not len(near):
@@ -95,14 +95,14 @@ class Clashes:
         return frozenset(found)
 
     def _paths(
-        self, joint: AnnotatedJoint, riders: set[str], base: Mat4 | None
+        self, joint: AnnotatedJoint, carried: Sequence[str], base: Mat4 | None
     ) -> Iterator[tuple[Callable[[float], Mat4] | None, np.ndarray]]:
         """Yields what moves as one with its pieces: None where it follows the joint alone, from rest."""
-        led = {other: value for other, value in self._followers[joint.part].items() if other in riders}
+        led = {other: value for other, value in self._followers[joint.part].items() if other in carried}
         groups: dict[str, list[str]] = {}
-        for rider in riders:
-            chain = [rider, *self._above(rider)]
-            groups.setdefault(next((body for body in chain if body in led), joint.part), []).append(rider)
+        for body in carried:
+            chain = [body, *self._above(body)]
+            groups.setdefault(next((part for part in chain if part in led), joint.part), []).append(body)
         for leading, bodies in groups.items():
             own = np.flatnonzero(np.isin(self._pieces.bodies, [self._pieces.number(body) for body in bodies]))
             if not len(own):
