@@ -24,10 +24,6 @@ CUT: Mapping[Grip, float] = {"slot": 0.3, "finger hole": 0.25, "edge channel": 0
 CUT_IN = 0.6  # of sliding slabs
 # On others, where a style's own fronts would be pushed
 SMALL_HELD: Mapping[HandleStyle, float] = {"knob-round": 0.3, "knob-flat": 0.4, "bar-slim": 0.3}
-    "knob-round": 0.3,
-    "knob-flat": 0.4,
-    "bar-slim": 0.3,
-}  # on others, where a style's own would be pushed
 TRACKS: Mapping[Span, float] = {(0.0, 0.0): 0.45, (0.003, 0.008): 0.3, (0.012, 0.04): 0.25}  # metres: rails, if drawn
 RUNNERS = 0.3  # of pull-outs: the runner below is drawn
 
