@@ -62,8 +62,10 @@ def test_specimens_keep_their_promises() -> None:
         assert set(s.missing) <= s.removable
         assert not s.asset.joints
         assert all(isinstance(edge, Contact) for edge in s.given.edges)
-        moved = {e.child for e in (*s.truth.hinges, *s.truth.rails)}
-        assert moved == {j.part for j in s.whole.joints} == {i for i, x in label.items() if x.is_movable}
+        levers = {j.part for j in s.whole.small_joints if label[j.part] is PartLabel.HANDLE}
+        assert s.truth.moving == {j.part for j in (*s.whole.joints, *s.whole.small_joints)} - levers
+        assert {i for i, x in label.items() if x.is_movable} <= s.truth.moving
+        assert levers <= {edge.child for edge in s.truth.attachments}
         assert all(j.lower == 0.0 < j.upper for j in s.whole.joints)
 
 

@@ -39,7 +39,10 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
     name = f"synth_{seed}_{index:07d}"
     for _ in range(ATTEMPTS):
         blueprint, made = draw_made(rng)
-        tidy, absent = repaired(blueprint, made, rng)
+        try:
+            tidy, absent = repaired(blueprint, made, rng)
+        except ValueError:
+            continue  # no room for handles between doors that slide past one another
         if len(tidy.parts) > MOST_PARTS or faults_of(tidy):
             continue
         noise = draw_noise(rng, tidy, blueprint.family, absent)
@@ -116,7 +119,7 @@ def _with_names_lost(whole: Asset, truth: FunctionalGraph, given: Asset) -> tupl
 
 def removable_parts(whole: Asset, truth: FunctionalGraph) -> frozenset[str]:
     """Returns the parts without which everything still hangs on something: none that moves, rides unseen or carries."""
-    moving = {joint.part for joint in whole.joints}
+    moving = {joint.part for joint in (*whole.joints, *whole.small_joints)}
     keep = moving | carriers(truth)
     able = (p for p in whole.parts if p.label in RESTORABLE and p.id not in keep)
     return frozenset(p.id for p in able if p.carried_by is None or p.label is PartLabel.HANDLE)

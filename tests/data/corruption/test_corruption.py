@@ -12,8 +12,8 @@ from grafu.data.corruption.corrupt import corrupt, corrupt_by
 from grafu.data.corruption.strategies import STRATEGIES, probabilities
 from grafu.data.pair import GraphPair
 from grafu.errors import GraphError
-from grafu.graph.edges import Attached, Contact, ends_of
-from grafu.graph.edit import mirrored
+from grafu.graph.edges import Attached, Contact, Slide, ends_of
+from grafu.graph.edit import mirrored, with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
 from graph_strategies import functional_graphs
@@ -253,3 +253,20 @@ def test_some_strategy_must_be_left():
 def test_the_small_cabinet_is_as_the_tests_need_it():
     assert len(CONTACTS) + len(FUNCTIONAL) == len(cabinet().edges)
     assert all(isinstance(e, Attached) for e in FUNCTIONAL[4:])
+
+
+@given(seeds)
+def test_what_moves_without_being_a_door_or_drawer_is_no_still_part(seed):
+    still = next(n.id for n in cabinet().nodes if n.label is PartLabel.SHELF)
+    carrier = next(n.id for n in cabinet().nodes if n.label is PartLabel.SIDE_PANEL)
+    sliding = with_edges(cabinet(), [Slide(carrier, still, 2)])
+    assert still not in by("random_share", seed, target=sliding).missing
+
+
+def test_what_ran_on_a_dropped_part_is_left_as_a_contact_or_alone():
+    door = next(n.id for n in cabinet().nodes if n.label is PartLabel.DOOR)
+    shelf = next(n.id for n in cabinet().nodes if n.label is PartLabel.SHELF)
+    nested = with_edges(cabinet(), [Slide(door, shelf, 2)])
+    pair = by("drop_doors", target=nested)
+    assert door in pair.missing
+    assert shelf not in pair.input.moving

@@ -29,10 +29,11 @@ def draws(family, number):
 @pytest.mark.parametrize("family", sorted(FAMILIES))
 def test_a_family_makes_consistent_furniture(family):
     for asset in draws(family, 6):
-        movable = sorted(p.id for p in asset.parts if p.label.is_movable)
-        assert movable
-        assert sorted(j.part for j in asset.joints) == movable
-        assert all((p.carried_by is None) or p.carried_by in movable for p in asset.parts)
+        moving = [j.part for j in asset.joints]
+        assert moving
+        assert {p.id for p in asset.parts if p.label.is_movable} <= {*moving}
+        assert len({*moving}) == len(moving)
+        assert all((p.carried_by is None) or p.carried_by in moving for p in asset.parts)
         assert all(p.carried_by for p in asset.parts if p.label is PartLabel.HANDLE)
         assert 3 <= len(asset.parts) <= 140
 
@@ -55,7 +56,9 @@ def doors_before(asset, joint):
 @pytest.mark.parametrize("family", sorted(FAMILIES))
 def test_joints_open_and_move_freely(family):
     for asset in draws(family, 1):
-        for joint in asset.joints[:6]:
+        leading = {joint.coupling.leader for joint in asset.joints if joint.coupling}  # `faults_of` sweeps these
+        alone = [joint for joint in asset.joints if joint.coupling is None and joint.part not in leading]
+        for joint in alone[:6]:
             limit = pi if joint.type is JointType.REVOLUTE else 1.0
             assert 0.03 < joint.upper <= limit
             hit = collisions(asset, joint.part, np.linspace(0.1, 1.0, 4) * joint.upper, doors_before(asset, joint))

@@ -15,12 +15,14 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.cabinets.folding import FoldingDoors, make_folding_doors
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
 from grafu.synth.noise.edits import with_doubled_faces, with_loose_faces, with_open_backs
 from grafu.synth.pieces.shapes import turned
 from grafu.synth.samples import KINDS, TIDY
 from grafu.synth.truth import clashes as module
-from grafu.synth.truth.clashes import DEPTH, articulated_of, clashes_of
+from grafu.synth.truth.clashes import articulated_of, clashes_of
+from grafu.synth.truth.swept_pieces import DEPTH
 from grafu.vocabulary import JointType, PartLabel
 
 
@@ -143,11 +145,30 @@ def test_a_part_named_like_the_root_keeps_its_name():
     assert "body" in [v.name for v in made.link("body_").visuals]
 
 
-def test_a_joint_on_what_rides_is_refused():
+def test_two_joints_of_one_part_are_refused():
     asset = make_cabinet(Cabinet(layout=Door()))
-    on_handle = replace(asset.joints[0], part="handle")
-    with pytest.raises(ValueError, match="rides on nothing"):
-        articulated_of(replace(asset, joints=(*asset.joints, on_handle)))
+    with pytest.raises(ValueError, match="a part of its own"):
+        articulated_of(replace(asset, joints=asset.joints * 2))
+
+
+@pytest.mark.parametrize("leaves", [2, 4])
+def test_folding_leaves_hang_on_one_another_and_follow(leaves):
+    made = articulated_of(make_folding_doors(FoldingDoors(leaves=leaves)))
+    inner = [joint for joint in made.joints if joint.coupling is not None]
+    assert len(inner) == leaves // 2
+    for joint in inner:
+        outer = made.joint_of[joint.parent]
+        assert (joint.coupling.leader, joint.coupling.multiplier, outer.parent) == (outer.id, 2.0, made.root)
+
+
+def test_a_folding_leaf_is_swept_with_the_one_that_it_hangs_on():
+    asset = make_folding_doors(FoldingDoors(leaves=2, side="left"))
+    free = clashes_of(asset)
+    assert free.hits("door_1") == free.hits("door_2") == frozenset()
+    outer = asset.part("door_1").box
+    x, y, z = float(outer.high[0]), float(outer.low[1]) - 0.25, float(outer.center[2])
+    post = part("post", block([x - 0.05, y, z], [x + 0.2, y + 0.05, z + 0.1]))  # only the inner leaf passes there
+    assert clashes_of(replace(asset, parts=(*asset.parts, post))).hits("door_1") == {"post"}
 
 
 def test_still_furniture_is_one_link():

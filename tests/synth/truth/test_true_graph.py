@@ -5,14 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.asset.edit import mirrored
 from grafu.asset.part import Asset
+from grafu.graph.edges import Hinge, Slide, Turn
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.motion import direction_to_code
+from grafu.synth.appliances.appliance import Appliance, make_appliance
+from grafu.synth.cabinets.folding import FoldingDoors, make_folding_doors
+from grafu.synth.cabinets.sliding import SlidingDoors, make_sliding_doors
 from grafu.synth.noise.distortion import ajar, stretched
 from grafu.synth.noise.edits import with_shifted
 from grafu.synth.noise.segmentation import in_pieces, with_box_apart, with_joined
+from grafu.synth.tables.extending import ExtendingTable, make_extending_table
 from grafu.synth.truth.true_graph import carriers, true_graph
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 from sketches import Sketched, board, door, drawer, handle, sketch
 
 CASE = (
@@ -143,7 +150,37 @@ def test_codes_follow_a_mirror_image_and_outlast_stretching(cabinet: Asset) -> N
     assert turned == {"door_l": tidy["door_r"], "door_r": tidy["door_l"]}
 
 
-def test_a_sliding_door_has_no_edge(cabinet: Asset) -> None:
-    sliding = replace(cabinet, joints=tuple(replace(j, type=JointType.PRISMATIC) for j in cabinet.joints))
+def test_a_sliding_door_runs_on_what_lies_along_its_lower_or_upper_edge() -> None:
+    asset = make_sliding_doors(SlidingDoors(leaves=3))
+    slides = true_graph(asset, 1).slides
 
-    assert mounts(true_graph(sliding, 1)) == {}
+    assert {(edge.parent, edge.child, edge.axis) for edge in slides} == {
+        ("bottom_panel", joint.part, direction_to_code(joint.axis.direction)) for joint in asset.joints
+    }
+
+
+def test_a_folding_leaf_hangs_on_the_other_and_follows_it() -> None:
+    graph = true_graph(make_folding_doors(FoldingDoors(side="right")), 1)
+    mounts = {hinge.child: (hinge.parent, hinge.coupling) for hinge in graph.hinges}
+
+    assert mounts == {"door_1": ("door_2", Coupling("door_2", 2.0)), "door_2": ("side_panel_right", None)}
+    assert len({hinge.sign for hinge in graph.hinges}) == 2
+    assert "door_2" in carriers(graph)
+
+
+def test_what_moves_in_an_appliance_has_an_edge_of_its_kind() -> None:
+    spec = Appliance("microwave", "microwave", racks=0, knobs=1, buttons=1, width=0.5, height=0.3, depth=0.4)
+    edges = {edge.child: edge for edge in true_graph(make_appliance(spec), 1).motions}
+
+    assert edges["turntable"] == Turn("body", "turntable", 5)
+    assert edges["knob"] == Turn("panel", "knob", 2)
+    assert edges["button"] == Slide("panel", "button", 3)
+    assert isinstance(edges["door"], Hinge)
+
+
+def test_the_halves_of_a_table_run_on_its_frame_and_one_follows() -> None:
+    first, second = true_graph(make_extending_table(ExtendingTable()), 1).slides
+
+    assert (first.axis, second.axis) == (0, 1)
+    assert second.coupling == Coupling(first.child)
+    assert {first.parent[:5], second.parent[:5]} == {"apron"}

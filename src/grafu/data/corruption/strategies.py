@@ -164,8 +164,8 @@ def idle_nodes(graph: FunctionalGraph) -> list[str]:
 
 
 def still_nodes(graph: FunctionalGraph) -> list[str]:
-    """Returns the ids of the parts that are no door and no drawer, in order."""
-    return [n.id for n in graph.nodes if not n.label.is_movable]
+    """Returns the ids of the parts that are no door and no drawer and do not move, in order."""
+    return [n.id for n in graph.nodes if not n.label.is_movable and n.id not in graph.moving]
 
 
 Family = Literal["category drop", "label masking", "edge-preserving", "authors' code"]

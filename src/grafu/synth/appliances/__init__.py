@@ -1,1 +1,1 @@
-"""Appliances for tests: bodies with doors, racks and trays in them, knobs and buttons on them. No family has them."""
+"""Appliances: bodies with doors, racks and trays in them, knobs and buttons on them."""

@@ -18,7 +18,6 @@ from grafu.synth.sampling.chance import between
 from grafu.vocabulary import JointType, PartLabel
 
 ApplianceKind = Literal["dishwasher", "oven", "microwave"]
-_SMALL = ("knob", "turntable", "button")
 _PANEL = {"dishwasher": 0.0, "oven": 0.12, "microwave": 0.25}  # of the height, beside the door of the width
 _PRESS = 0.003  # metres: how far a button goes
 
@@ -28,7 +27,8 @@ _PRESS = 0.003  # metres: how far a button goes
 class Appliance:
     """An appliance, metres: `racks` slide in it, of a dishwasher baskets; `knobs` and `buttons` are on its panel.
 
-    A microwave oven has its panel at the right of its door, an oven above; a dishwasher has none.
+    With a `window` its door is a frame around a pane. A microwave oven has its panel at the right of its door, an oven
+    above; a dishwasher has none.
 
     Raises:
         ValueError: if there is a negative number of something, or a panel's things without a panel.
@@ -44,6 +44,7 @@ class Appliance:
     knobs: int = 0
     buttons: int = 0
     finish: Finish = PLAIN
+    window: bool = False
 
     def __post_init__(self) -> None:
         if min(self.racks, self.knobs, self.buttons) < 0 or (self.kind == "dishwasher" and self.knobs + self.buttons):
@@ -69,13 +70,16 @@ def make_appliance(spec: Appliance) -> Asset:
     body, leaf = _outer(spec)
     edge: Literal["bottom", "left"] = "left" if spec.kind == "microwave" else "bottom"
     white, metal = spec.finish.case, spec.finish.metal
-    pieces = [hollow(white, body, spec.wall), door(spec.finish.front, metal, leaf, edge), *_within(spec, body, leaf)]
+    window = spec.finish.glass if spec.window else None
+    pieces = [
+        hollow(white, body, spec.wall),
+        door(spec.finish.front, metal, leaf, edge, window),
+        *_within(spec, body, leaf),
+    ]
     panel = _panel(spec, body, leaf)
     if panel is not None:
         pieces += [plank(PartLabel.MISC, "panel", white, panel), *_on_panel(spec, panel)]
-    made = assemble(spec.name, pieces)
-    small = tuple(j for j in made.joints if j.part.split("_")[0] in _SMALL)
-    return replace(made, joints=tuple(j for j in made.joints if j not in small), small_joints=small)
+    return assemble(spec.name, pieces)
 
 
 def _outer(spec: Appliance) -> tuple[Span, Span]:
@@ -131,10 +135,10 @@ def _on_panel(spec: Appliance, panel: Span) -> Iterator[PieceDraft]:
         if k < spec.knobs:
             yield replace(dial(metal, x, y0, z, radius, 0.02), motion=_turn(Axis(inwards.point, -inwards.direction)))
         else:
-            pressed = PieceMotion(Slide.joint_type, inwards, _PRESS)
+            pressed = PieceMotion(Slide.joint_type, inwards, _PRESS, small=True)
             square = ((x - radius, y0 - 0.01, z - radius), (x + radius, y0, z + radius))
             yield replace(plank(PartLabel.MISC, "button", metal, square), motion=pressed)
 
 
 def _turn(axis: Axis) -> PieceMotion:
-    return PieceMotion(JointType.CONTINUOUS, axis, 2 * pi)
+    return PieceMotion(JointType.CONTINUOUS, axis, 2 * pi, small=True)

@@ -13,10 +13,12 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.edges import Hinge
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, plank, solid
-from grafu.synth.pieces.shapes import prism
+from grafu.synth.pieces.finish import surface_of
+from grafu.synth.pieces.shapes import framed_opening, prism
 from grafu.vocabulary import PartLabel
 
 WIRE = 0.004  # metres
+FRAME = 0.22  # of the shorter side of a door: its frame around a window; handles stand on it
 _SIDES = 24  # of what is round
 _BAR = (0.03, 0.012)  # metres: how far a handle stands out, and how thick it is
 
@@ -34,8 +36,17 @@ def hollow(material: Material, span: Span, wall: float) -> PieceDraft:
     return plank(PartLabel.MISC, "body", material, *boards)
 
 
-def door(material: Material, metal: Material, span: Span, edge: Literal["bottom", "left", "right"]) -> PieceDraft:
-    """Returns a door that turns about an edge of its front side's box, with a bar along the opposite edge."""
+def door(
+    material: Material,
+    metal: Material,
+    span: Span,
+    edge: Literal["bottom", "left", "right"],
+    window: Material | None = None,
+) -> PieceDraft:
+    """Returns a door that turns about an edge of its front side's box, with a bar along the opposite edge.
+
+    With a `window` of some material, it is a frame around that.
+    """
     (x0, y0, z0), (x1, y1, z1) = span
     out, thick = _BAR
     if edge == "bottom":
@@ -50,8 +61,14 @@ def door(material: Material, metal: Material, span: Span, edge: Literal["bottom"
         bar = ((x, y0 - out, low), (x + thick, y0 - out + thick, high))
         posts = [((x, y0 - out, z), (x + thick, y0, z + thick)) for z in (low, high - thick)]
     handle = plank(PartLabel.HANDLE, "handle", metal, bar, *posts)
-    leaf = plank(PartLabel.DOOR, "door", material, span)
-    return PieceDraft(PartLabel.DOOR, "door", leaf.surfaces, PieceMotion(Hinge.joint_type, axis, pi / 2), (handle,))
+    surfaces = plank(PartLabel.DOOR, "door", material, span).surfaces
+    if window is not None:
+        box = Box(vec3(*span[0]), vec3(*span[1]))
+        bars = framed_opening(box, FRAME * min(x1 - x0, z1 - z0))
+        pane = Box.from_center(box.center, box.half - vec3(1.0, 0.0, 1.0) * FRAME * min(x1 - x0, z1 - z0))
+        panes = surface_of(TriangleMesh.box_mesh(pane), window)
+        surfaces = (*(surface_of(bar, material) for bar in bars), panes)
+    return PieceDraft(PartLabel.DOOR, "door", surfaces, PieceMotion(Hinge.joint_type, axis, pi / 2), (handle,))
 
 
 def rack(material: Material, span: Span, mesh: float, is_basket: bool) -> PieceDraft:

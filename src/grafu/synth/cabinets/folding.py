@@ -1,6 +1,7 @@
 """Cabinets whose doors fold: wardrobes with two or four leaves in one opening, and corner units with two hinged leaves.
 
-They are specimens for tests and samples; no family of the generator makes them, so that networks are trained on none.
+The corner units are drawn in the family of those; the wardrobes are specimens for tests and samples: families have
+folding leaves in their layouts (`fronts.gliding`).
 """
 
 from collections.abc import Iterator
@@ -19,7 +20,7 @@ from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
 from grafu.synth.cabinets.corner import InnerCorner, corner_case
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.front import front_pieces
-from grafu.synth.fronts.layout import Cell, Door, Edge, Edges, Pair, Rect
+from grafu.synth.fronts.layout import Cell, Edge, Edges, Pair, Rect
 from grafu.synth.fronts.setting import Mount, Setting
 from grafu.synth.pieces.assembly import PieceDraft, assemble, plank
 from grafu.synth.pieces.finish import Finish
@@ -123,7 +124,8 @@ def _edge(leaf: Part, sign: float, y: float) -> Vec3:
 class FoldingCorner:
     """An L-shaped corner unit with two leaves that meet in the inner corner, metres; `side` hangs on the case.
 
-    `case` states its size; its post and its doors do not count.
+    `case` states its size; its post does not count. Its first door states the leaves' style and the handle of the one
+    that is not on the case.
     """
 
     name: str = "folding_corner"
@@ -149,7 +151,8 @@ def _leaves(spec: FoldingCorner) -> Iterator[PieceDraft]:
     top = Edge.CASE if case.topped else Edge.STOP
     near = Rect(case.depth + case.post, case.along_x - t, low, high)
     far = Rect(t - case.along_y, -case.depth - case.post, low, high)
-    plain, pulled = Door(handle="none"), Door(handle="bar-round")
+    pulled = replace(case.door, shelves=0, behind=None)
+    plain = replace(pulled, handle="none", grip="none")
     is_right = spec.side == "right"
     door = replace(plain if is_right else pulled, hinge="left")
     yield from front_pieces(Cell(door, near, Edges(left=Edge.STOP, top=top)), setting)

@@ -1,4 +1,7 @@
-"""Pantry units whose slim front pulls out with the rack behind it: specimens for tests alone, in no family."""
+"""Pantry units whose slim front pulls out with the rack behind it: specimens for tests.
+
+Families have pull-outs in their layouts (`fronts.gliding`).
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,6 +1,6 @@
 """Cabinets whose doors slide: leaves that pass one another in a case, or one leaf that hangs before it.
 
-They are specimens for tests; no family of the generator makes them, so that networks are trained on none.
+They are specimens for tests; families have sliding doors in their layouts (`fronts.gliding`).
 """
 
 from collections.abc import Iterator

@@ -9,13 +9,14 @@ from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.cabinets.chest import Chest
 from grafu.synth.case.case import Case
 from grafu.synth.families.built import build_cabinet, draw_size
-from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, drawer_stack
+from grafu.synth.families.layouts import doors_across, drawer_grid, drawer_row, drawer_stack, sliding_across
+from grafu.synth.fronts.gliding import Folding
 from grafu.synth.fronts.hold import Inside
-from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Stack, Tilt
+from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, LeafStyle, OpenCell, Pair, Rect, Stack, Tilt
 from grafu.synth.sampling.carpentry import PieceSite, fitted
 from grafu.synth.sampling.casework import EDGES, ORNATE_EDGES, Build, draw_base
 from grafu.synth.sampling.chance import between, chance, count, pick
-from grafu.synth.sampling.style import chunky, draw_style, pushed
+from grafu.synth.sampling.style import MakerStyle, chunky, draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
 
 BEDROOM: Mapping[TraditionName, float] = {
@@ -25,15 +26,21 @@ OVER = Build(tops=("over", "between"), legs=(0.06, 0.25))
 LOW_LEGS = Build(tops=("between", "over"), legs=(0.05, 0.16), bases=("none", "plinth", "legs"))
 HANGING = Inside(rod=True)
 DOMED = 0.2  # lids of chests, as of old travelling chests
+SLIDING, FOLDING = 0.25, 0.04  # of wardrobes
+SLIDING_MIRRORS = 0.2  # of sliding wardrobes: mirrors are what they are bought for
 MIRRORS = 0.06  # wardrobe doors with a mirror
 # nightstands and dressers are a little below the hand of someone who stands before them
 STAND = PieceSite(hand=0.9)
 
 
 def wardrobe(rng: np.random.Generator) -> Cabinet:
-    """Returns a wardrobe: tall doors in a row, drawers below or beside, rods and shelves behind."""
+    """Returns a wardrobe: tall doors in a row, sliding in one of four, folding in few; drawers below or beside them."""
     style = draw_style(rng, BEDROOM)
-    size = draw_size(rng, (0.6, 2.4), (0.45, 0.65), (1.6, 2.35))
+    kind = pick(rng, {"hinged": 1.0 - SLIDING - FOLDING, "sliding": SLIDING, "folding": FOLDING})
+    widths = {"hinged": (0.6, 2.4), "sliding": (1.1, 2.6), "folding": (0.7, 1.2)}
+    size = draw_size(rng, widths[kind], (0.5, 0.68) if kind == "sliding" else (0.45, 0.65), (1.6, 2.35))
+    if kind != "hinged":
+        return build_cabinet(rng, "wardrobe", style, size, _gliding(rng, style, kind, size[0]), LOW_LEGS)
     doors = _hung(rng, doors_across(rng, size[0]))
     kind = pick(rng, {"doors": 0.56, "drawers below": 0.22, "above": 0.13, "open": 0.09})
     if kind == "drawers below":
@@ -49,6 +56,21 @@ def wardrobe(rng: np.random.Generator) -> Cabinet:
     else:
         layout = doors
     return build_cabinet(rng, "wardrobe", style, size, layout, LOW_LEGS)
+
+
+def _gliding(rng: np.random.Generator, style: MakerStyle, kind: str, width: float) -> Layout:
+    """Returns the sliding or folding doors of a wardrobe, above drawers or below doors now and then."""
+    rod = HANGING if chance(rng, 0.5) else Inside()
+    leaf: LeafStyle = "mirror" if chance(rng, SLIDING_MIRRORS) else "slab"
+    doors: Layout = Folding("left" if chance(rng, 0.5) else "right", inside=rod, shelves=1)
+    if kind == "sliding":
+        doors = replace(sliding_across(rng, width), leaf=leaf, inside=rod, shelves=1 if rod.rod else 0)
+    rest = pick(rng, {"doors": 0.72, "drawers below": 0.18, "above": 0.1})
+    if rest == "drawers below":
+        return Stack((drawer_row(rng, max(1, round(width / 0.7))), doors), (0.14, 1.0), style.between)
+    if rest == "above":
+        return Stack((doors, doors_across(rng, width)), (between(rng, (2.5, 4.5)), 1.0), "panel")
+    return doors
 
 
 def dresser(rng: np.random.Generator) -> Cabinet:

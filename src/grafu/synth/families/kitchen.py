@@ -12,13 +12,16 @@ import numpy as np
 
 from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner
+from grafu.synth.cabinets.folding import FoldingCorner
 from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.fronts.layout import Blank, CellRow, Door, Layout, OpenCell, Pair, Rect, Side, Stack
+from grafu.synth.fronts.gliding import Bins, Folding, PullOut
+from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack
 from grafu.synth.sampling.carpentry import FREE, PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
 from grafu.synth.sampling.chance import between, chance, count, pick
+from grafu.synth.sampling.fit_gliding import FLAT
 from grafu.synth.sampling.fittings import fit_door
 from grafu.synth.sampling.style import MakerStyle, chunky, draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
@@ -63,11 +66,16 @@ TALL = Build(bases=("toe kick", "plinth", "legs", "none"), tops=("between", "ove
 NARROW = 0.09  # base units for bottles, towels, trays
 BRIDGES = 0.41  # wall units that are wide and low, over a hood or a fridge (46408)
 ON_WALL = PieceSite(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
+# Metres: base units whose front mostly pulls out; fractions of those, and of slim tall units; of base units with bins
+SLIM, PULL_OUTS, PANTRIES = (0.15, 0.4), 0.25, 0.25
+LEAST_BINS, WASTE = 0.3, 0.045  # metres
+FOLDING_CORNERS, POST = 0.3, 0.004  # of L-shaped corner units; metres that the post is wider than its leaves are thick
+FOLD_UPS = 0.06  # of wall units with a flap: two leaves that fold up
 BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
 
 def base_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a base unit: doors, doors under drawers, or drawers alone."""
+    """Returns a base unit: doors, doors under drawers, drawers alone; racks or bins that come out."""
     style = pushed(rng, draw_style(rng, KITCHEN), 0.06)
     size = draw_size(rng, (0.15, 0.3) if chance(rng, NARROW) else (0.3, 1.2), (0.42, 0.65), (0.72, 0.9))
     return build_cabinet(rng, "base_cabinet", style, size, base_layout(rng, style, size), BASE)
@@ -76,6 +84,10 @@ def base_cabinet(rng: np.random.Generator) -> Cabinet:
 def base_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layout:
     """Returns the fronts of a base unit of this size."""
     width, _, height = size
+    if SLIM[0] <= width <= SLIM[1] and chance(rng, PULL_OUTS):
+        return PullOut(number=2 if chance(rng, 0.7) else 3)
+    if width > LEAST_BINS and chance(rng, WASTE):
+        return _waste(rng, style, width)
     kind = pick(rng, BASE_FRONTS)
     if kind == "drawers":
         return drawer_stack(rng, style, count(rng, 2, 5))
@@ -88,8 +100,18 @@ def base_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
     return doors_across(rng, width)
 
 
+def _waste(rng: np.random.Generator, style: MakerStyle, width: float) -> Layout:
+    """Returns a front with bins behind it: they come out with it, or slide out once the door is open."""
+    if width < 0.62 and chance(rng, 0.5):
+        drawn: Layout = PullOut("bins", count(rng, 1, 3))
+        return drawn if chance(rng, 0.6) else Stack((drawn, Drawer()), (between(rng, (3.0, 5.0)), 1.0), style.between)
+    room = between(rng, (0.45, 0.9)), between(rng, (0.6, 0.95))
+    bins = Bins(1 if width < 0.45 else count(rng, 1, 2), *room, chance(rng, 0.5), between(rng, (0.55, 0.75)))
+    return Door(behind=bins) if width < 0.6 else Pair(behind=bins)
+
+
 def wall_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a wall unit: doors, or a lift-up flap where it is wide and low (four in five of those)."""
+    """Returns a wall unit: doors; a flap that lifts, or folds, up on four in five that are wide and low."""
     style = chunky(rng, draw_style(rng, KITCHEN), 0.06)
     bridge = chance(rng, BRIDGES)
     size = draw_size(rng, (0.6, 1.25) if bridge else (0.2, 1.0), (0.28, 0.38), (0.28, 0.42) if bridge else (0.3, 0.95))
@@ -102,7 +124,7 @@ def wall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
     """Returns the fronts of a wall unit of this size."""
     width, _, height = size
     if width > 1.5 * height and chance(rng, 0.8):
-        return Door("top")
+        return Folding("top") if chance(rng, FOLD_UPS) else Door("top")
     if height > 0.6 and width > 0.5 and chance(rng, 0.08):
         return Stack((Door("top"), Door("top")), between=style.between)
     doors = doors_across(rng, width)
@@ -112,7 +134,7 @@ def wall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
 
 
 def tall_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a tall unit: doors above doors, above drawers, or one door over all its height."""
+    """Returns a tall unit: doors above doors, above drawers, one over all its height, or a rack that pulls out."""
     style = draw_style(rng, KITCHEN)
     size = draw_size(rng, (0.25, 0.95), (0.3, 0.62), (1.35, 2.35))
     layout = tall_layout(rng, style, size)
@@ -122,6 +144,8 @@ def tall_cabinet(rng: np.random.Generator) -> Cabinet:
 def tall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layout:
     """Returns the fronts of a tall unit of this size."""
     width = size[0]
+    if width < SLIM[1] and size[1] > 0.45 and chance(rng, PANTRIES):
+        return _pantry(rng, style, size[2])
     doors = doors_across(rng, width)
     kind = pick(rng, {"two": 0.42, "one": 0.28, "drawers": 0.17, "niche": 0.08, "three": 0.05})
     if kind == "one":
@@ -133,6 +157,14 @@ def tall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
         return Stack((drawer_stack(rng, style, count(rng, 1, 2)), OpenCell(), doors), (1.0, 0.8, 1.2))
     cells = (doors,) * (2 if kind == "two" else 3)
     return Stack(cells, (low, *(1.0 for _ in cells[1:])), style.between)
+
+
+def _pantry(rng: np.random.Generator, style: MakerStyle, height: float) -> Layout:
+    """Returns a rack behind a slim front over all its height, or below a door."""
+    trays = max(3, round(height / between(rng, (0.3, 0.5))))
+    if chance(rng, 0.6):
+        return PullOut(number=trays)
+    return Stack((PullOut(number=max(2, trays - 2)), Door()), (between(rng, (1.5, 2.5)), 1.0), style.between)
 
 
 def sink_cabinet(rng: np.random.Generator) -> Cabinet:
@@ -161,8 +193,8 @@ def _beside(rng: np.random.Generator, site: PieceSite) -> PieceSite:
 FRONT = Rect(0.0, 0.4, 0.1, 0.75)  # metres: about what a corner's door closes
 
 
-def corner_cabinet(rng: np.random.Generator) -> CornerCabinet | InnerCorner:
-    """Returns a corner unit: six in ten have an angled front, the others are L-shaped."""
+def corner_cabinet(rng: np.random.Generator) -> CornerCabinet | InnerCorner | FoldingCorner:
+    """Returns a corner unit: six in ten have an angled front, the others are L-shaped, their doors folding in few."""
     style = draw_style(rng, KITCHEN)
     return _angled(rng, style) if chance(rng, 0.6) else _inner(rng, style)
 
@@ -184,12 +216,13 @@ def _angled(rng: np.random.Generator, style: MakerStyle) -> CornerCabinet:
     )
 
 
-def _inner(rng: np.random.Generator, style: MakerStyle) -> InnerCorner:
-    """Returns an L-shaped unit; its doors hang at the far ends, as the shape demands."""
-    depth, post = between(rng, (0.3, 0.6)), between(rng, (0.05, 0.09))
+def _inner(rng: np.random.Generator, style: MakerStyle) -> InnerCorner | FoldingCorner:
+    """Returns an L-shaped unit; its doors hang at the far ends, as the shape demands, or on one another."""
+    folds = chance(rng, FOLDING_CORNERS)
+    depth, post = between(rng, (0.3, 0.6)), style.front + POST if folds else between(rng, (0.05, 0.09))
     along = depth + post + between(rng, (0.28, 0.5))
     base = between(rng, (0.08, 0.14)) if depth > 0.4 else 0.0
-    return InnerCorner(
+    case = InnerCorner(
         along_x=along,
         along_y=along if chance(rng, 0.7) else depth + post + between(rng, (0.28, 0.5)),
         depth=depth,
@@ -206,6 +239,10 @@ def _inner(rng: np.random.Generator, style: MakerStyle) -> InnerCorner:
         gap=max(style.gap, needed_gap(Door(), Rect(0.0, 0.28, 0.0, 0.6), style.front)),
         finish=style.finish,
     )
+    if not folds:
+        return case
+    flat = replace(case.door, leaf=case.door.leaf if case.door.leaf in FLAT else "slab")
+    return FoldingCorner(case=replace(case, door=flat, second=None), side="left" if chance(rng, 0.5) else "right")
 
 
 def _door(rng: np.random.Generator, style: MakerStyle, side: Side | None = None) -> Door:

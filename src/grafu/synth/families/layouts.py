@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from grafu.synth.fronts.gliding import Sliding
 from grafu.synth.fronts.hold import HandleStyle
 from grafu.synth.fronts.layout import Between, Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Stack
 from grafu.synth.sampling.carpentry import drawer_heights
@@ -17,6 +18,8 @@ from grafu.synth.sampling.style import MakerStyle
 
 WIDEST_DOOR = 0.62  # metres: wider single doors are rare, wider openings have a pair
 WIDEST_PAIR = 1.15
+WIDE, THREE_LEAVES = 1.7, 0.4  # metres; of sliding doors across more than that: three leaves
+LEAST_BESIDE, ALONE = 1.2, 0.6  # metres; of wider pieces with sliding doors: nothing beside these
 BEHIND = 0.035  # doors of deep cases with drawers behind them: sold often, modelled seldom
 INNER_KNOBS: Mapping[HandleStyle, float] = {
     "knob-round": 1.0,
@@ -122,6 +125,31 @@ def free_leaf(rng: np.random.Generator, style: MakerStyle, width: float, height:
             return Door("top" if chance(rng, 0.4) else "bottom")
         case _:
             return OpenCell()
+
+
+def sliding_across(rng: np.random.Generator, width: float, ratio: float = THREE_LEAVES) -> Sliding:
+    """Returns sliding doors across a width: two leaves, three (in this fraction of draws) where it is wide."""
+    return Sliding(leaves=3 if width > WIDE and chance(rng, ratio) else 2)
+
+
+def sliding_or(rng: np.random.Generator, ratio: float, width: float, barn: float = 0.0) -> Layout | None:
+    """Returns sliding doors as the whole front, at these chances in the opening or before it; None otherwise.
+
+    Two leaves close all of it, or its middle or one side beside open shelves or drawers.
+    """
+    kind = pick(rng, {"none": 1.0 - ratio - barn, "bypass": ratio, "barn": barn})
+    if kind == "none":
+        return None
+    if kind == "barn":
+        return Sliding("barn", 1)
+    doors = sliding_across(rng, width)
+    if width < LEAST_BESIDE or chance(rng, ALONE):
+        return doors
+    aside: Layout = OpenCell() if chance(rng, 0.5) else Stack((Drawer(),) * count(rng, 2, 3), (), "nothing")
+    if width > WIDE and chance(rng, 0.4):
+        return CellRow((aside, Sliding(), aside), (1.0, between(rng, (2.0, 3.0)), 1.0))
+    cells: tuple[Layout, ...] = (aside, doors) if chance(rng, 0.5) else (doors, aside)
+    return CellRow(cells, tuple(1.0 if cell is aside else between(rng, (1.8, 2.8)) for cell in cells))
 
 
 def _level(style: MakerStyle) -> Between:

@@ -12,7 +12,15 @@ from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.cabinets.rack import Rack
 from grafu.synth.case.construction import Sides
 from grafu.synth.families.built import build_cabinet, cabinet_of, draw_size
-from grafu.synth.families.layouts import doors_across, doors_beside_drawers, drawer_row, drawer_stack, free_layout
+from grafu.synth.families.layouts import (
+    doors_across,
+    doors_beside_drawers,
+    drawer_row,
+    drawer_stack,
+    free_layout,
+    sliding_or,
+)
+from grafu.synth.fronts.gliding import Sliding
 from grafu.synth.fronts.layout import CellRow, Door, Drawer, Layout, LeafStyle, OpenCell, Pair, Stack
 from grafu.synth.sampling.carpentry import PieceSite
 from grafu.synth.sampling.casework import Build, draw_case
@@ -83,13 +91,21 @@ CLOSED: Mapping[Layout, float] = {Door(): 3.0, Drawer(): 1.0, Stack((Drawer(), D
 GLASS: Mapping[LeafStyle, float] = {"glass": 0.65, "muntins": 0.35}
 
 
+# Of sideboards, TV stands and lowboards, and of bookcases; a door on a rail before the case, of the first two and these
+SLIDING, FEW, BARN = 0.08, 0.02, 0.01
+PANES, NARROWEST_SLIDING = 0.18, 0.7  # of display cabinets as wide as this, one in ten of all; metres
+
+
 def sideboard(rng: np.random.Generator) -> Cabinet:
-    """Returns a sideboard: doors, drawers beside or above them, an open bay now and then."""
+    """Returns a sideboard: doors, few of which slide, drawers beside or above them, an open bay now and then."""
     style = draw_style(rng, LIVING)
     size = draw_size(rng, (0.8, 2.0), (0.33, 0.5), (0.6, 1.0))
     width = size[0]
     kind = pick(rng, {"beside": 0.32, "above": 0.22, "doors": 0.2, "bay": 0.14, "flap": 0.12})
-    if kind == "beside":
+    sliding = sliding_or(rng, SLIDING, width, BARN)
+    if sliding is not None:
+        layout = sliding
+    elif kind == "beside":
         layout = doors_beside_drawers(rng, style, width, count(rng, 2, 4))
     elif kind == "above":
         row = drawer_row(rng, 2 if width < 1.2 else count(rng, 2, 4))
@@ -117,15 +133,18 @@ def _beside_flap(rng: np.random.Generator, style: MakerStyle, width: float) -> L
 
 
 def tv_stand(rng: np.random.Generator) -> Cabinet:
-    """Returns a low TV stand: open bays between drawers and doors."""
+    """Returns a low TV stand: open bays between drawers and doors, few of which slide."""
     style = draw_style(rng, LIVING)
     size = draw_size(rng, (1.0, 2.9), (0.33, 0.5), (0.3, 0.65))
     low = style.between
     fronts: Mapping[Layout, float] = {Door(): 0.45, Drawer(): 0.3, Stack((Drawer(), Drawer()), (), low): 0.25}
     closed = pick(rng, fronts)
     kind = pick(rng, {"sides": 0.45, "below": 0.23, "middle": 0.13, "row": 0.09, "drawers": 0.1})
-    if kind == "sides":
-        layout: Layout = CellRow((closed, OpenCell(), closed), (1.0, between(rng, (0.9, 1.8)), 1.0))
+    sliding = sliding_or(rng, SLIDING, size[0], BARN)
+    if sliding is not None:
+        layout: Layout = sliding
+    elif kind == "sides":
+        layout = CellRow((closed, OpenCell(), closed), (1.0, between(rng, (0.9, 1.8)), 1.0))
     elif kind == "below":
         layout = Stack((drawer_row(rng, count(rng, 2, 3)), OpenCell()), (between(rng, (0.8, 1.4)), 1.0))
     elif kind == "drawers" and size[0] < WIDEST_DRAWER:
@@ -151,6 +170,7 @@ def lowboard(rng: np.random.Generator) -> Cabinet:
     if chance(rng, 0.3):
         cells = [Stack((cell, OpenCell()), (1.0, between(rng, (0.4, 0.8)))) for cell in cells]
     layout = CellRow(tuple(cells)) if columns > 1 else cells[0]
+    layout = sliding_or(rng, SLIDING, size[0]) or layout
     return build_cabinet(rng, "lowboard", style, size, layout, LOW if chance(rng, TOPPED) else PLAIN_LOW, STAND)
 
 
@@ -166,8 +186,12 @@ def bookcase(rng: np.random.Generator) -> Cabinet:
     if width > 0.9:
         above = CellRow((bay,) * (2 if width < 1.35 else 3))
     kind = pick(rng, {"below": 0.72, "all": 0.1, "middle": 0.18})
-    if kind == "all":
-        layout: Layout = CellRow((doors_across(rng, width / 2), bay)) if width > 0.8 else doors_across(rng, width)
+    sliding = sliding_or(rng, FEW, 0.0, BARN) if width > NARROWEST_SLIDING else None
+    if sliding is not None:
+        glazed = sliding if not isinstance(sliding, Sliding) else replace(sliding, pane=chance(rng, 0.5))
+        layout: Layout = Stack((glazed, above), (1.0, between(rng, (1.3, 2.6))))
+    elif kind == "all":
+        layout = CellRow((doors_across(rng, width / 2), bay)) if width > 0.8 else doors_across(rng, width)
     elif kind == "middle":
         layout = Stack((OpenCell(shelves=1), low, replace(bay, shelves=2)), (1.0, 0.8, 1.4))
     else:
@@ -176,13 +200,16 @@ def bookcase(rng: np.random.Generator) -> Cabinet:
 
 
 def display_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a cabinet with glass doors, over all its height or above plain doors or drawers."""
+    """Returns a cabinet with glass doors or sliding panes, over all its height or above plain doors or drawers."""
     style = draw_style(rng, LIVING)
     size = draw_size(rng, (0.35, 1.4), (0.3, 0.45), (1.1, 2.1))
     glass = pick(rng, GLASS)
+    slides = size[0] > NARROWEST_SLIDING and chance(rng, PANES)
     tall: Layout = Door(leaf=glass) if size[0] < 0.55 else Pair(leaf=glass)
     if size[0] > 1.1:
         tall = CellRow((Door(leaf=glass), Pair(leaf=glass)), (1.0, 2.0)) if chance(rng, 0.4) else Pair(leaf=glass)
+    if slides:
+        tall = Sliding(pane=True) if chance(rng, 0.6) else Sliding(leaf="glass")
     if chance(rng, 0.5):
         low = doors_across(rng, size[0]) if chance(rng, 0.6) else drawer_row(rng, 1 if size[0] < 0.7 else 2)
         ratio = between(rng, (1.5, 3.0)) if not isinstance(low, Drawer) else 6.0

@@ -2,7 +2,8 @@
 
 The weights follow what PartNet-Mobility's StorageFurniture and Table hold: kitchen base and wall units about a third,
 sideboards, dressers and nightstands a quarter, wardrobes and tall units one in eight, TV furniture and shelves one in
-twelve each; tables and desks with drawers one in eight; the rest is there for variety. All chance lies in the drawing
+twelve each; tables and desks with drawers one in eight; the rest is there for variety, and so that each way to move is
+seen: appliances are one in twenty, doors and windows of buildings one in thirty. All chance lies in the drawing
 (`draw_blueprint`); a second table, from spec type to maker, makes what was drawn, deterministically.
 """
 
@@ -13,18 +14,25 @@ from typing import Any, final
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.synth.appliances.appliance import Appliance, make_appliance
 from grafu.synth.cabinets.bureau import Bureau, make_bureau
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.cabinets.chest import Chest, make_chest
 from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner, make_corner_cabinet, make_inner_corner
 from grafu.synth.cabinets.ensemble import Ensemble, make_ensemble
+from grafu.synth.cabinets.folding import FoldingCorner, make_folding_corner
 from grafu.synth.cabinets.rack import Rack, make_rack
-from grafu.synth.families import bedroom, composed, kitchen, living, office, tables
+from grafu.synth.families import bedroom, built_in, composed, kitchen, living, office, tables
+from grafu.synth.openings.door import DoorSpec, make_building_door
+from grafu.synth.openings.window import WindowSpec, make_window_with_labels
 from grafu.synth.sampling.chance import pick
 from grafu.synth.tables.desk import Desk, make_desk
+from grafu.synth.tables.drop_leaf import DropLeafTable, make_drop_leaf_table
+from grafu.synth.tables.extending import ExtendingTable, make_extending_table
 from grafu.synth.tables.table import DrawerTable, make_table
 
-Spec = Cabinet | DrawerTable | Desk | Chest | CornerCabinet | InnerCorner | Rack | Ensemble | Bureau
+Storage = Cabinet | Chest | CornerCabinet | InnerCorner | FoldingCorner | Rack | Ensemble | Bureau
+Spec = Storage | DrawerTable | Desk | DropLeafTable | ExtendingTable | Appliance | DoorSpec | WindowSpec
 Draw = Callable[[np.random.Generator], Spec]
 
 FAMILIES: Mapping[str, tuple[float, Draw]] = {
@@ -58,8 +66,13 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "table with drawers": (8.5, tables.drawer_table),
     "bureau": (1.0, office.bureau),
     "vanity": (1.2, tables.vanity),
-    "fridge": (0.6, office.fridge),
-    "oven": (0.8, office.oven),
+    "drop-leaf table": (1.1, tables.drop_leaf_table),
+    "extending table": (1.1, tables.extending_table),
+    "fridge": (1.2, office.fridge),
+    "oven": (1.2, office.oven),
+    "appliance": (4.6, built_in.appliance),
+    "building door": (2.1, built_in.building_door),
+    "window": (2.1, built_in.building_window),
 }
 
 
@@ -75,6 +88,12 @@ MAKERS: dict[type, Callable[[Any], Asset]] = {
     Rack: make_rack,
     Ensemble: make_ensemble,
     Bureau: make_bureau,
+    FoldingCorner: make_folding_corner,
+    DropLeafTable: make_drop_leaf_table,
+    ExtendingTable: make_extending_table,
+    Appliance: make_appliance,
+    DoorSpec: make_building_door,
+    WindowSpec: make_window_with_labels,
 }
 
 

@@ -17,6 +17,8 @@ from grafu.synth.sampling.chance import Span, between, chance, count, only, pick
 from grafu.synth.sampling.style import MakerStyle, draw_style, pushed
 from grafu.synth.sampling.traditions import TraditionName
 from grafu.synth.tables.desk import Desk
+from grafu.synth.tables.drop_leaf import DropLeafTable, drawn_drop_leaf_table
+from grafu.synth.tables.extending import ExtendingTable
 from grafu.synth.tables.table import DrawerTable
 
 HOME: Mapping[TraditionName, float] = {
@@ -29,6 +31,7 @@ STAND = PieceSite(hand=0.9)
 ON_TABLE = Build(bases=("none",), tops=("between",), moulded=False, framed=False, open_back=True)
 STRETCHERS: Mapping[Stretcher, float] = {"none": 0.6, "sides": 0.1, "H": 0.1, "box": 0.08, "shelf": 0.12}
 TABLE_LEGS: tuple[LegShape, ...] = ("square", "tapered", "round", "cone", "turned", "splayed", "cabriole")
+UPRIGHT_LEGS: tuple[LegShape, ...] = ("square", "tapered", "round", "cone", "turned")  # beside leaves that hang
 # width, depth, height in metres, and how many drawers beside each other
 TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
     "side": ((0.35, 0.7), (0.35, 0.55), (0.45, 0.8), (1, 1)),
@@ -37,6 +40,7 @@ TABLES: Mapping[str, tuple[Span, Span, Span, tuple[int, int]]] = {
     "dining": ((1.3, 2.3), (0.75, 1.0), (0.68, 0.78), (1, 4)),
     "long": ((2.0, 3.0), (0.6, 1.05), (0.66, 0.78), (3, 6)),
 }
+TRAY_ZONE = 0.1  # metres: below a top, for a keyboard's tray and the hands on it
 LOW_APRON = 0.06  # metres: a lower one has no room for bars and drawers
 KINDS: Mapping[str, float] = {"side": 0.31, "console": 0.18, "coffee": 0.11, "dining": 0.1, "long": 0.34}
 # metres: the height of a table's apron, from a pencil drawer's to a drawer's for cutlery or linen
@@ -49,6 +53,7 @@ APRONS: Mapping[str, Span] = {
 RAILED, SPINED, PARTED, MOULDED, MODEST = 0.3, 0.45, 0.45, 0.12, 0.1
 BOARDED = 0.5  # of tables with such bars: one board with an opening for each drawer (26608)
 MIDDLE, TRAY, DESK_TRAY = 0.35, 0.5, 0.25  # of desks with something between their pedestals, a keyboard's tray (32052)
+SWIVELLED = 0.3  # of mirrors on dressing tables
 THICK_LEGS = 0.4  # of small tables: legs and boards thick for their size (20411)
 
 
@@ -125,11 +130,46 @@ def drawer_table(rng: np.random.Generator) -> DrawerTable:
 
 
 def vanity(rng: np.random.Generator) -> DrawerTable:
-    """Returns a dressing table with small drawers, mostly with a mirror."""
+    """Returns a dressing table with small drawers, mostly with a mirror, which swivels on three in ten of these."""
     style = draw_style(rng, HOME)
     size = draw_size(rng, (0.75, 1.3), (0.38, 0.55), (0.7, 0.8))
     mirror = between(rng, (0.4, 0.9)) if chance(rng, 0.75) else 0.0
-    return _table(rng, "vanity", style, size, count(rng, 2, 3), (0.06, 0.2), mirror=mirror)
+    table = _table(rng, "vanity", style, size, count(rng, 2, 3), (0.06, 0.2), mirror=mirror)
+    return replace(table, swivel=between(rng, (0.28, 0.6))) if mirror and chance(rng, SWIVELLED) else table
+
+
+def drop_leaf_table(rng: np.random.Generator) -> DropLeafTable:
+    """Returns a table with one leaf or two that hang from its top, straight or half round."""
+    style = draw_style(rng, HOME)
+    plain = drawn_drop_leaf_table(rng, "drop_leaf_table")
+    leg = _table_leg(rng, style, min(plain.width, plain.depth), UPRIGHT_LEGS)
+    return replace(
+        plain,
+        leg=min(leg.thick, plain.width / 5),
+        leg_shape=leg.shape,
+        leg_foot=leg.foot,
+        finish=style.finish,
+        is_round=chance(rng, 0.3),
+    )
+
+
+def extending_table(rng: np.random.Generator) -> ExtendingTable:
+    """Returns a table whose halves slide apart, or with leaves that come out from under its top."""
+    style = draw_style(rng, HOME)
+    size = draw_size(rng, (1.0, 2.1), (0.7, 1.05), (0.7, 0.78))
+    leg = _table_leg(rng, style, size[1])
+    return ExtendingTable(
+        "extending_table",
+        "halves" if chance(rng, 0.5) else "draw leaves",
+        *size,
+        top=between(rng, (0.015, 0.035)),
+        leg=max(leg.thick, 0.035),
+        apron=between(rng, (0.06, 0.12)),
+        travel=between(rng, (0.4, 0.8)),
+        finish=style.finish,
+        leg_shape=leg.shape,
+        leg_foot=leg.foot,
+    )
 
 
 def _table(
@@ -150,11 +190,12 @@ def _table(
     if thick:
         leg = replace(leg, thick=between(rng, (0.045, 0.08)))
     zone = min(spread(rng, apron), 0.35 * height)
-    rails = between(rng, (0.1, 0.22)) * zone if chance(rng, RAILED) and zone > LOW_APRON else 0.0
+    tray = number == 1 and name == "writing_desk" and chance(rng, DESK_TRAY)
+    zone = max(zone, TRAY_ZONE) if tray else zone
+    rails = between(rng, (0.1, 0.22)) * zone if chance(rng, RAILED) and zone > LOW_APRON and not tray else 0.0
     gaps: Between = "panel" if chance(rng, PARTED) else "nothing"
     drawers: Layout = CellRow((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
     if number == 1:
-        tray = name == "writing_desk" and chance(rng, DESK_TRAY)
         drawers = Drawer("tray", handle="none") if tray else Drawer()
     room = Rect(leg.thick - width / 2, width / 2 - leg.thick, height - zone, height)
     low = chance(rng, 0.25)
@@ -192,9 +233,11 @@ def _table(
     )
 
 
-def _table_leg(rng: np.random.Generator, style: MakerStyle, side: float) -> Leg:
+def _table_leg(
+    rng: np.random.Generator, style: MakerStyle, side: float, shapes: tuple[LegShape, ...] = TABLE_LEGS
+) -> Leg:
     """Returns a leg of a shape that carries tables; no feet and casters."""
-    return replace(draw_leg(rng, style, side), shape=pick(rng, only(style.rules.leg, TABLE_LEGS)))
+    return replace(draw_leg(rng, style, side), shape=pick(rng, only(style.rules.leg, shapes)))
 
 
 def _hutch(rng: np.random.Generator, style: MakerStyle, width: float, depth: float) -> Cabinet:

@@ -11,6 +11,8 @@ from math import pi
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.synth.fronts.drawer_box import drawer_box, tray_level, tray_meshes
+from grafu.synth.fronts.gliding import Bins, Folding, PullOut, Sliding
+from grafu.synth.fronts.gliding_front import folding_pieces, sliding_pieces
 from grafu.synth.fronts.handles import gripped_side, handle_pieces, held_along, opposite
 from grafu.synth.fronts.interior import RUNNER, interior_pieces, runner_pieces
 from grafu.synth.fronts.layout import (
@@ -32,6 +34,7 @@ from grafu.synth.fronts.layout import (
 )
 from grafu.synth.fronts.leaf_relief import LeafShape, bend_at_hinge
 from grafu.synth.fronts.leaves import leaf_surfaces
+from grafu.synth.fronts.pull_out_front import bin_pieces, pull_out_pieces
 from grafu.synth.fronts.setting import Setting, front_rect, inner_span
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, plank
 from grafu.synth.pieces.finish import surface_of
@@ -162,6 +165,10 @@ _MAKERS: dict[type, Callable[[Cell, Setting], Iterator[PieceDraft]]] = {
     Tilt: _tilt_pieces,
     Blank: _blank_pieces,
     OpenCell: _bay_pieces,
+    Sliding: sliding_pieces,
+    Folding: folding_pieces,
+    PullOut: pull_out_pieces,
+    Bins: bin_pieces,
 }
 
 
@@ -215,7 +222,10 @@ def _muntin(rect: Rect, setting: Setting) -> PieceDraft:
 
 
 def _behind(layout: Layout, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
-    """Yields inset fronts inside an opening, between two fillers that keep them clear of the door."""
+    """Yields inset fronts inside an opening, between two fillers that keep them clear of the door; or bins, without."""
+    if isinstance(layout, Bins):
+        yield from bin_pieces(replace(cell, leaf=layout), setting)
+        return
     o, plane = cell.opening, setting.inner + BEHIND_ROOM
     side = BEHIND_SIDE if setting.mount == "inset" else 0.018
     rect = replace(o, x0=o.x0 + side, x1=o.x1 - side)

@@ -10,16 +10,15 @@ from enum import Enum
 from math import radians
 from typing import Literal, final
 
+from grafu.synth.fronts.gliding import Bins, Folding, PullOut, Sliding
 from grafu.synth.fronts.hold import EMPTY, USUAL, Grip, HandleStyle, Hold, Inside
+from grafu.synth.fronts.leaf_style import CURVED as CURVED
+from grafu.synth.fronts.leaf_style import LeafStyle as LeafStyle
+from grafu.synth.fronts.leaf_style import Side as Side
+from grafu.synth.fronts.leaf_style import check_grip
 
-Side = Literal["left", "right", "top", "bottom"]
-LeafStyle = Literal[
-    "slab", "chamfered", "rounded", "bowed", "swept", "swept frame", "arched", "half arched", "planks", "shaker",
-    "glass", "mirror", "raised panel", "two panels", "muntins", "louvred", "arched rail",
-]  # fmt: skip
 DrawerBox = Literal["whole", "no bottom", "shell", "front only", "floating", "tray", "four walls"]
 Between = Literal["panel", "rail", "frame", "nothing"]
-CURVED: frozenset[LeafStyle] = frozenset({"bowed", "swept", "swept frame"})  # they bulge before the front's plane
 
 
 @final
@@ -42,7 +41,7 @@ class Door:
     grip: Grip = "none"
 
     def __post_init__(self) -> None:
-        _check_grip(self.grip, self.leaf)
+        check_grip(self.grip, self.leaf)
         if self.leaf in CURVED and self.hinge in ("top", "bottom"):
             raise ValueError(
                 f"a {self.leaf} leaf needs an upright hinge (its belly would strike above a flap's): {self.hinge}"
@@ -69,7 +68,7 @@ class Pair:
     grip: Grip = "none"
 
     def __post_init__(self) -> None:
-        _check_grip(self.grip, self.leaf)
+        check_grip(self.grip, self.leaf)
 
 
 @final
@@ -92,7 +91,7 @@ class Drawer:
     grip: Grip = "none"
 
     def __post_init__(self) -> None:
-        _check_grip(self.grip, self.leaf)
+        check_grip(self.grip, self.leaf)
         if self.hold.place in ("free edge", "hinge edge"):
             raise ValueError(f"a drawer has no hinge: its `place` must be another than {self.hold.place}")
         if self.leaf in ("swept", "swept frame", "half arched"):
@@ -112,7 +111,7 @@ class Tilt:
     grip: Grip = "none"
 
     def __post_init__(self) -> None:
-        _check_grip(self.grip, self.leaf)
+        check_grip(self.grip, self.leaf)
 
 
 @final
@@ -161,7 +160,7 @@ class Stack:
         _check_weights("Stack", self.cells, self.weights)
 
 
-Leaf = Door | Pair | Drawer | Tilt | Blank | OpenCell
+Leaf = Door | Pair | Drawer | Tilt | Blank | OpenCell | Sliding | Folding | PullOut | Bins
 Layout = Leaf | CellRow | Stack
 
 
@@ -275,11 +274,6 @@ def _inner_edges(edges: Edges, row: bool, inner: Edge, first: bool, last: bool) 
     if row:
         return Edges(edges.left if first else inner, edges.right if last else inner, edges.bottom, edges.top)
     return Edges(edges.left, edges.right, edges.bottom if first else inner, edges.top if last else inner)
-
-
-def _check_grip(grip: Grip, leaf: LeafStyle) -> None:
-    if grip != "none" and leaf != "slab":
-        raise ValueError(f"a grip is cut into a slab: got a {grip} in a {leaf} leaf")
 
 
 def _check_weights(what: str, cells: tuple[Layout, ...], weights: tuple[float, ...]) -> None:

@@ -9,7 +9,6 @@ from typing import final
 
 import numpy as np
 
-from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
@@ -51,7 +50,8 @@ def runners(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     still = [p for p in asset.parts if p.label.is_support]
     for joint in asset.joints:
         along = int(np.argmax(np.abs(joint.axis.direction)))
-        if motion_kind(joint.type).turns or along == 2 or abs(joint.axis.direction[along]) < 0.999:
+        drawer = asset.part(joint.part).label is PartLabel.DRAWER
+        if not drawer or along == 2 or abs(joint.axis.direction[along]) < 0.999:
             continue
         body = _body(asset.part(joint.part), along, float(joint.axis.direction[along]))
         if body is None:

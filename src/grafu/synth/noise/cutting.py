@@ -9,6 +9,7 @@ import numpy as np
 from grafu.asset.part import Asset, Part
 from grafu.synth.noise.modelling_noise import Joined, PartCut
 from grafu.synth.noise.segmentation import is_board
+from grafu.synth.pieces.riding import busy_in
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.vocabulary import PartLabel
 
@@ -46,7 +47,7 @@ def draw_joined(
     Where a case is joined, its top is one of what is joined with chance `tops`.
     """
     found = []
-    busy = {j.part for j in asset.joints} | {p.carried_by for p in asset.parts if p.carried_by}
+    busy = busy_in(asset)
     still = [p for p in parts if p.id not in busy and p.carried_by is None]
     if not chance(rng, tops):
         still = [p for p in still if p.label is not PartLabel.TOP_PANEL]

@@ -15,6 +15,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Points, Vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation
+from grafu.synth.pieces.riding import bodies_of, carriers_of, led_by, poses_at
 
 STRAIGHT = 0.93  # mean largest component of a face normal: 1 for boards along the axes, 0.87 for a door at 30 degrees
 
@@ -39,26 +40,37 @@ def stretched(asset: Asset, factors: Vec3) -> Asset:
     return replace(
         asset,
         parts=tuple(_moved(p, T) for p in asset.parts),
-        joints=tuple(_stretched_joint(joint, T) for joint in asset.joints),
+        joints=_stretched_joints(asset.joints, T),
+        small_joints=_stretched_joints(asset.small_joints, T),
     )
 
 
 def ajar(asset: Asset, part_id: str, ratio: float) -> Asset:
-    """Returns the asset with a door or drawer, and what rides on it, opened by a fraction of its range.
+    """Returns the asset with a moving part, what rides on it and what follows it opened by a fraction of its range.
 
     Raises:
-        ValueError: if the fraction is not in 0..1.
+        ValueError: if the fraction is not in 0..1, or the part follows another.
     """
     if not 0.0 <= ratio <= 1.0:
         raise ValueError(f"`ratio` must be in 0..1: got {ratio}")
-    joint = next(j for j in asset.joints if j.part == part_id)
-    amount = ratio * joint.upper
-    T = motion_kind(joint.type).transform(joint.axis, amount)
-    shorter = replace(joint, upper=joint.upper - amount)
+    joints = {joint.part: joint for joint in asset.joints}
+    if joints[part_id].coupling is not None:
+        raise ValueError(f"what opens must move by itself: got {part_id}")
+    amount = ratio * joints[part_id].upper
+    amounts = {part_id: amount} | {part: value(amount) for part, value in led_by(asset.joints, part_id).items()}
+    carriers, bodies = carriers_of(asset), bodies_of(asset)
+    poses = poses_at(joints, carriers, amounts)
+
+    def opened(joint: AnnotatedJoint, carrier: str) -> AnnotatedJoint:
+        T, left = poses.get(carrier), joint.upper - amounts.get(joint.part, 0.0)
+        axis = joint.axis if T is None else motion_kind(joint.type).mapped_axis(joint.axis, T)
+        return replace(joint, axis=axis, upper=left)
+
     return replace(
         asset,
-        parts=tuple(_moved(p, T) if part_id in (p.id, p.carried_by) else p for p in asset.parts),
-        joints=tuple(shorter if j is joint else j for j in asset.joints),
+        parts=tuple(_moved(p, poses[bodies[p.id]]) if bodies[p.id] in poses else p for p in asset.parts),
+        joints=tuple(opened(joint, carriers[joint.part]) for joint in asset.joints),
+        small_joints=tuple(opened(joint, bodies[joint.part]) for joint in asset.small_joints),
     )
 
 
@@ -88,11 +100,20 @@ def _moved(part: Part, T: Mat4) -> Part:
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 
-def _stretched_joint(joint: AnnotatedJoint, T: Mat4) -> AnnotatedJoint:
-    kind = motion_kind(joint.type)
-    growth = kind.length_scale(float(np.linalg.norm(T[:3, :3] @ joint.axis.direction)))
-    axis = kind.mapped_axis(joint.axis, T)
-    return replace(joint, axis=axis, lower=joint.lower * growth, upper=joint.upper * growth)
+def _stretched_joints(joints: tuple[AnnotatedJoint, ...], T: Mat4) -> tuple[AnnotatedJoint, ...]:
+    """Returns joints mapped by a stretch; what follows still goes as far as its leader lets it."""
+    kinds = {j.part: motion_kind(j.type) for j in joints}
+    growths = {j.part: kinds[j.part].length_scale(float(np.linalg.norm(T[:3, :3] @ j.axis.direction))) for j in joints}
+
+    def mapped(joint: AnnotatedJoint) -> AnnotatedJoint:
+        growth, coupling = growths[joint.part], joint.coupling
+        if coupling is not None:
+            ratio = growth / growths[coupling.leader]
+            coupling = replace(coupling, multiplier=coupling.multiplier * ratio, offset=coupling.offset * growth)
+        axis = kinds[joint.part].mapped_axis(joint.axis, T)
+        return replace(joint, axis=axis, lower=joint.lower * growth, upper=joint.upper * growth, coupling=coupling)
+
+    return tuple(map(mapped, joints))
 
 
 def _is_straight(part: Part) -> bool:

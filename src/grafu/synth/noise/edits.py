@@ -15,12 +15,13 @@ from typing import Final
 import numpy as np
 
 from grafu.articulation.motion_kind import motion_kind
-from grafu.asset.part import Asset, Part, PartSource
+from grafu.asset.part import AnnotatedJoint, Asset, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, translation
+from grafu.synth.pieces.riding import busy_in, moving_with
 from grafu.vocabulary import PartLabel
 
 
@@ -102,7 +103,7 @@ def with_merged(asset: Asset, where: Collection[str], name: str = "body") -> Ass
         ValueError: if fewer than two parts, or one that moves or carries others, are selected.
     """
     merged = [p for p in asset.parts if _selected(p, where)]
-    moving = {j.part for j in asset.joints} | {p.carried_by for p in asset.parts if p.carried_by}
+    moving = busy_in(asset)
     if len(merged) < 2 or any(p.id in moving or p.carried_by for p in merged):
         raise ValueError(f"`where` must select two or more still parts: got {[p.id for p in merged]}")
     body = Part(name, PartLabel.UNKNOWN, tuple(s for p in merged for s in p.surfaces), PartSource(name))
@@ -111,15 +112,18 @@ def with_merged(asset: Asset, where: Collection[str], name: str = "body") -> Ass
 
 def with_shifted(asset: Asset, part_id: str, offset: Vec3) -> Asset:
     """Returns the asset with one part, its joint and its attached parts shifted: floating, or sunk into a neighbour."""
-    T = translation(offset)
-    moving = {p.id for p in asset.parts if part_id in (p.id, p.carried_by)}
+    T, moving = translation(offset), moving_with(asset, part_id)
+
+    def shifted(joints: tuple[AnnotatedJoint, ...]) -> tuple[AnnotatedJoint, ...]:
+        return tuple(
+            replace(j, axis=motion_kind(j.type).mapped_axis(j.axis, T)) if j.part in moving else j for j in joints
+        )
+
     parts = (
         replace(p, surfaces=tuple(s.transformed(T) for s in p.surfaces)) if p.id in moving else p for p in asset.parts
     )
-    joints = (
-        replace(j, axis=motion_kind(j.type).mapped_axis(j.axis, T)) if j.part in moving else j for j in asset.joints
-    )
-    return replace(asset, parts=tuple(parts), joints=tuple(joints))
+    joints, small = shifted(asset.joints), shifted(asset.small_joints)
+    return replace(asset, parts=tuple(parts), joints=joints, small_joints=small)
 
 
 def with_swollen(asset: Asset, part_id: str, margin: Vec3) -> Asset:
@@ -146,11 +150,15 @@ def with_labels_lost(asset: Asset, where: Collection[str] = ()) -> Asset:
 
 
 def without_parts(asset: Asset, where: Collection[str]) -> Asset:
-    """Returns the asset without the selected parts, what rides on them, and their joints."""
-    gone = {p.id for p in asset.parts if _selected(p, where)}
-    kept = tuple(p for p in asset.parts if p.id not in gone and p.carried_by not in gone)
-    ids = {p.id for p in kept}
-    return replace(asset, parts=kept, joints=tuple(j for j in asset.joints if j.part in ids))
+    """Returns the asset without the selected parts, what rides on them, and the joints of all these."""
+    gone = {i for p in asset.parts if _selected(p, where) for i in moving_with(asset, p.id)}
+
+    def left(joints: tuple[AnnotatedJoint, ...]) -> tuple[AnnotatedJoint, ...]:
+        kept = (joint for joint in joints if joint.part not in gone)
+        return tuple(replace(j, coupling=None) if j.coupling and j.coupling.leader in gone else j for j in kept)
+
+    kept = tuple(p for p in asset.parts if p.id not in gone)
+    return replace(asset, parts=kept, joints=left(asset.joints), small_joints=left(asset.small_joints))
 
 
 def _selected(part: Part, where: Collection[str]) -> bool:

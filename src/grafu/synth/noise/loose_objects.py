@@ -23,12 +23,14 @@ from grafu.geometry.transform import transform_points
 from grafu.synth.noise.addition import LooseObject, block, runners, sheet_of
 from grafu.synth.noise.segmentation import fresh_ids
 from grafu.synth.pieces.finish import BIRCH, STEEL
+from grafu.synth.pieces.riding import bodies_of, carriers_of, led_by, moving_with, poses_at
 from grafu.synth.pieces.shapes import turned
 from grafu.synth.sampling.chance import between, chance, count
 from grafu.vocabulary import PartLabel
 
 Boxes = Float[np.ndarray, "_ 2 3"]  # lows and highs
 SAME = 0.0002  # metres within which two boxes are one: what is there already is not put there again
+STEPS = 5  # poses of what turns
 CLEAR = 0.0005  # metres that must stay free between what is added and what moves
 
 
@@ -54,22 +56,29 @@ def with_loose_objects(asset: Asset, kind: str, rng: np.random.Generator) -> Ass
 
 
 def _swept_boxes(asset: Asset) -> Boxes:
-    """Returns boxes around the paths of all boards of doors and drawers, and of what rides on them."""
+    """Returns boxes around the paths of all boards of what moves, and of what rides on it."""
     found = [np.zeros((0, 2, 3))]
+    joints, carriers, bodies = {j.part: j for j in asset.joints}, carriers_of(asset), bodies_of(asset)
     for joint in asset.joints:
-        moving = [p for p in asset.parts if joint.part in (p.id, p.carried_by)]
-        boxes = [s.mesh.box for part in moving for s in part.surfaces]
-        if motion_kind(joint.type).slides:
+        led = led_by(asset.joints, joint.part)
+        moving = moving_with(asset, joint.part)
+        boxes = [s.mesh.box for part in asset.parts if part.id in moving for s in part.surfaces]
+        if motion_kind(joint.type).slides and not led:
             ends = np.array([(b.low, b.high) for b in boxes])
             shift = joint.axis.direction * joint.upper
             found.append(
                 np.stack([np.minimum(ends[:, 0], ends[:, 0] + shift), np.maximum(ends[:, 1], ends[:, 1] + shift)], 1)
             )
             continue
-        corners = np.concatenate([b.corners() for b in boxes])
-        turns = [joint.axis.rotation(a) for a in np.linspace(0.0, joint.upper, 5).tolist()]
-        poses = np.concatenate([transform_points(T, corners) for T in turns])
-        found.append(np.stack([poses.min(axis=0), poses.max(axis=0)])[None])
+        low, high = np.full(3, np.inf), np.full(3, -np.inf)
+        for value in np.linspace(0.0, joint.upper, STEPS).tolist():
+            values = {joint.part: value} | {part: follow(value) for part, follow in led.items()}
+            poses = poses_at(joints, carriers, values)
+            for part in asset.parts:
+                if part.id in moving:
+                    corners = transform_points(poses[bodies[part.id]], part.box.corners())
+                    low, high = np.minimum(low, corners.min(axis=0)), np.maximum(high, corners.max(axis=0))
+        found.append(np.stack([low, high])[None])
     return np.concatenate(found)
 
 

@@ -28,6 +28,7 @@ from grafu.synth.noise.segmentation import (
     with_joined,
 )
 from grafu.synth.noise.tessellation import Density
+from grafu.synth.pieces.riding import moving_with
 from grafu.synth.specimen import Defect
 from grafu.vocabulary import PartLabel
 
@@ -216,10 +217,11 @@ def _misfitted(asset: Asset, misfit: Misfit) -> Asset:
 def _defect(before: Asset, after: Asset, misfit: Misfit) -> Defect:
     """Returns what a misfit comes to: the part cuts deeper into a neighbour's box than before, or only stands off."""
     old, new = before.part(misfit.part).box, after.part(misfit.part).box
+    own = moving_with(after, misfit.part)
     deeper = any(
         float(new.axis_gaps(p.box).max()) < min(float(old.axis_gaps(p.box).max()), 0.0) - 1e-5
         for p in after.parts
-        if misfit.part not in (p.id, p.carried_by)
+        if p.id not in own
     )
     return Defect("interpenetrating" if deeper else "floating", (misfit.part,))
 

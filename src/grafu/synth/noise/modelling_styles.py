@@ -275,10 +275,10 @@ def _misfits(rng: np.random.Generator, parts: Sequence[Part], extent: float) -> 
 def _ajar(rng: np.random.Generator, asset: Asset) -> tuple[tuple[str, float], ...]:
     """Returns one front of those that nothing stands before, and how far it is open."""
     front = min((asset.part(j.part).box.low[1] for j in asset.joints), default=0.0)
-    open_able = [j.part for j in asset.joints if asset.part(j.part).box.low[1] < front + 0.03]
-    if not open_able:
+    free = [j.part for j in asset.joints if j.coupling is None and asset.part(j.part).box.low[1] < front + 0.03]
+    if not free:
         return ()
-    part = open_able[int(rng.integers(len(open_able)))]
+    part = free[int(rng.integers(len(free)))]
     drawer = asset.part(part).label is PartLabel.DRAWER
     return ((part, between(rng, (0.05, 0.5) if drawer else (0.03, 0.3))),)
 

@@ -16,6 +16,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.pieces.finish import surface_of
+from grafu.synth.pieces.riding import busy_in
 from grafu.vocabulary import PartLabel
 
 _FRONT_ZONE = 0.03  # metres behind a drawer's front within which its boards belong to the front itself
@@ -28,7 +29,7 @@ def with_joined(asset: Asset, ids: Collection[str], label: PartLabel, name: str)
         ValueError: if fewer than two parts, or one that moves or carries others, are named.
     """
     joined = [p for p in asset.parts if p.id in ids]
-    busy = {j.part for j in asset.joints} | {p.carried_by for p in asset.parts if p.carried_by}
+    busy = busy_in(asset)
     if len(joined) < 2 or any(p.id in busy or p.carried_by for p in joined):
         raise ValueError(f"`ids` must name two or more still parts: got {[p.id for p in joined]}")
     body = Part(name, label, tuple(s for p in joined for s in p.surfaces), PartSource(name), "annotation")
@@ -37,7 +38,10 @@ def with_joined(asset: Asset, ids: Collection[str], label: PartLabel, name: str)
 
 
 def with_attached_joined(asset: Asset, ids: Collection[str]) -> Asset:
-    """Returns the named attached parts as geometry of what carries them: a handle in its door is no part any more."""
+    """Returns the named attached parts as geometry of what carries them: a handle in its door is no part any more.
+
+    Nor does a lever turn by itself there.
+    """
     attached = [p for p in asset.parts if p.id in ids and p.carried_by]
     gone = {p.id for p in attached}
     parts = []
@@ -45,7 +49,8 @@ def with_attached_joined(asset: Asset, ids: Collection[str]) -> Asset:
         own = [s for other in attached if other.carried_by == part.id for s in other.surfaces]
         if part.id not in gone:
             parts.append(replace(part, surfaces=(*part.surfaces, *own)) if own else part)
-    return replace(asset, parts=tuple(parts))
+    small = tuple(joint for joint in asset.small_joints if joint.part not in gone)
+    return replace(asset, parts=tuple(parts), small_joints=small)
 
 
 def in_pieces(asset: Asset, part_id: str, label: PartLabel | None = None) -> Asset:
@@ -137,7 +142,7 @@ def _replaced(
     asset: Asset, part_id: str, cut: Callable[[Part], Sequence[tuple[PartLabel, tuple[Surface, ...]]]]
 ) -> Asset:
     """Returns the asset with a still part in pieces; where there are fewer than two, or the part moves, as it was."""
-    busy = {j.part for j in asset.joints} | {p.carried_by for p in asset.parts if p.carried_by}
+    busy = busy_in(asset)
     part = asset.part(part_id)
     pieces = [] if part_id in busy or part.carried_by else list(cut(part))
     if len(pieces) < 2:

@@ -1,1 +1,1 @@
-"""Doors and windows of buildings: specimens for tests; no family of the generator makes them."""
+"""Doors and windows of buildings."""

@@ -7,9 +7,12 @@ import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
+from grafu.synth.fronts.layout import LeafStyle, Rect
+from grafu.synth.fronts.leaf_relief import LeafShape
+from grafu.synth.fronts.leaves import leaf_surfaces
 from grafu.synth.openings.parts import Edge, lever, ring, sliding, turning
 from grafu.synth.pieces.assembly import PieceDraft, Span, assemble, plank
-from grafu.synth.pieces.finish import PLAIN
+from grafu.synth.pieces.finish import PLAIN, Finish
 from grafu.synth.sampling.chance import between, chance
 from grafu.vocabulary import PartLabel
 
@@ -40,6 +43,8 @@ class DoorSpec:
     lap: float = -0.003
     grip: Grip = "lever"
     bolt: bool = False
+    style: LeafStyle = "slab"
+    finish: Finish = PLAIN
 
     def __post_init__(self) -> None:
         if self.leaves not in (1, 2):
@@ -76,7 +81,7 @@ def make_building_door(spec: DoorSpec) -> Asset:
     """Returns the door with the true joints of its leaves; those of levers and bolts are small joints."""
     half, front = spec.width / 2, -spec.depth / 2
     outer = ((-half, front, 0.0), (half, -front, spec.height))
-    frame = ring(PartLabel.FACE_FRAME, "door_frame", PLAIN.case, outer, spec.jamb, sill=False)
+    frame = ring(PartLabel.FACE_FRAME, "door_frame", spec.finish.case, outer, spec.jamb, sill=False)
     inner = half - spec.jamb + spec.lap
     top = spec.height - spec.jamb + spec.lap
     y = front + spec.set_back
@@ -87,24 +92,23 @@ def make_building_door(spec: DoorSpec) -> Asset:
             (((-inner, y, 0.004), (-gap, y + spec.leaf, top)), "left"),
             (((gap, y, 0.004), (inner, y + spec.leaf, top)), "right"),
         ]
-    asset = assemble(spec.name, [frame, *(_leaf(span, edge, spec) for span, edge in spans)])
-    on_frame = {part.id for part in asset.parts if part.carried_by is None}
-    small = tuple(joint for joint in asset.joints if joint.part not in on_frame)
-    return replace(asset, joints=tuple(j for j in asset.joints if j.part in on_frame), small_joints=small)
+    return assemble(spec.name, [frame, *(_leaf(span, edge, spec) for span, edge in spans)])
 
 
 def _leaf(span: Span, edge: Edge, spec: DoorSpec) -> PieceDraft:
     (x0, y0, _), (x1, y1, _) = span
     backwards = spec.set_back > (spec.depth - spec.leaf) / 2
-    board = plank(PartLabel.DOOR, "leaf", PLAIN.front, span)
+    (_, _, z0), (_, _, z1) = span
+    shape = LeafShape(spec.style, Rect(x0, x1, z0, z1), y0, y1 - y0)
+    board = PieceDraft(PartLabel.DOOR, "leaf", leaf_surfaces(shape, spec.finish))
     free, towards = (x1 - max(spec.lap, 0.0), -1.0) if edge == "left" else (x0 + max(spec.lap, 0.0), 1.0)
     on_it: list[PieceDraft] = []
     if spec.grip == "lever":
-        on_it.append(lever(PLAIN.metal, free + 0.06 * towards, 1.02, towards, ((y0, -1.0), (y1, 1.0)), 0.13))
+        on_it.append(lever(spec.finish.metal, free + 0.06 * towards, 1.02, towards, ((y0, -1.0), (y1, 1.0)), 0.13))
     if spec.bolt and spec.lap < 0 and (spec.leaves == 1 or edge == "left"):
         middle, out = (y0 + y1) / 2, -0.7 * spec.lap
         low, high = sorted((free - out * towards, free + 0.03 * towards))
         bolt = ((low, middle - 0.006, 1.01), (high, middle + 0.006, 1.03))
-        drawn_in = sliding(bolt, vec3(towards, 0.0, 0.0), out)
-        on_it.append(replace(plank(PartLabel.MISC, "latch_bolt", PLAIN.metal, bolt), motion=drawn_in))
+        drawn_in = sliding(bolt, vec3(towards, 0.0, 0.0), out, small=True)
+        on_it.append(replace(plank(PartLabel.MISC, "latch_bolt", spec.finish.metal, bolt), motion=drawn_in))
     return replace(board, motion=turning(span, edge, backwards), attached=tuple(on_it))

@@ -43,9 +43,11 @@ def turning(span: Span, edge: Edge, backwards: bool, opening: float = pi / 2) ->
     return PieceMotion(Hinge.joint_type, Axis(center + half * (towards + opens), np.cross(-towards, opens)), opening)
 
 
-def sliding(span: Span, direction: Float[np.ndarray, " 3"], travel: float) -> PieceMotion:
-    """Returns how a leaf slides, by `travel` metres."""
-    return PieceMotion(Slide.joint_type, Axis((np.array(span[0]) + np.array(span[1])) / 2, direction), travel)
+def sliding(span: Span, direction: Float[np.ndarray, " 3"], travel: float, small: bool = False) -> PieceMotion:
+    """Returns how a leaf, or a bolt on one (`small`), slides, by `travel` metres."""
+    return PieceMotion(
+        Slide.joint_type, Axis((np.array(span[0]) + np.array(span[1])) / 2, direction), travel, small=small
+    )
 
 
 def lever(
@@ -62,5 +64,5 @@ def lever(
         near, far = sorted((y + 0.035 * out, y + 0.05 * out))
         left, right = sorted((x - 0.01 * towards, x + towards * (long - 0.01)))
         boards.append(((left, near, z - 0.01), (right, far, z + 0.01)))
-    motion = PieceMotion(Hinge.joint_type, Axis(vec3(x, faces[0][0], z), vec3(0.0, towards, 0.0)), _TURN)
+    motion = PieceMotion(Hinge.joint_type, Axis(vec3(x, faces[0][0], z), vec3(0.0, towards, 0.0)), _TURN, small=True)
     return PieceDraft(PartLabel.HANDLE, "lever", plank(PartLabel.HANDLE, "lever", material, *boards).surfaces, motion)

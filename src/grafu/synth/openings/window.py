@@ -9,7 +9,7 @@ from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.synth.openings.parts import Edge, ring, sliding, turning
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, assemble, plank
-from grafu.synth.pieces.finish import PLAIN
+from grafu.synth.pieces.finish import PLAIN, Finish
 from grafu.synth.sampling.chance import between, chance
 from grafu.vocabulary import PartLabel
 
@@ -41,6 +41,7 @@ class WindowSpec:
     at_back: bool = False
     handle: bool = True
     sill: float = 0.0
+    finish: Finish = PLAIN
 
     def __post_init__(self) -> None:
         if min(self.width, self.height) <= 2 * (self.bar + 2 * self.stile):
@@ -74,10 +75,10 @@ def make_window(spec: WindowSpec) -> Asset:
     """Returns the window with its leaves' true joints; panes and handles are pieces on the leaves."""
     half, front = spec.width / 2, -spec.depth / 2
     outer = ((-half, front, 0.0), (half, -front, spec.height))
-    pieces = [ring(PartLabel.FACE_FRAME, "window_frame", PLAIN.case, outer, spec.bar)]
+    pieces = [ring(PartLabel.FACE_FRAME, "window_frame", spec.finish.case, outer, spec.bar)]
     if spec.sill:
         low, high = (-half - 0.03, front - spec.sill, -0.03), (half + 0.03, -front, 0.0)
-        pieces.append(plank(PartLabel.MISC, "sill", PLAIN.case, (low, high)))
+        pieces.append(plank(PartLabel.MISC, "sill", spec.finish.case, (low, high)))
     x, z = half - spec.bar - spec.gap, (spec.bar + spec.gap, spec.height - spec.bar - spec.gap)
     if spec.kind == "sash":
         return assemble(spec.name, [*pieces, *_sashes(spec, x, z)])
@@ -89,6 +90,16 @@ def make_window(spec: WindowSpec) -> Asset:
     middle = spec.gap / 2
     left, right = ((-x, y, z[0]), (-middle, y + spec.leaf, z[1])), ((middle, y, z[0]), (x, y + spec.leaf, z[1]))
     return assemble(spec.name, [*pieces, _hung(left, "left", spec), _hung(right, "right", spec)])
+
+
+def make_window_with_labels(spec: WindowSpec) -> Asset:
+    """Returns the window with a still sash labelled as part of the frame, which it is where labels are true."""
+    made = make_window(spec)
+    moving = {joint.part for joint in made.joints}
+    still = {p.id for p in made.parts if p.label is PartLabel.DOOR and p.id not in moving}
+    labelled = made.with_labels(dict.fromkeys(still, PartLabel.FACE_FRAME))
+    parts = (replace(p, carried_by=None) if p.carried_by in still else p for p in labelled.parts)
+    return replace(labelled, parts=tuple(parts))
 
 
 def _sashes(spec: WindowSpec, x: float, z: tuple[float, float]) -> list[PieceDraft]:
@@ -111,10 +122,10 @@ def _hung(span: Span, edge: Edge, spec: WindowSpec) -> PieceDraft:
 
 def _leaf(span: Span, spec: WindowSpec, motion: PieceMotion | None) -> PieceDraft:
     (x0, y0, z0), (x1, y1, z1) = span
-    frame = ring(PartLabel.DOOR, "leaf", PLAIN.front, span, spec.stile)
+    frame = ring(PartLabel.DOOR, "leaf", spec.finish.front, span, spec.stile)
     middle, lap = (y0 + y1) / 2, spec.stile - 0.008
     pane = ((x0 + lap, middle - 0.003, z0 + lap), (x1 - lap, middle + 0.003, z1 - lap))
-    return replace(frame, motion=motion, attached=(plank(PartLabel.MISC, "pane", PLAIN.glass, pane),))
+    return replace(frame, motion=motion, attached=(plank(PartLabel.MISC, "pane", spec.finish.glass, pane),))
 
 
 def _handle(span: Span, edge: Edge, spec: WindowSpec) -> PieceDraft:
@@ -128,4 +139,6 @@ def _handle(span: Span, edge: Edge, spec: WindowSpec) -> PieceDraft:
     near, far = sorted((face, face + 0.03 * out))
     stem = ((x - 0.008, near, z - 0.008), (x + 0.008, far, z + 0.008))
     near, far = sorted((face + 0.025 * out, face + 0.04 * out))
-    return plank(PartLabel.HANDLE, "handle", PLAIN.metal, stem, ((x - wide, near, z - high), (x + wide, far, z + high)))
+    return plank(
+        PartLabel.HANDLE, "handle", spec.finish.metal, stem, ((x - wide, near, z - high), (x + wide, far, z + high))
+    )

@@ -1,10 +1,11 @@
 """Pieces of synthetic furniture and their asset: boards, names, attachments, joints, the centred frame."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.edit import centred
 from grafu.asset.part import IDENTITY_FRAME, AnnotatedJoint, Asset, Part, PartSource
@@ -20,11 +21,17 @@ from grafu.vocabulary import JointType, PartLabel
 @final
 @dataclass(frozen=True, slots=True)
 class PieceMotion:
-    """How a piece truly moves: positive opens, from 0 to `upper` (radians or metres)."""
+    """How a piece truly moves: positive opens, from 0 to `upper` (radians or metres).
+
+    One that `follows` what carries it has so many times its value; 0: it moves by itself. A `small` motion is a
+    knob's, a button's.
+    """
 
     type: JointType
     axis: Axis
     upper: float
+    follows: float = 0.0
+    small: bool = False
 
     def transformed(self, T: Mat4) -> "PieceMotion":
         """Returns the motion mapped by a rigid T."""
@@ -34,13 +41,13 @@ class PieceMotion:
 @final
 @dataclass(frozen=True)
 class PieceDraft:
-    """A part to be: `stem` becomes its name, numbered where it repeats; `attached` move with it."""
+    """A part to be: `stem` becomes its name, numbered where it repeats; `attached` move with it, or on it."""
 
     label: PartLabel
     stem: str
     surfaces: tuple[Surface, ...]
     motion: PieceMotion | None = None
-    attached: tuple["PieceDraft", ...] = ()  # attached parts carry no attached part of their own
+    attached: tuple["PieceDraft", ...] = ()  # those that move may carry others
 
     def transformed(self, T: Mat4) -> "PieceDraft":
         """Returns the piece, its motion and its attached parts mapped by a rigid T."""
@@ -54,27 +61,37 @@ class PieceDraft:
 
 def assemble(name: str, pieces: Sequence[PieceDraft]) -> Asset:
     """Returns the asset of all pieces, centred in x and y and standing on z = 0, with its true joints."""
-    entries = list(_with_carriers(pieces))
+    entries = _with_carriers(pieces)
     ids = _numbered([piece.stem for piece, _ in entries])
     parts = tuple(
         Part(i, piece.label, piece.surfaces, PartSource(i), "annotation", None if carrier is None else ids[carrier])
         for i, (piece, carrier) in zip(ids, entries, strict=True)
     )
-    joints = tuple(
-        AnnotatedJoint(i, piece.motion.type, piece.motion.axis, 0.0, piece.motion.upper)
-        for i, (piece, _) in zip(ids, entries, strict=True)
-        if piece.motion
-    )
-    return replace(centred(Asset(name, "", "made", parts, joints=joints)), frame=IDENTITY_FRAME)
+    moving = [(i, piece.motion, carrier) for i, (piece, carrier) in zip(ids, entries, strict=True) if piece.motion]
+    joints = tuple(_joint(i, m, "" if k is None else ids[k]) for i, m, k in moving if not m.small)
+    small = tuple(_joint(i, m, "" if k is None else ids[k]) for i, m, k in moving if m.small)
+    made = Asset(name, "", "made", parts, joints=joints, small_joints=small)
+    return replace(centred(made), frame=IDENTITY_FRAME)
 
 
-def _with_carriers(pieces: Sequence[PieceDraft]) -> Iterator[tuple[PieceDraft, int | None]]:
-    position = 0
-    for piece in pieces:
-        yield piece, None
+def _joint(part: str, motion: PieceMotion, carrier: str) -> AnnotatedJoint:
+    coupling = Coupling(carrier, motion.follows) if motion.follows else None
+    return AnnotatedJoint(part, motion.type, motion.axis, 0.0, motion.upper, coupling=coupling)
+
+
+def _with_carriers(pieces: Sequence[PieceDraft]) -> list[tuple[PieceDraft, int | None]]:
+    """Returns the pieces and all that is attached to them, each with the place of what carries it."""
+    found: list[tuple[PieceDraft, int | None]] = []
+
+    def add(piece: PieceDraft, carrier: int | None) -> None:
+        place = len(found)
+        found.append((piece, carrier))
         for part in piece.attached:
-            yield part, position
-        position += 1 + len(piece.attached)
+            add(part, place)
+
+    for piece in pieces:
+        add(piece, None)
+    return found
 
 
 def _numbered(stems: Sequence[str]) -> list[str]:

@@ -12,8 +12,10 @@ from typing import Literal, final
 
 import numpy as np
 
+from grafu.synth.fronts.gliding import Bins, Folding, PullOut, Sliding
 from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack, Tilt
 from grafu.synth.sampling.chance import between, chance, pick
+from grafu.synth.sampling.fit_gliding import fit_folding, fit_pull_out, fit_sliding
 from grafu.synth.sampling.fittings import fit_bay, fit_blank, fit_door, fit_drawer, fit_pair, fit_tilt
 from grafu.synth.sampling.style import MakerStyle
 
@@ -99,9 +101,9 @@ def needed_gap(layout: Layout, room: Rect, front: float) -> float:
     It holds for leaves `front` metres thick that turn about their front edge.
     """
     swings = (
-        min(cell.width, cell.height) / (2 if isinstance(leaf, Pair) else 1)
+        min(cell.width, cell.height) / (2 if isinstance(leaf, Pair | Folding) else 1)
         for leaf, cell in _leaves(layout, room)
-        if isinstance(leaf, Door | Pair | Tilt)
+        if isinstance(leaf, Door | Pair | Tilt | Folding)
     )
     narrow = min(swings, default=1.0)
     return front**2 / (2 * narrow) + 0.0001
@@ -153,6 +155,14 @@ def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: CellPlace) -> Layou
             return fit_drawer(rng, layout, room, style)
         case Tilt():
             return fit_tilt(layout, style)
+        case Sliding():
+            return fit_sliding(rng, layout, room, style)
+        case Folding():
+            return fit_folding(rng, layout, room, style)
+        case PullOut():
+            return fit_pull_out(rng, layout, room, style)
+        case Bins():
+            return layout
         case Blank():
             return fit_blank(layout, room, style)
         case OpenCell():

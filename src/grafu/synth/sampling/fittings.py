@@ -42,12 +42,12 @@ FLUSH_BAYS = 0.6  # open shelves mostly end with the case's front
 def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style: MakerStyle, hand: float) -> Door:
     """Returns the door hung on this side, with its leaf, handle, grip and shelves."""
     flap = side in ("top", "bottom")
-    leaf = _leaf(rng, door.leaf, style.leaf, room, flap)
+    leaf = leaf_of(rng, door.leaf, style.leaf, room, flap)
     grip = style.grip if leaf == "slab" else "none"
-    handle = _handle(door.handle, style.handle, grip)
+    handle = handle_of(door.handle, style.handle, grip)
     freed = style.carry in ("top line", "middle line") and chance(rng, FREED)
     alone = replace(style, carry="reach") if freed else style
-    hold = _plain_hold(style, handle) if flap else _door_hold(rng, alone, handle, room, hand)
+    hold = plain_hold(style, handle) if flap else _door_hold(rng, alone, handle, room, hand)
     return replace(
         door,
         hinge=side,
@@ -56,17 +56,17 @@ def fit_door(rng: np.random.Generator, door: Door, side: Side, room: Rect, style
         hold=hold,
         grip=grip,
         opening=min(style.opening, 1.75) if flap else style.opening,
-        shelves=_shelves(rng, door.shelves, room, door.behind is not None, style),
-        inside=_inside(rng, door.inside, leaf, style),
+        shelves=draw_shelves(rng, door.shelves, room, door.behind is not None, style),
+        inside=draw_inside(rng, door.inside, leaf, style),
     )
 
 
 def fit_pair(rng: np.random.Generator, pair: Pair, room: Rect, style: MakerStyle, hand: float) -> Pair:
     """Returns the pair with leaves, handles, grips, muntin and shelves."""
     half = replace(room, x1=room.center[0])
-    leaf = _leaf(rng, pair.leaf, style.leaf, half, False)
+    leaf = leaf_of(rng, pair.leaf, style.leaf, half, False)
     grip = style.grip if leaf == "slab" else "none"
-    handle = _handle(pair.handle, style.handle, grip)
+    handle = handle_of(pair.handle, style.handle, grip)
     return replace(
         pair,
         leaf=leaf,
@@ -75,18 +75,18 @@ def fit_pair(rng: np.random.Generator, pair: Pair, room: Rect, style: MakerStyle
         grip=grip,
         opening=style.opening,
         muntin=0.0 if pair.behind else pair.muntin or style.muntin,  # what stands behind must come out
-        shelves=_shelves(rng, pair.shelves, room, pair.behind is not None, style),
-        inside=_inside(rng, pair.inside, leaf, style),
+        shelves=draw_shelves(rng, pair.shelves, room, pair.behind is not None, style),
+        inside=draw_inside(rng, pair.inside, leaf, style),
     )
 
 
 def fit_drawer(rng: np.random.Generator, drawer: Drawer, room: Rect, style: MakerStyle) -> Drawer:
     """Returns the drawer with its box, leaf, handle and grip."""
-    leaf = _leaf(rng, drawer.leaf, style.drawer_leaf, room, True)
+    leaf = leaf_of(rng, drawer.leaf, style.drawer_leaf, room, True)
     if style.drawer_leaf == "bowed" and drawer.leaf == "slab" and room.height > SMALL_FRONT:
         leaf = "bowed"
     grip = style.grip if leaf == "slab" else "none"
-    handle = _handle(drawer.handle, style.drawer_handle, grip)
+    handle = handle_of(drawer.handle, style.drawer_handle, grip)
     return replace(
         drawer,
         box=style.box if drawer.box == "whole" else drawer.box,
@@ -104,9 +104,9 @@ def fit_tilt(tilt: Tilt, style: MakerStyle) -> Tilt:
     """Returns the tilting front with its leaf and handle."""
     leaf = style.leaf if style.leaf in ("slab", "chamfered", "shaker", "louvred", "planks") else "slab"
     grip = style.grip if leaf == "slab" else "none"
-    handle = _handle(tilt.handle, style.drawer_handle, grip)
+    handle = handle_of(tilt.handle, style.drawer_handle, grip)
     short = replace(style, full=False, length=None if style.length is None else min(style.length, 0.2))
-    return replace(tilt, leaf=leaf, handle=handle, grip=grip, hold=_plain_hold(short, handle))
+    return replace(tilt, leaf=leaf, handle=handle, grip=grip, hold=plain_hold(short, handle))
 
 
 def fit_blank(blank: Blank, room: Rect, style: MakerStyle) -> Blank:
@@ -119,10 +119,10 @@ def fit_blank(blank: Blank, room: Rect, style: MakerStyle) -> Blank:
 def fit_bay(rng: np.random.Generator, bay: OpenCell, room: Rect, style: MakerStyle) -> OpenCell:
     """Returns the open bay with its shelves."""
     inside = replace(bay.inside, setback=0.0 if chance(rng, FLUSH_BAYS) else style.setback, band=style.banded)
-    return replace(bay, shelves=_shelves(rng, bay.shelves, room, False, style), inside=inside)
+    return replace(bay, shelves=draw_shelves(rng, bay.shelves, room, False, style), inside=inside)
 
 
-def _leaf(rng: np.random.Generator, asked: LeafStyle, usual: LeafStyle, room: Rect, level: bool) -> LeafStyle:
+def leaf_of(rng: np.random.Generator, asked: LeafStyle, usual: LeafStyle, room: Rect, level: bool) -> LeafStyle:
     """Returns the leaf: what is asked for unless that is the default; plain where it is small or bends wrongly."""
     leaf = usual if asked == "slab" else asked
     if leaf in CURVED and level:
@@ -133,7 +133,8 @@ def _leaf(rng: np.random.Generator, asked: LeafStyle, usual: LeafStyle, room: Re
     return "slab" if small and leaf != "rounded" and chance(rng, 0.75) else leaf
 
 
-def _handle(asked: HandleStyle, usual: HandleStyle, grip: Grip) -> HandleStyle:
+def handle_of(asked: HandleStyle, usual: HandleStyle, grip: Grip) -> HandleStyle:
+    """Returns the handle: the one asked for unless that is the default, none beside a grip."""
     if asked != "bar-round":  # a family's own choice
         return asked
     return "none" if grip != "none" else usual
@@ -141,7 +142,7 @@ def _handle(asked: HandleStyle, usual: HandleStyle, grip: Grip) -> HandleStyle:
 
 def _door_hold(rng: np.random.Generator, style: MakerStyle, handle: HandleStyle, room: Rect, hand: float) -> Hold:
     """Returns how a side-hung door is held."""
-    plain = _plain_hold(style, handle)
+    plain = plain_hold(style, handle)
     if chance(rng, HINGE_EDGE):
         return replace(plain, place="hinge edge", along=0.5)
     reach = (hand - room.z0) / room.height
@@ -159,11 +160,11 @@ def _door_hold(rng: np.random.Generator, style: MakerStyle, handle: HandleStyle,
 def _drawer_hold(style: MakerStyle, handle: HandleStyle, room: Rect) -> Hold:
     high = style.drawer_high and room.height > 0.12
     two = room.width > 0.65 and not style.full and (style.length is None or style.length < 0.15)
-    hold = replace(_plain_hold(style, handle), count=2 if two and style.inset > 0.035 else 1)
+    hold = replace(plain_hold(style, handle), count=2 if two and style.inset > 0.035 else 1)
     return replace(hold, place="top edge") if high else hold
 
 
-def _plain_hold(style: MakerStyle, handle: HandleStyle) -> Hold:
+def plain_hold(style: MakerStyle, handle: HandleStyle) -> Hold:
     """Returns how large a handle of this kind is on the piece, at its usual place; a small knob protrudes less."""
     family = handle.partition("-")[0]
     if family == "knob":
@@ -173,7 +174,7 @@ def _plain_hold(style: MakerStyle, handle: HandleStyle) -> Hold:
     return Hold(length=length, ratio=ratio, inset=style.inset, protrusion=style.protrusion if bar else None)
 
 
-def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, style: MakerStyle) -> int:
+def draw_shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, style: MakerStyle) -> int:
     """Returns the shelves of an opening, by its height; none where something stands behind the door."""
     least = min(0.3, 2 * style.pitch)
     empty = 0.0 if style.banded else BARE_INSIDE if style.bare else NO_SHELVES
@@ -183,7 +184,8 @@ def _shelves(rng: np.random.Generator, asked: int, room: Rect, filled: bool, sty
     return max(1 if room.height > 0.3 else 0, min(usual, MOST_SHELVES))
 
 
-def _inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle, style: MakerStyle) -> Inside:
+def draw_inside(rng: np.random.Generator, asked: Inside, leaf: LeafStyle, style: MakerStyle) -> Inside:
+    """Returns the fittings behind a front: what is asked for, or some of the usual ones."""
     plain = Inside(setback=style.setback, band=style.banded)
     asked = replace(asked, setback=plain.setback, band=plain.band)
     if asked != plain or style.bare:

@@ -1,4 +1,4 @@
-"""Tables with leaves that hang from hinges at the top's edges: specimens for tests, in no family of the generator."""
+"""Tables with leaves that hang from hinges at the top's edges, straight or half round."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,16 +11,23 @@ from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Hinge
-from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, assemble, plank
-from grafu.synth.pieces.finish import PLAIN, Finish
+from grafu.synth.case.legs import Leg, LegShape
+from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, assemble, plank, straight
+from grafu.synth.pieces.finish import PLAIN, Finish, surface_of
+from grafu.synth.pieces.shapes import prism_along_x
 from grafu.synth.sampling.chance import between
+from grafu.synth.tables.table_parts import table_legs
 from grafu.vocabulary import PartLabel
+
+ARC = 17  # points along a round leaf's edge
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class DropLeafTable:
     """A table, metres: a fixed top of `width` by `depth` and, at its ends, `leaves` that hang and are `drop` long.
+
+    Legs are `leg` wide and of any shape. Leaves are boards, or half round with `is_round`.
 
     Raises:
         ValueError: if there are neither one nor two leaves, or they reach the floor.
@@ -37,6 +44,9 @@ class DropLeafTable:
     apron: float = 0.1
     gap: float = 0.002
     finish: Finish = PLAIN
+    leg_shape: LegShape = "square"
+    leg_foot: float = 0.6
+    is_round: bool = False
 
     def __post_init__(self) -> None:
         if self.leaves not in (1, 2) or self.drop > self.height - self.top:
@@ -69,12 +79,9 @@ def make_drop_leaf_table(spec: DropLeafTable) -> Asset:
 def _stand(spec: DropLeafTable) -> Iterator[PieceDraft]:
     x, y, under = spec.width / 2, spec.depth / 2, spec.height - spec.top
     yield plank(PartLabel.TOP_PANEL, "top", spec.finish.front, ((-x, -y, under), (x, y, spec.height)))
-    inset, wood = 0.02, spec.finish.case
-    for side_x in (-1.0, 1.0):
-        for side_y in (-1.0, 1.0):
-            ends_x = sorted((side_x * (x - inset), side_x * (x - inset - spec.leg)))
-            ends_y = sorted((side_y * (y - inset), side_y * (y - inset - spec.leg)))
-            yield plank(PartLabel.LEG, "leg", wood, ((ends_x[0], ends_y[0], 0.0), (ends_x[1], ends_y[1], under)))
+    inset, wood, leg = 0.02, spec.finish.case, Leg(spec.leg_shape, spec.leg, spec.leg_foot)
+    feet = x - inset - spec.leg / 2, y - inset - spec.leg / 2
+    yield from table_legs(leg, feet, under, spec.apron, spec.finish)
     inner_x, inner_y, low = x - inset - spec.leg, y - inset - spec.leg, under - spec.apron
     for side in (-1.0, 1.0):
         ends = sorted((side * (y - inset - 0.005), side * (y - inset - 0.023)))
@@ -89,5 +96,10 @@ def _leaf(spec: DropLeafTable, side: float) -> PieceDraft:
     ends = sorted((near, near + side * spec.top))
     span = ((ends[0], -spec.depth / 2, spec.height - spec.drop), (ends[1], spec.depth / 2, spec.height))
     axis = Axis(vec3(near, 0.0, spec.height), vec3(0.0, -side, 0.0))
-    board = plank(PartLabel.DOOR, "leaf", spec.finish.front, span)
-    return PieceDraft(PartLabel.DOOR, "leaf", board.surfaces, PieceMotion(Hinge.joint_type, axis, pi / 2))
+    mesh = straight(*span)
+    if spec.is_round:
+        angles = np.linspace(pi, 2 * pi, ARC)
+        rim = zip((spec.depth / 2 * np.cos(angles)).tolist(), (spec.drop * np.sin(angles)).tolist(), strict=True)
+        mesh = prism_along_x([(y, spec.height + z) for y, z in rim], ends[0], ends[1])
+    surfaces = (surface_of(mesh, spec.finish.front),)
+    return PieceDraft(PartLabel.DOOR, "leaf", surfaces, PieceMotion(Hinge.joint_type, axis, pi / 2))

@@ -1,4 +1,4 @@
-"""Tables that become longer: two halves of a top that slide apart, or draw leaves under a top. Specimens for tests."""
+"""Tables that become longer: two halves of a top that slide apart, or draw leaves under a top."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -9,8 +9,10 @@ from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Slide
+from grafu.synth.case.legs import Leg, LegShape
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, assemble, plank
-from grafu.synth.pieces.finish import PLAIN
+from grafu.synth.pieces.finish import PLAIN, Finish
+from grafu.synth.tables.table_parts import table_legs
 from grafu.vocabulary import PartLabel
 
 _SINK = 0.002  # metres between a draw leaf and the top above it
@@ -38,6 +40,9 @@ class ExtendingTable:
     leg: float = 0.06
     apron: float = 0.08
     travel: float = 0.7
+    finish: Finish = PLAIN
+    leg_shape: LegShape = "square"
+    leg_foot: float = 0.6
 
     def __post_init__(self) -> None:
         if not 0 < self.travel < 1:
@@ -62,18 +67,16 @@ def _under(spec: ExtendingTable) -> float:
 def _frame(spec: ExtendingTable) -> Iterator[PieceDraft]:
     """Yields legs and aprons."""
     x, y, high = spec.width / 2 - _INSET, spec.depth / 2 - _INSET, _under(spec)
-    for sx in (-1, 1):
-        for sy in (-1, 1):
-            low, far = sorted((sx * x, sx * (x - spec.leg))), sorted((sy * y, sy * (y - spec.leg)))
-            yield plank(PartLabel.LEG, "leg", PLAIN.case, ((low[0], far[0], 0.0), (low[1], far[1], high)))
+    leg, wood = Leg(spec.leg_shape, spec.leg, spec.leg_foot), spec.finish.case
+    yield from table_legs(leg, (x - spec.leg / 2, y - spec.leg / 2), high, spec.apron, spec.finish)
     z, thick = high - spec.apron, spec.leg / 3
     inner = x - spec.leg
     for sy in (-1, 1):
         near = sorted((sy * y, sy * (y - thick)))
-        yield plank(PartLabel.BAR, "apron", PLAIN.case, ((-inner, near[0], z), (inner, near[1], high)))
+        yield plank(PartLabel.BAR, "apron", wood, ((-inner, near[0], z), (inner, near[1], high)))
     for sx in (-1, 1):
         near = sorted((sx * x, sx * (x - thick)))
-        yield plank(PartLabel.BAR, "apron", PLAIN.case, ((near[0], spec.leg - y, z), (near[1], y - spec.leg, high)))
+        yield plank(PartLabel.BAR, "apron", wood, ((near[0], spec.leg - y, z), (near[1], y - spec.leg, high)))
 
 
 def _leaves(spec: ExtendingTable) -> Iterator[PieceDraft]:
@@ -83,9 +86,9 @@ def _leaves(spec: ExtendingTable) -> Iterator[PieceDraft]:
         yield from (_leaf(spec, side, 0.0, x, (high - spec.top, high)) for side in (-1, 1))
         return
     low, middle = _under(spec), _BEARER / 2
-    yield plank(PartLabel.TOP_PANEL, "top", PLAIN.case, ((-x, -y, high - spec.top), (x, y, high)))
+    yield plank(PartLabel.TOP_PANEL, "top", spec.finish.front, ((-x, -y, high - spec.top), (x, y, high)))
     yield plank(
-        PartLabel.BAR, "bearer", PLAIN.case, ((-middle, -y + _INSET, low), (middle, y - _INSET, high - spec.top))
+        PartLabel.BAR, "bearer", spec.finish.front, ((-middle, -y + _INSET, low), (middle, y - _INSET, high - spec.top))
     )
     yield from (_leaf(spec, side, middle + _SINK, x, (low, low + spec.top)) for side in (-1, 1))
 
@@ -97,4 +100,4 @@ def _leaf(spec: ExtendingTable, side: int, start: float, end: float, heights: tu
     axis = Axis(vec3((low + high) / 2, 0.0, sum(heights) / 2), vec3(float(side), 0.0, 0.0))
     motion = PieceMotion(Slide.joint_type, axis, spec.travel * (high - low))
     stem = "top_half" if spec.kind == "halves" else "extension_leaf"
-    return replace(plank(PartLabel.TOP_PANEL, stem, PLAIN.case, span), motion=motion)
+    return replace(plank(PartLabel.TOP_PANEL, stem, spec.finish.front, span), motion=motion)

@@ -38,8 +38,9 @@ class DrawerTable:
     faces on either side; with `two_sided`, the back has the same drawers. The top is `top` thick and juts out by
     `overhang` beyond the legs. Legs are `leg` wide and of any shape; `stretcher` bars join them at `stretcher_at` of
     the height. `arch` is the height of an arched rail below the drawers. `guides` run along the drawers' sides.
-    A hutch stands on the top at its back, or a mirror of that height. `rails` is the height of bars above and below the
-    drawers; `boarded` makes them one board with openings. A `spine` is a board that runs lengthwise behind the drawers.
+    A hutch stands on the top at its back, or a mirror of that height, which tilts by `swivel` radians. `rails` is the
+    height of bars above and below the drawers; `boarded` makes them one board with openings. A `spine` is a board that
+    runs lengthwise behind the drawers.
     A straight top has a `moulding` of that height around it, which ends above the drawers. The back apron covers the
     fraction `modesty` of the room below it.
 
@@ -71,6 +72,7 @@ class DrawerTable:
     guides: bool = False
     hutch: Cabinet | None = None
     mirror: float = 0.0
+    swivel: float = 0.0
     rails: float = 0.0
     boarded: bool = False
     spine: bool = False
@@ -211,4 +213,4 @@ def _above(spec: DrawerTable) -> Iterator[PieceDraft]:
     if spec.hutch is not None:
         yield from on_top(spec.hutch, spec.depth, spec.height)
     if spec.mirror:
-        yield from mirror_pieces(0.55 * spec.width, spec.mirror, spec.depth, spec.height, spec.finish)
+        yield from mirror_pieces(0.55 * spec.width, spec.mirror, spec.depth, spec.height, spec.finish, spec.swivel)

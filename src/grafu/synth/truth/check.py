@@ -17,21 +17,23 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
 from grafu.articulation.sweep import values_before
 from grafu.asset.part import AnnotatedJoint, Asset, Part
-from grafu.graph.edges import Hinge, Rail
+from grafu.graph.annotated import carrying_part
+from grafu.graph.edges import Hinge, MotionEdge, Rail, Slide, Turn, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
-from grafu.graph.motion import axis_to_hinge, axis_to_rail
+from grafu.graph.motion import axis_to_hinge, direction_to_code
+from grafu.synth.pieces.riding import bodies_of, moving_with
 from grafu.synth.specimen import DefectKind, Specimen
 from grafu.synth.truth.clashes import articulated_of, clashes_of
 from grafu.vocabulary import PartLabel
 
 FaultKind = Literal[
     "collision",  # a moving part cuts into another along its path, those it waits for being open
-    "label",  # a door or drawer without a joint, a joint on something else, or of the wrong type; a label not declared
+    "label",  # a door or drawer without a joint, two joints of one part, a drawer that turns; a label not declared
     "attached part",  # a handle that rides on nothing that moves, or is out of touch with what it moves with
     "limit",  # an opening that no such furniture has, or that does not lead out
     "size",  # a door or drawer too small to be one
     "double",  # two parts with one box
-    "mount",  # a door without exactly one hinge edge, a drawer without one or two rails, a handle with another parent
+    "mount",  # a moving part without exactly one edge of its kind, a drawer without one or two, another parent
     "motion",  # an edge whose codes do not say what the joint does
     "loose",  # a part that no edges join to the rest
     "parts",  # the truth, the asset and the whole disagree about their parts
@@ -41,6 +43,7 @@ FaultKind = Literal[
 # flat on their neighbours. Drawers: from an apothecary's to as far as the piece is long.
 DOOR_OPENING = (radians(15), radians(185))
 LEAST_SLIDE = 0.03
+THICKEST_LEAF = 0.08  # metres: a deeper front that slides is a drawer
 LEAST_DOOR, LEAST_DRAWER = 0.08, 0.03  # metres across a door, and in height: a keyboard's tray is hardly higher
 ATTACHED_REACH = 0.01  # metres that a handle or board may stand off what it moves with, as in `asset.attached`
 MOUNT_REACH = 0.05  # metres between the boxes of a door and of what its hinge sits on: no hinge is longer
@@ -102,7 +105,7 @@ def faults_in(specimen: Specimen, articulated: ArticulatedObject | None = None) 
     concerned: dict[DefectKind, set[str]] = defaultdict(set)
     for defect in specimen.defects:
         concerned[defect.kind] |= {*defect.parts}
-        concerned[defect.kind] |= {p.id for p in specimen.whole.parts if p.carried_by in defect.parts}
+        concerned[defect.kind] |= {other for part in defect.parts for other in moving_with(specimen.whole, part)}
 
     def is_meant(fault: Fault) -> bool:
         explained = set[str]().union(*(concerned[kind] for kind in _EXPLAINS.get(fault.kind, ())))
@@ -114,13 +117,15 @@ def faults_in(specimen: Specimen, articulated: ArticulatedObject | None = None) 
 
 
 def _label_faults(whole: Asset) -> Iterator[Fault]:
-    joints = Counter(joint.part for joint in whole.joints)
+    joints = Counter(joint.part for joint in (*whole.joints, *whole.small_joints))
     for part in whole.parts:
-        if joints[part.id] != part.label.is_movable:
+        if joints[part.id] > 1 or (part.label.is_movable and not joints[part.id]):
             yield Fault("label", (part.id,), f"a {part.label} with {joints[part.id]} joints")
     for joint in whole.joints:
-        label = whole.part(joint.part).label
-        if label.is_movable and motion_kind(joint.type).label is not label:
+        part, slides = whole.part(joint.part), motion_kind(joint.type).slides
+        label, no_leaf = part.label, part.box.size.min() > THICKEST_LEAF
+        wrong = {PartLabel.DRAWER: not slides, PartLabel.DOOR: slides and no_leaf}
+        if wrong.get(label, label in (PartLabel.HANDLE, PartLabel.UNKNOWN)):
             yield Fault("label", (joint.part,), f"a {label} with a {joint.type} joint")
 
 
@@ -130,11 +135,11 @@ def _attached_faults(whole: Asset) -> Iterator[Fault]:
         if part.carried_by is None:
             if part.label is PartLabel.HANDLE:
                 yield Fault("attached part", (part.id,), "a handle that rides on nothing")
-        elif part.carried_by not in moving_bodies or part.id in moving_bodies:
+        elif part.carried_by not in moving_bodies:
             yield Fault("attached part", (part.id,), f"it rides on {part.carried_by}")
         else:
             gap = _gap_to_link(part, whole)
-            if gap > ATTACHED_REACH:
+            if gap > (MOUNT_REACH if part.id in moving_bodies else ATTACHED_REACH):
                 yield Fault("attached part", (part.id,), f"{gap:.3f} m off {part.carried_by} and all that rides on it")
 
 
@@ -146,7 +151,8 @@ def _gap_to_link(part: Part, whole: Asset) -> float:
 
 def _limit_faults(whole: Asset) -> Iterator[Fault]:
     moving_bodies = {joint.part for joint in whole.joints}
-    still = np.array([[p.box.low, p.box.high] for p in whole.parts if (p.carried_by or p.id) not in moving_bodies])
+    bodies = bodies_of(whole)
+    still = np.array([[p.box.low, p.box.high] for p in whole.parts if bodies[p.id] not in moving_bodies])
     still = still.reshape(-1, 2, 3)
     for joint in whole.joints:
         if joint.lower != 0.0:
@@ -162,6 +168,8 @@ def _slide_faults(whole: Asset, joint: AnnotatedJoint, still: BoxRows) -> Iterat
     if not LEAST_SLIDE <= joint.upper <= room:
         yield Fault("limit", (joint.part,), f"slides by {joint.upper:.3f} m of {room:.3f} m")
         return
+    if whole.part(joint.part).label is not PartLabel.DRAWER:  # what else slides need not come out of anything
+        return
     box, shift = whole.part(joint.part).box, joint.axis.direction * joint.upper
     gaps = np.maximum(still[:, 0] - box.high, box.low - still[:, 1])
     beside = still[(gaps.max(axis=1) < _BESIDE) & (gaps[:, 2] < -_BESIDE * box.size[2])]  # not what lies above or below
@@ -174,12 +182,12 @@ def _slide_faults(whole: Asset, joint: AnnotatedJoint, still: BoxRows) -> Iterat
 
 def _size_faults(whole: Asset) -> Iterator[Fault]:
     for joint in whole.joints:
-        size = whole.part(joint.part).box.size
-        across = float(np.median(size))  # of a board, the shorter of the two sides that are seen
-        if motion_kind(joint.type).turns and across < LEAST_DOOR:
+        part = whole.part(joint.part)
+        across = float(np.median(part.box.size))  # of a board, the shorter of the two sides that are seen
+        if part.label is PartLabel.DOOR and across < LEAST_DOOR:
             yield Fault("size", (joint.part,), f"a door {across:.3f} m across")
-        if motion_kind(joint.type).slides and size[2] < LEAST_DRAWER:
-            yield Fault("size", (joint.part,), f"a drawer {size[2]:.3f} m high")
+        if part.label is PartLabel.DRAWER and part.box.size[2] < LEAST_DRAWER:
+            yield Fault("size", (joint.part,), f"a drawer {part.box.size[2]:.3f} m high")
 
 
 def _double_faults(whole: Asset) -> Iterator[Fault]:
@@ -205,38 +213,39 @@ def _graph_faults(whole: Asset, truth: FunctionalGraph) -> Iterator[Fault]:
     if ids != [p.id for p in whole.parts] or labels != [p.label for p in whole.parts]:
         yield Fault("parts", tuple({*ids} ^ {p.id for p in whole.parts}) or ("",), "nodes and parts differ")
         return
-    hinges, rails = defaultdict[str, list[Hinge]](list), defaultdict[str, list[Rail]](list)
-    for hinge in truth.hinges:
-        hinges[hinge.child].append(hinge)
-    for rail in truth.rails:
-        rails[rail.child].append(rail)
-    for joint in whole.joints:
-        turns = motion_kind(joint.type).turns
-        yield from (
-            _hinge_faults(joint, hinges[joint.part], truth) if turns else _rail_faults(joint, rails[joint.part])
-        )
+    joints = {joint.part: joint for joint in (*whole.joints, *whole.small_joints)}
+    for joint in joints.values():
+        if whole.part(joint.part).label is PartLabel.HANDLE:
+            continue  # its attachment is its edge
+        edges = truth.motions_of(joint.part)
+        yield from _motion_faults(joint, edges, truth)
+        above = carrying_part(joint.part, joints, whole)
+        if above and {edge.parent for edge in edges} != {above}:
+            yield Fault("mount", (joint.part, above), f"it is carried by {[edge.parent for edge in edges]}")
     yield from _attachment_faults(whole, truth)
     loose = _unreached(truth)
     if loose:
         yield Fault("loose", loose, "no edges join them to the rest")
 
 
-def _hinge_faults(joint: AnnotatedJoint, hinges: list[Hinge], truth: FunctionalGraph) -> Iterator[Fault]:
-    if len(hinges) != 1:
-        yield Fault("mount", (joint.part,), f"a door with {len(hinges)} hinge edges")
-    for hinge in hinges:
-        door = truth.node(hinge.child)
-        if (hinge.border, hinge.sign) != axis_to_hinge(door.box, joint.axis):
-            yield Fault("motion", (joint.part,), f"border {hinge.border}, sign {hinge.sign}")
-        if truth.node(hinge.parent).box.gap(door.box) > MOUNT_REACH:
-            yield Fault("mount", (joint.part, hinge.parent), "the mount is out of a hinge's reach")
-
-
-def _rail_faults(joint: AnnotatedJoint, rails: list[Rail]) -> Iterator[Fault]:
-    if len(rails) not in (1, 2):
-        yield Fault("mount", (joint.part,), f"a drawer with {len(rails)} rails")
-    if any(rail.axis != axis_to_rail(joint.axis) for rail in rails):
-        yield Fault("motion", (joint.part,), f"rails along {[rail.axis for rail in rails]}")
+def _motion_faults(joint: AnnotatedJoint, edges: tuple[MotionEdge, ...], truth: FunctionalGraph) -> Iterator[Fault]:
+    node, turns = truth.node(joint.part), motion_kind(joint.type).turns
+    drawer = node.label is PartLabel.DRAWER
+    kind: type[MotionEdge] = Rail if drawer else Slide
+    if turns:
+        kind = Hinge if node.label is PartLabel.DOOR else Turn
+    if not 1 <= len(edges) <= (2 if drawer else 1) or any(not isinstance(edge, kind) for edge in edges):
+        yield Fault("mount", (joint.part,), f"a {node.label} with {[kind_of(edge).value for edge in edges]}")
+        return
+    for edge in edges:
+        if isinstance(edge, Hinge):
+            right = (edge.border, edge.sign) == axis_to_hinge(node.box, joint.axis)
+        else:
+            right = edge.axis == direction_to_code(joint.axis.direction)
+        if not right or edge.coupling != joint.coupling:
+            yield Fault("motion", (joint.part,), f"{edge}")
+        if isinstance(edge, Hinge) and truth.node(edge.parent).box.gap(node.box) > MOUNT_REACH:
+            yield Fault("mount", (joint.part, edge.parent), "the mount is out of a hinge's reach")
 
 
 def _attachment_faults(whole: Asset, truth: FunctionalGraph) -> Iterator[Fault]:
@@ -263,7 +272,7 @@ def _given_faults(specimen: Specimen) -> Iterator[Fault]:
             yield Fault("parts", (part.id,), "it stands elsewhere than in the whole")
     for part_id in specimen.missing:
         yield Fault("parts", (part_id,), "it is missing")
-    mounts = {hinge.parent for hinge in specimen.truth.hinges} | {rail.parent for rail in specimen.truth.rails}
+    mounts, moving = {edge.parent for edge in specimen.truth.motions}, specimen.truth.moving
     for part_id in sorted(specimen.removable):
-        if whole[part_id].label.is_movable or part_id in mounts:
+        if whole[part_id].label.is_movable or part_id in mounts | moving:
             yield Fault("parts", (part_id,), "removable, though it moves or carries what moves")

@@ -9,8 +9,7 @@ Synthetic furniture as an articulated object: its true joints as links, joints a
 It moves nothing and draws nothing: the joints are those that the asset states.
 """
 
-from collections.abc import Collection, Iterable, Mapping
-from functools import cached_property
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import final
 from weakref import finalize
 
@@ -18,23 +17,11 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.articulation.kinematics import all_before
-from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset, Part
-from grafu.geometry.arrays import Mat4, Scalars
-from grafu.geometry.box_stack import BoxStack, box_frames, overlapping, penetrations, stacked
-from grafu.geometry.intersection import MeshCollider, SweptBody
-from grafu.geometry.mesh import TriangleMesh
-from grafu.synth.noise.tessellation import is_two_sided
-
-DEPTH = 0.001  # metres that parts may sink into one another: below what a modeller sees, above rounding
-POSES = 10  # of a turning part; a part that slides along its own edges is followed without gaps
-_NEAR_REST = 1.5  # poses lie closer together near rest, where neighbours are nearest
-_BOX_FACES = 12
-
-
-def joint_motion(joint: AnnotatedJoint, value: float) -> Mat4:
-    """Returns the 4x4 motion of a part from rest at a joint value, radians or metres."""
-    return motion_kind(joint.type).transform(joint.axis, value)
+from grafu.geometry.arrays import Mat4
+from grafu.geometry.box_stack import overlapping, penetrations
+from grafu.synth.pieces.riding import bodies_of, carriers_of, led_by, poses_at
+from grafu.synth.truth.swept_pieces import DEPTH, Pieces, SweptPath, near_path
 
 
 def clashes_of(asset: Asset) -> "Clashes":
@@ -52,17 +39,22 @@ class Clashes:
 
     def __init__(self, asset: Asset) -> None:
         self._joints = {joint.part: joint for joint in asset.joints}
-        self._pieces = _Pieces(asset)
+        self._carriers = carriers_of(asset)
+        self._followers = {part: led_by(asset.joints, part) for part in self._joints}
+        self._pieces = Pieces(asset)
         self._swept: dict[tuple[str, frozenset[str]], frozenset[str]] = {}
 
     def hits(self, part: str, opened: Collection[str] = ()) -> frozenset[str]:
         """Returns the ids of the parts that a moving part, or what rides on it, cuts into by more than `DEPTH`.
 
-        It goes from rest to its upper limit. The moving parts in `opened` stand fully open, all others closed.
+        It goes from rest to its upper limit, and with it what it carries and what follows it there. The moving parts in
+        `opened`, and what follows them, stand fully open, all others closed. What follows its own carrier is swept with
+        that one alone.
         """
         key = (part, frozenset(opened))
         if key not in self._swept:
-            self._swept[key] = self._sweep(self._joints[part], key[1])
+            led = any(part in self._followers[other] for other in self._above(part))
+            self._swept[key] = frozenset() if led else self._sweep(self._joints[part], key[1])
         return self._swept[key]
 
     def bodies_hit(self, part: str) -> tuple[str, ...]:
@@ -70,33 +62,69 @@ class Clashes:
         return tuple(sorted({self.carrier(other) for other in self.hits(part)} & self._joints.keys()))
 
     def carrier(self, part: str) -> str:
-        """Returns the id of the part that a part rides on, or its own."""
-        return self._pieces.carrier_of[part]
+        """Returns the id of the moving part that a part moves as one with, or its own."""
+        return self._pieces.body_of[part]
+
+    def _above(self, part: str) -> list[str]:
+        """Returns the moving parts that carry a moving part, the nearest first."""
+        above = self._carriers[part]
+        return [above, *self._above(above)] if above else []
 
     def _sweep(self, joint: AnnotatedJoint, opened: frozenset[str]) -> frozenset[str]:
-        pieces = self._pieces
-        own = pieces.rows_of(joint.part)
-        poses = {other: joint_motion(self._joints[other], self._joints[other].upper) for other in opened}
-        boxes, rows = pieces.posed(poses), np.flatnonzero(pieces.carriers != pieces.number(joint.part))
-        path = _Path(joint, pieces.boxes[own])
-        reach = boxes.reaches[rows]
-        near = (
-            (boxes.centers[rows] - reach < path.high - DEPTH) & (boxes.centers[rows] + reach > path.low + DEPTH)
-        ).all(axis=1)
-        rows = rows[near]
-        if not len(rows):
-            return frozenset()
-        moving, others = overlapping(path.boxes, boxes[rows], DEPTH)
-        deep = penetrations(path.boxes[moving], boxes[rows[others]]) > DEPTH
-        moving, others = moving[deep], rows[others[deep]]
-        mine = own[path.rows[moving]]
-        sure = pieces.is_box[mine] & pieces.is_box[others]
-        found = {pieces.part_of(row) for row in np.unique(others[sure]).tolist()}
-        doubtful = np.unique(np.stack([mine[~sure], others[~sure], path.poses[moving[~sure]]], axis=1), axis=0)
-        return frozenset(found | self._hit_by_mesh(joint, doubtful, poses, found))
+        pieces, part = self._pieces, joint.part
+        open_too = {follower for other in opened for follower in self._followers[other]}
+        values = {other: self._joints[other].upper for other in opened | open_too}
+        poses = poses_at(self._joints, self._carriers, values)
+        boxes = pieces.posed(poses)
+        carried = [part, *(other for other in self._joints if part in self._above(other))]
+        others = np.flatnonzero(~np.isin(pieces.bodies, [pieces.number(body) for body in carried]))
+        found: set[str] = set()
+        for motion, own in self._paths(joint, carried, poses.get(self._carriers[part])):
+            path = SweptPath(joint, pieces.boxes[own], motion)
+            near = near_path(boxes, others, path)
+            if not len(near):
+                continue
+            moving, hit = overlapping(path.boxes, boxes[near], DEPTH)
+            deep = penetrations(path.boxes[moving], boxes[near[hit]]) > DEPTH
+            moving, hit = moving[deep], near[hit[deep]]
+            mine = own[path.rows[moving]]
+            sure = pieces.is_box[mine] & pieces.is_box[hit]
+            found |= {pieces.part_of(row) for row in np.unique(hit[sure]).tolist()}
+            doubtful = np.unique(np.stack([mine[~sure], hit[~sure], path.poses[moving[~sure]]], axis=1), axis=0)
+            found |= self._hit_by_mesh(path, doubtful, poses, found)
+        return frozenset(found)
+
+    def _paths(
+        self, joint: AnnotatedJoint, carried: Sequence[str], base: Mat4 | None
+    ) -> Iterator[tuple[Callable[[float], Mat4] | None, np.ndarray]]:
+        """Yields what moves as one with its pieces: None where it follows the joint alone, from rest."""
+        led = {other: value for other, value in self._followers[joint.part].items() if other in carried}
+        groups: dict[str, list[str]] = {}
+        for body in carried:
+            chain = [body, *self._above(body)]
+            groups.setdefault(next((part for part in chain if part in led), joint.part), []).append(body)
+        for leading, bodies in groups.items():
+            own = np.flatnonzero(np.isin(self._pieces.bodies, [self._pieces.number(body) for body in bodies]))
+            if not len(own):
+                continue
+            yield None if leading == joint.part and base is None else self._motion(joint, leading, led, base), own
+
+    def _motion(
+        self, joint: AnnotatedJoint, body: str, led: Mapping[str, Callable[[float], float]], base: Mat4 | None
+    ) -> Callable[[float], Mat4]:
+        """Returns where a body is at a value of a joint that carries it."""
+        carriers = self._carriers | {joint.part: ""}
+        chain = {part: self._joints[part] for part in (body, *self._above(body))}
+
+        def motion(value: float) -> Mat4:
+            values = {joint.part: value, **{part: led[part](value) for part in chain if part in led}}
+            pose = poses_at(chain, carriers, values)[body]
+            return pose if base is None else base @ pose
+
+        return motion
 
     def _hit_by_mesh(
-        self, joint: AnnotatedJoint, doubtful: np.ndarray, poses: dict[str, Mat4], found: set[str]
+        self, path: "SweptPath", doubtful: np.ndarray, poses: dict[str, Mat4], found: set[str]
     ) -> set[str]:
         """Returns the parts that are hit among (own piece, other piece, pose) rows; a pose of -1 stands for all."""
         pieces, hit = self._pieces, set(found)
@@ -105,158 +133,56 @@ class Clashes:
             if part in hit:
                 continue
             body, obstacle = pieces.body(mine), pieces.collider(other)
-            obstacle.place(poses.get(pieces.carrier_of[part], np.eye(4)))
-            for value in _values(joint) if pose < 0 else _values(joint)[[pose]]:
-                body.place(joint_motion(joint, float(value)))
+            obstacle.place(poses.get(pieces.body_of[part], np.eye(4)))
+            for T in path.motions if pose < 0 else path.motions[pose : pose + 1]:
+                body.place(T)
                 if body.penetrates(obstacle):
                     hit.add(part)
                     break
         return hit - found
 
 
-@final
-class _Pieces:
-    """All surfaces of an asset: the box of each, whether it is that box, the part it belongs to; not a value."""
-
-    def __init__(self, asset: Asset) -> None:
-        self.carrier_of = {part.id: part.carried_by or part.id for part in asset.parts}
-        self._ids = [part.id for part in asset.parts]
-        self._numbers = {part_id: number for number, part_id in enumerate(self._ids)}
-        owned = [(n, s.mesh) for n, part in enumerate(asset.parts) for s in part.surfaces if not s.is_empty]
-        self._meshes = [mesh for _, mesh in owned]
-        self._parts = np.array([number for number, _ in owned], dtype=np.int64)
-        self.carriers = np.array([self._numbers[self.carrier_of[i]] for i in self._ids], dtype=np.int64)[self._parts]
-        self.is_box, self.boxes = _boxes(self._meshes)
-        self._bodies: dict[int, SweptBody] = {}
-        self._colliders: dict[int, MeshCollider] = {}
-
-    def number(self, part: str) -> int:
-        """Returns the place of a part among the asset's."""
-        return self._numbers[part]
-
-    def part_of(self, row: int) -> str:
-        """Returns the id of the part that a piece belongs to."""
-        return self._ids[self._parts[row]]
-
-    def rows_of(self, moving: str) -> np.ndarray:
-        """Returns the pieces of a moving part and of what rides on it."""
-        return np.flatnonzero(self.carriers == self._numbers[moving])
-
-    def posed(self, poses: dict[str, Mat4]) -> BoxStack:
-        """Returns the boxes of all pieces, some moving parts posed."""
-        if not poses:
-            return self.boxes
-        centers, rotations = self.boxes.centers.copy(), self.boxes.rotations.copy()
-        for moving, T in poses.items():
-            rows = self.rows_of(moving)
-            there = self.boxes[rows].moved(T)
-            centers[rows], rotations[rows] = there.centers, there.rotations
-        return BoxStack(centers, self.boxes.halves, rotations)
-
-    def body(self, row: int) -> SweptBody:
-        """Returns a piece as a moving body."""
-        if row not in self._bodies:
-            self._bodies[row] = SweptBody(self._meshes[row], DEPTH, np.asarray(self.boxes.rotations[row]))
-        return self._bodies[row]
-
-    def collider(self, row: int) -> MeshCollider:
-        """Returns a piece as an obstacle."""
-        if row not in self._colliders:
-            self._colliders[row] = MeshCollider(self._meshes[row])
-        return self._colliders[row]
-
-
-@final
-class _Path:
-    """The boxes of a moving part along its path: each box's piece (`rows`) and pose (-1: all of it); not a value."""
-
-    def __init__(self, joint: AnnotatedJoint, boxes: BoxStack) -> None:
-        slides = np.zeros(len(boxes), dtype=bool)
-        if motion_kind(joint.type).slides:
-            along = np.abs(np.einsum("nij,i->nj", boxes.rotations, joint.axis.direction))
-            slides = along.max(axis=1) > 1.0 - 1e-9
-        turning = np.flatnonzero(~slides)
-        Ts = [joint_motion(joint, float(value)) for value in _values(joint)] if len(turning) else []
-        stacks = [boxes[turning].moved(T) for T in Ts]
-        if slides.any():
-            stacks.append(_drawn_out(boxes[slides], joint))
-        self.boxes = stacked(stacks)
-        self.rows = np.concatenate([np.tile(turning, len(Ts)), np.flatnonzero(slides)]).astype(np.int64)
-        self.poses = np.concatenate([np.repeat(np.arange(len(Ts)), len(turning)), np.full(slides.sum(), -1)])
-
-    @cached_property
-    def low(self) -> np.ndarray:
-        """The lowest corner of all boxes along the path."""
-        return (self.boxes.centers - self.boxes.reaches).min(axis=0)
-
-    @cached_property
-    def high(self) -> np.ndarray:
-        """The highest corner of all boxes along the path."""
-        return (self.boxes.centers + self.boxes.reaches).max(axis=0)
-
-
-def _drawn_out(boxes: BoxStack, joint: AnnotatedJoint) -> BoxStack:
-    """Returns boxes lengthened along one of their own axes to all that they pass through."""
-    along = np.abs(np.einsum("nij,i->nj", boxes.rotations, joint.axis.direction))
-    centers = boxes.centers + joint.axis.direction * joint.upper / 2
-    return BoxStack(centers, boxes.halves + along * joint.upper / 2, boxes.rotations)
-
-
-def _values(joint: AnnotatedJoint) -> Scalars:
-    return joint.upper * np.linspace(0.0, 1.0, POSES) ** _NEAR_REST
-
-
-def _boxes(meshes: Iterable[TriangleMesh]) -> tuple[np.ndarray, BoxStack]:
-    """Returns which meshes are boxes, and the boxes of all: their own, or the axis-aligned ones around them."""
-    meshes = list(meshes)
-    maybe = np.array([_may_be_box(mesh) for mesh in meshes], dtype=bool)
-    lows, highs = np.array([mesh.box.low for mesh in meshes]), np.array([mesh.box.high for mesh in meshes])
-    around = BoxStack.aligned(lows.reshape(-1, 3), highs.reshape(-1, 3))
-    if not maybe.any():
-        return maybe, around
-    rows = np.flatnonzero(maybe)
-    is_box, boxes = box_frames(np.stack([meshes[k].vertices[meshes[k].faces[:_BOX_FACES]] for k in rows]))
-    parts = [np.array(getattr(around, name)) for name in ("centers", "halves", "rotations")]
-    for values, name in zip(parts, ("centers", "halves", "rotations"), strict=True):
-        values[rows] = getattr(boxes, name)
-    maybe[rows] = is_box
-    return maybe, BoxStack(*parts)
-
-
-def _may_be_box(mesh: TriangleMesh) -> bool:
-    """Whether a mesh has as many faces as a box, or as many again turned over."""
-    count = len(mesh.faces)
-    return count == _BOX_FACES or (count == 2 * _BOX_FACES and is_two_sided(mesh.faces))
-
-
 _known: dict[int, Clashes] = {}
 
 
 def articulated_of(whole: Asset) -> ArticulatedObject:
-    """Returns one static root link with all still parts, and a link for each joint with what rides on its part.
+    """Returns one static root link with all still parts, and a link for each joint with what moves as one with it.
 
     Joints open from 0 to their upper limit. A joint waits (`after`) for each moving part that it would run into where
-    that part is closed, but not where it is open: a drawer waits for the doors before it.
+    that part is closed, but not where it is open: a drawer waits for the doors before it. One that follows another
+    waits for nothing.
 
     Raises:
         ArticulationError: if an upper limit is negative or not finite.
-        ValueError: if two joints name one part, or one names a part that rides on another.
+        ValueError: if two joints name one part.
     """
-    moving_bodies = {joint.part for joint in whole.joints}
-    riding = sorted(i for i in moving_bodies if whole.part(i).carried_by)
-    if len(moving_bodies) < len(whole.joints) or riding:
-        raise ValueError(f"each joint of `{whole.name}` must have a part of its own that rides on nothing: {riding}")
+    bodies, carriers = bodies_of(whole), carriers_of(whole)
+    if len(carriers) < len(whole.joints):
+        raise ValueError(f"each joint of `{whole.name}` must have a part of its own")
     root = _free_name("body", {part.id for part in whole.parts})
-    still = [part for part in whole.parts if (part.carried_by or part.id) not in moving_bodies]
-    links = [Link(root, tuple(_visual(part) for part in still))]
+    links = [Link(root, tuple(_visual(part) for part in whole.parts if bodies[part.id] not in carriers))]
     clashes, waits = clashes_of(whole), dict[str, tuple[str, ...]]()
-    for joint in sorted(whole.joints, key=lambda j: len(clashes.bodies_hit(j.part))):
+    free = (joint for joint in whole.joints if joint.coupling is None)
+    for joint in sorted(free, key=lambda j: len(clashes.bodies_hit(j.part))):
         waits[joint.part] = _waits_for(joint.part, clashes, waits)
-    for joint in whole.joints:
-        members = [part for part in whole.parts if joint.part in (part.id, part.carried_by)]
-        links.append(Link(joint.part, tuple(_visual(part) for part in members)))
-    joints = tuple(_joint(joint, root, waits[joint.part]) for joint in whole.joints)
-    return ArticulatedObject(whole.name, root, tuple(links), joints)
+    links += [Link(j.part, tuple(_visual(p) for p in whole.parts if bodies[p.id] == j.part)) for j in whole.joints]
+    made: dict[str, Joint] = {}
+    for joint in _leaders_first(whole.joints):
+        plain = _joint(joint, carriers[joint.part] or root, waits.get(joint.part, ()))
+        if joint.coupling is not None:
+            plain = plain.following(made[joint.coupling.leader], joint.coupling.multiplier, joint.coupling.offset)
+        made[joint.part] = plain
+    return ArticulatedObject(whole.name, root, tuple(links), tuple(made[joint.part] for joint in whole.joints))
+
+
+def _leaders_first(joints: Sequence[AnnotatedJoint]) -> Iterator[AnnotatedJoint]:
+    """Yields each joint after the one that it follows."""
+    for joint in joints:
+        if joint.coupling is None:
+            yield joint
+            led = led_by(joints, joint.part)
+            by_part = {one.part: one for one in joints}
+            yield from (by_part[part] for part in led)
 
 
 def _waits_for(part: str, clashes: Clashes, waits: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
@@ -268,9 +194,9 @@ def _waits_for(part: str, clashes: Clashes, waits: Mapping[str, tuple[str, ...]]
     return tuple(other for other in others if other not in still_hit)
 
 
-def _joint(joint: AnnotatedJoint, root: str, after: tuple[str, ...]) -> Joint:
-    limits = JointLimits(0.0, joint.upper)
-    return Joint(_joint_id(joint.part), joint.type, root, joint.part, joint.axis, limits, tuple(map(_joint_id, after)))
+def _joint(joint: AnnotatedJoint, parent: str, after: tuple[str, ...]) -> Joint:
+    limits, waits = JointLimits(0.0, joint.upper), tuple(map(_joint_id, after))
+    return Joint(_joint_id(joint.part), joint.type, parent, joint.part, joint.axis, limits, waits)
 
 
 def _joint_id(part: str) -> str:

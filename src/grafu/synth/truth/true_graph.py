@@ -1,8 +1,9 @@
 """The true functional graph of synthetic furniture: what touches, and what carries each door, drawer and handle.
 
-Contacts are what `parse_graph` finds, as for any input. Motions come from the true joints. The mount of a door is the
-still part nearest to its pin, those of a drawer the nearest ones beside its flanks, by distances from real meshes; a
-part that touches nothing has its mount all the same.
+Contacts are what `parse_graph` finds, as for any input. Motions come from the true joints. The mount of a door, and of
+whatever turns, is the still part nearest to its pin, those of a drawer the nearest ones beside its flanks, that of what
+else slides the nearest one along its lower or upper edge, by distances from real meshes; a part that touches nothing
+has its mount all the same. What rides on a moving part has that part as its mount.
 """
 
 from collections.abc import Sequence
@@ -14,10 +15,11 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.sampling import point_triangle_distances
-from grafu.graph.edges import Attached, Edge, Hinge, Rail, ends_of
+from grafu.graph.annotated import carrying_part
+from grafu.graph.edges import Attached, Edge, Hinge, MotionEdge, Rail, Slide, Turn, ends_of
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import axis_to_hinge, axis_to_rail
+from grafu.graph.motion import axis_to_hinge, axis_to_rail, direction_to_code
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.vocabulary import PartLabel
 
@@ -35,8 +37,6 @@ ODD = 0.03  # metres added for odds and ends (runners, brackets): what they are 
 def true_graph(whole: Asset, points: int = 512, seed: int = 0) -> FunctionalGraph:
     """Returns the functional graph of an asset with true labels, joints and attached parts; `points` on each node.
 
-    A joint that the codes cannot say (a sliding door) has no edge.
-
     Raises:
         GraphError: if a door turns about an axis across its thin side.
     """
@@ -46,14 +46,18 @@ def true_graph(whole: Asset, points: int = 512, seed: int = 0) -> FunctionalGrap
 def with_true_edges(graph: FunctionalGraph, whole: Asset) -> FunctionalGraph:
     """Returns the contact graph of an asset with an edge for each of its joints and each handle's attachment.
 
+    Of a handle that turns as well (a lever) the attachment is the edge.
+
     Raises:
         GraphError: if a door turns about an axis across its thin side.
     """
-    moving = {joint.part for joint in whole.joints}
-    still = [p for p in whole.parts if p.id not in moving and p.carried_by is None and p.label.is_support]
+    joints = {joint.part: joint for joint in (*whole.joints, *whole.small_joints)}
+    carrier_of = {p.id: carrying_part(p.id, joints, whole) for p in whole.parts}
+    still = [p for p in whole.parts if p.id not in joints and not carrier_of[p.id] and p.label.is_support]
     edges: list[Edge] = []
-    for joint in whole.joints:
-        edges += _joint_edges(joint, whole.part(joint.part), graph, still)
+    for joint in joints.values():
+        above = carrier_of[joint.part]
+        edges += _joint_edges(joint, whole.part(joint.part), graph, [whole.part(above)] if above else still)
     for part in whole.parts:
         if part.label is PartLabel.HANDLE and part.carried_by and whole.part(part.carried_by).label.is_movable:
             edges.append(Attached(part.carried_by, part.id))
@@ -67,23 +71,42 @@ def pairs_apart(contacts: FunctionalGraph, truth: FunctionalGraph) -> frozenset[
 
 
 def carriers(graph: FunctionalGraph) -> frozenset[str]:
-    """Returns the parts that carry a door, a drawer or a handle in a functional graph."""
-    return frozenset(
-        [*(e.parent for e in graph.hinges), *(e.parent for e in graph.rails), *(e.parent for e in graph.attachments)]
-    )
+    """Returns the parts that carry what moves, or a handle, in a functional graph."""
+    return frozenset(e.parent for e in (*graph.motions, *graph.attachments))
 
 
-def _joint_edges(joint: AnnotatedJoint, part: Part, graph: FunctionalGraph, still: list[Part]) -> list[Edge]:
-    if not still:
+def _joint_edges(joint: AnnotatedJoint, part: Part, graph: FunctionalGraph, able: list[Part]) -> list[MotionEdge]:
+    """Returns the edges of a joint; `able` may carry it: the still parts, or the one moving part that it is on."""
+    if not able:
         return []
     touching = set(graph.neighbours[part.id])
-    if motion_kind(joint.type).turns and part.label is PartLabel.DOOR:
-        border, sign = axis_to_hinge(part.box, joint.axis)
-        return [Hinge(_door_mount(joint, part, still, touching), part.id, border, sign)]
-    if motion_kind(joint.type).slides and part.label is PartLabel.DRAWER:
-        slide = axis_to_rail(joint.axis)
-        return [Rail(mount, part.id, slide) for mount in _drawer_mounts(joint, part, still, touching)]
-    return []
+    if motion_kind(joint.type).turns:
+        mount = _door_mount(joint, part, able, touching)
+        if part.label is not PartLabel.DOOR:
+            return [Turn(mount, part.id, direction_to_code(joint.axis.direction), joint.coupling)]
+        return [Hinge(mount, part.id, *axis_to_hinge(part.box, joint.axis), joint.coupling)]
+    code = axis_to_rail(joint.axis)
+    if part.label is PartLabel.DRAWER:
+        mounts = _drawer_mounts(joint, part, able, touching)
+        return [Rail(mount, part.id, code, joint.coupling) for mount in mounts]
+    return [Slide(_track(joint, part, able, touching), part.id, code, joint.coupling)]
+
+
+def _track(joint: AnnotatedJoint, part: Part, able: list[Part], touching: set[str]) -> str:
+    """Returns what a part slides on: what lies nearest along its lower edge or, of a door, its upper one.
+
+    What slides up or down runs along its sides.
+    """
+    box, slide = part.box, int(np.argmax(np.abs(joint.axis.direction)))
+    across = 2 if slide != 2 else 0 if box.thin_axis != 0 else 1
+    found = []
+    for end in (box.low, box.high) if part.label is PartLabel.DOOR or slide == 2 else (box.low,):
+        samples = np.tile(box.center, (len(PIN_SAMPLES), 1))
+        samples[:, slide] = box.low[slide] + PIN_SAMPLES * box.size[slide]
+        samples[:, across] = end[across]
+        found.append(_best(samples, able, touching))
+    lower, *upper = found
+    return next((name for name, distance in upper if distance < lower[1] - ALIKE), lower[0])
 
 
 def _door_mount(joint: AnnotatedJoint, door: Part, still: list[Part], touching: set[str]) -> str:

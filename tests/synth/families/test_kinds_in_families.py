@@ -1,0 +1,125 @@
+"""Each way to move in the families that draw it: its truth states what its maker's joints state."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from grafu.articulation.motion_kind import motion_kind
+from grafu.asset.part import Asset
+from grafu.graph.annotated import carrying_part
+from grafu.graph.edges import Hinge, Rail, Slide, Turn
+from grafu.graph.motion import axis_to_hinge, direction_to_code
+from grafu.synth.families.table import FAMILIES, MAKERS, draw_blueprint
+from grafu.synth.generate import make_specimen
+from grafu.synth.truth.check import faults_of
+from grafu.synth.truth.true_graph import true_graph
+from grafu.vocabulary import PartLabel
+
+# A family, what the drawn spec holds, and the kind of edge and the label of what moves so
+KINDS = {
+    "sliding wardrobe": ("wardrobe", "Sliding(kind='bypass'", Slide, PartLabel.DOOR),
+    "bi-fold wardrobe": ("wardrobe", "Folding(", Hinge, PartLabel.DOOR),
+    "sliding sideboard": ("sideboard", "Sliding(kind='bypass'", Slide, PartLabel.DOOR),
+    "sliding lowboard": ("lowboard", "Sliding(", Slide, PartLabel.DOOR),
+    "barn door": ("TV stand", "kind='barn'", Slide, PartLabel.DOOR),
+    "glass panes": ("display cabinet", "pane=True", Slide, PartLabel.DOOR),
+    "bookcase": ("bookcase", "Sliding(", Slide, PartLabel.DOOR),
+    "slim pull-out": ("base cabinet", "PullOut(load='trays'", Slide, PartLabel.DOOR),
+    "pantry": ("tall cabinet", "PullOut(", Slide, PartLabel.DOOR),
+    "bins on a front": ("base cabinet", "PullOut(load='bins'", Slide, PartLabel.DOOR),
+    "bins behind a door": ("base cabinet", "Bins(", Slide, PartLabel.MISC),
+    "fold-up flap": ("wall cabinet", "Folding(side='top'", Hinge, PartLabel.DOOR),
+    "folding corner": ("corner cabinet", "FoldingCorner(", Hinge, PartLabel.DOOR),
+    "keyboard tray": ("writing desk", "box='tray'", Rail, PartLabel.DRAWER),
+    "swivel mirror": ("vanity", "swivel=0.3", Turn, PartLabel.MISC),
+    "drop leaves": ("drop-leaf table", "", Hinge, PartLabel.DOOR),
+    "extension leaves": ("extending table", "", Slide, PartLabel.TOP_PANEL),
+    "dishwasher": ("appliance", "kind='dishwasher'", Slide, PartLabel.SHELF),
+    "oven": ("appliance", "kind='oven'", Turn, PartLabel.MISC),
+    "microwave oven": ("appliance", "kind='microwave'", Turn, PartLabel.MISC),
+    "door of a building": ("building door", "", Hinge, PartLabel.DOOR),
+    "window": ("window", "kind='pair'", Hinge, PartLabel.DOOR),
+    "sash": ("window", "kind='sash'", Slide, PartLabel.DOOR),
+}
+NESTED = ("bi-fold wardrobe", "fold-up flap", "folding corner")
+FOLLOWING = {"bi-fold wardrobe": {2.0}, "fold-up flap": {2.0}}
+
+
+@cache
+def drawn(name: str) -> Asset:
+    """Returns the first sound piece of this kind that its family draws."""
+    family, words, _, _ = KINDS[name]
+    for k in range(2000):
+        try:
+            spec = FAMILIES[family][1](np.random.default_rng([31, k]))
+            asset = MAKERS[type(spec)](spec) if words in repr(spec) else None
+        except ValueError:
+            continue
+        if asset and not faults_of(asset):
+            return asset
+    raise AssertionError(f"no {name} in 2000 draws")
+
+
+@pytest.mark.parametrize("name", list(KINDS))
+def test_the_truth_states_what_the_joints_state(name: str) -> None:
+    asset, (_, _, kind, label) = drawn(name), KINDS[name]
+    truth = true_graph(asset, 8)
+    joints = {joint.part: joint for joint in (*asset.joints, *asset.small_joints)}
+    found = set()
+    for part, joint in joints.items():
+        if asset.part(part).label is PartLabel.HANDLE:
+            continue
+        edges, above = truth.motions_of(part), carrying_part(part, joints, asset)
+        assert edges
+        for edge in edges:
+            assert edge.joint_type is joint.type or motion_kind(joint.type).turns
+            assert edge.coupling == joint.coupling
+            assert edge.parent == above if above else edge.parent not in joints
+            if isinstance(edge, Hinge):
+                assert (edge.border, edge.sign) == axis_to_hinge(asset.part(part).box, joint.axis)
+            else:
+                assert edge.axis == direction_to_code(joint.axis.direction)
+            found.add((type(edge), asset.part(part).label))
+    assert (kind, label) in found
+    assert not [fault for fault in faults_of(asset, truth=truth) if fault.kind != "loose"]
+
+
+@pytest.mark.parametrize("name", list(KINDS))
+def test_only_what_folds_hangs_on_what_moves(name: str) -> None:
+    asset = drawn(name)
+    truth = true_graph(asset, 8)
+    nested = [edge for edge in truth.motions if truth.carrier_of(edge.child) and isinstance(edge, Hinge)]
+    assert bool(nested) == (name in NESTED)
+    assert {edge.coupling.multiplier for edge in nested if edge.coupling} == FOLLOWING.get(name, set())
+
+
+@pytest.mark.parametrize("family", sorted({family for family, *_ in KINDS.values()}))
+def test_the_same_state_draws_the_same_piece(family: str) -> None:
+    first, again = (draw_blueprint(np.random.default_rng([32, 5]), family) for _ in range(2))
+    assert first == again
+
+
+def test_sliding_leaves_open_most_of_their_width_and_pass_one_another() -> None:
+    for name in ("sliding wardrobe", "sliding sideboard", "glass panes"):
+        asset = drawn(name)
+        for joint in asset.joints:
+            part = asset.part(joint.part)
+            if part.label is PartLabel.DOOR and abs(joint.axis.direction[0]) == 1.0:
+                assert 0.5 * part.box.size[0] <= joint.upper < part.box.size[0]
+
+
+def test_all_storage_and_tables_stay_most_of_what_is_made() -> None:
+    whole = sum(weight for weight, _ in FAMILIES.values())
+    others = ("fridge", "oven", "appliance", "building door", "window")
+    assert sum(FAMILIES[name][0] for name in others) <= 0.15 * whole
+
+
+@pytest.mark.slow
+def test_every_joint_of_a_specimen_has_an_edge() -> None:
+    for index in range(300):
+        specimen = make_specimen(9, index, 0)
+        joints = (*specimen.whole.joints, *specimen.whole.small_joints)
+        attached = {edge.child for edge in specimen.truth.attachments}
+        bare = [j.part for j in joints if not specimen.truth.motions_of(j.part) and j.part not in attached]
+        assert not bare, specimen.id
