@@ -20,7 +20,8 @@ WIDEST_DOOR = 0.62  # metres: wider single doors are rare, wider openings have a
 WIDEST_PAIR = 1.15
 WIDE, THREE_LEAVES = 1.7, 0.4  # metres; of sliding doors across more than that: three leaves
 LEAST_BESIDE, ALONE = 1.2, 0.6  # metres; of wider pieces with sliding doors: nothing beside these
-BEHIND = 0.035  # doors of deep cases with drawers behind them: sold often, modelled seldom
+BEHIND = 0.09  # doors of deep cases with drawers behind them: of 41 development models three
+INNER_TRAYS = 0.5  # of those: pull-out shelves, low trays far above each other
 INNER_KNOBS: Mapping[HandleStyle, float] = {
     "knob-round": 1.0,
     "none": 2.0,
@@ -173,6 +174,8 @@ def with_inner_drawers(rng: np.random.Generator, layout: Layout, width: float) -
 
 
 def _inner_drawers(rng: np.random.Generator) -> Layout:
+    if chance(rng, INNER_TRAYS):
+        return Stack((Drawer(box="tray", handle="none"),) * count(rng, 1, 3), between="nothing")
     knob = pick(rng, INNER_KNOBS)
     drawers = (Drawer(handle=knob),) * count(rng, 1, 3)
     return Stack((*drawers, OpenCell()), (*(1.0 for _ in drawers), between(rng, (1.0, 3.0))))
