@@ -60,6 +60,24 @@ def _about(axis: Axis, search: DoorSearch) -> Placement | None:
     return _joint(search, axis, axis.rotation, upper, ())
 
 
+def support_without_hardware(search: DoorSearch) -> Placement | None:
+    """Returns the joint of what swings out below a leaf, on the pin that the table has: as asked for, or on its border.
+
+    It is None where hardware was chosen, where it is not free, and where it would come away from all static parts. The
+    leaf, while it hangs, may be in its way.
+    """
+    frame, found = search.frame, []
+    for axis in (search.request.axis, *(frame.axis_at(0.0, -ratio * frame.thickness) for ratio in _DEPTHS)):
+        upper = search.widest(axis, search.wanted)
+        if upper < search.config.restricted * search.wanted or (found and upper <= found[0].upper):
+            continue
+        joint = _joint(search, axis, axis.rotation, upper, search.bodies_in_the_way(axis, upper))
+        found = found if joint is None else [replace(joint, template=DRAWN, notes=())]
+        if found and upper >= search.wanted:
+            break
+    return found[0] if found else None
+
+
 def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 

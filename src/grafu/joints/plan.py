@@ -42,6 +42,7 @@ class MotionRole(StrEnum):
     LOWER = "lower"  # of two leaves that fold up: it follows the leaf above it
     EXTENSION = "extension"  # it makes a table longer, and slides on what the table has
     BIN = "bin"  # it stands behind a door, and slides out on what is there
+    SUPPORT = "support"  # it carries a table's raised leaf, and swings or slides out on what the table has
     LIFTED = "lifted"  # arms lift it upright where they find room
 
 

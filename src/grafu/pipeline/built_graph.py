@@ -4,7 +4,7 @@ Where a part was built for a node that the network had added, what was decided a
 builds nothing.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,7 @@ from grafu.graph.annotated import joint_edges
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Contact, Edge, MotionEdge, ends_of
 from grafu.graph.edit import with_edges, without_nodes
-from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed
 from grafu.graph.parse import ParsingConfig
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
@@ -136,11 +136,21 @@ def _edges(old: Sequence[Part], new: Sequence[Part], extent: float, parsing: Par
     """Returns what new parts touch, and where handles are attached."""
     parts = [*old, *new]
     if parsing.contact == "none":
-        return [Attached(p.carried_by, p.id) for p in new if p.carried_by and p.label is PartLabel.HANDLE]
+        return list(_attached(parts, new))
     pairs = [(a, b) for a, b in near_pairs([p.box for p in parts], parsing.box_tolerance * extent) if b >= len(old)]
     if parsing.contact == "mesh":
         pairs = touching_pairs([p.mesh for p in parts], pairs, parsing.mesh_tolerance * extent)
     contacts = [Contact(parts[a].id, parts[b].id) for a, b in pairs]
-    attached = [Attached(p.carried_by, p.id) for p in new if p.carried_by and p.label is PartLabel.HANDLE]
+    attached = list(_attached(parts, new))
     joined = {frozenset(ends_of(edge)) for edge in attached}
     return [*(c for c in contacts if frozenset(ends_of(c)) not in joined), *attached]
+
+
+def _attached(parts: Sequence[Part], new: Sequence[Part]) -> Iterator[Attached]:
+    """Yields how new handles are attached; on a moving part that is neither door nor drawer the type system has no way."""
+    labels = {part.id: part.label for part in parts}
+    for part in new:
+        if part.carried_by and part.label is PartLabel.HANDLE:
+            edge = Attached(part.carried_by, part.id)
+            if is_allowed(edge, labels[part.carried_by], part.label):
+                yield edge
