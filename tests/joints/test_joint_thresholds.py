@@ -59,6 +59,7 @@ REASONS = {
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/in_frame.py": {"GAPS": EFFORT},
     "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},
+    "beside_leaf.py": {"_UP": NUMBERING, "_RAYS": SAMPLES, "_UPRIGHT": NUMBERING},
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "clearance/loss.py": {"_MOST_EXACT": EFFORT, "_POINTS": SAMPLES, "_PLASTIC": GEOMETRY},
     "clearance/separate.py": {"_SAMPLES": SAMPLES},
@@ -66,7 +67,7 @@ REASONS = {
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
     "drop_leaves.py": {"_UP": NUMBERING},
-    "drop_supports.py": {"_UP": NUMBERING, "_RAYS": SAMPLES, "_QUARTER": GEOMETRY, "_UPRIGHT": NUMBERING},
+    "drop_supports.py": {"_UP": NUMBERING, "_QUARTER": GEOMETRY},
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
     "extension_leaves.py": {"_UP": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
@@ -109,10 +110,10 @@ REASONS = {
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
-    DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig, FootingConfig,
-    HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig,
-    RailConfig, RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig, TiltConfig, TimeConfig, WasteBinConfig,
-    WideBarConfig, WindowConfig,
+    DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
+    FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig, PlanConfig,
+    PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig,
+    TiltConfig, TimeConfig, WasteBinConfig, WideBarConfig, WindowConfig,
 )  # fmt: skip
 
 

@@ -160,7 +160,7 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
 
 
 def _guided(search: DrawerSearch, gallery: Gallery) -> Placement | None:
-    """Returns the rails, or what a column in its sleeve, the leaf of a table and its support run in, which need none."""
+    """Returns the rails, or what a column, the leaf of a table and its support run in, which need none."""
     if search.request.role in (MotionRole.EXTENSION, MotionRole.SUPPORT):
         return leaf_without_hardware(search)
     return lift_without_hardware(search) if search.is_column else place_rails(search, gallery)

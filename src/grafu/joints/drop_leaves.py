@@ -1,8 +1,8 @@
 """Leaves of tables that hang from their tops, and swing up level with them.
 
 They are found by boxes, whatever the parts are called: an upright board outside the top's edge, along most of it, that
-neither reaches the floor nor is held at its ends, at its lower edge or behind its lower half. What carries it once it is
-raised (`drop_supports`) only stands behind it.
+neither reaches the floor nor is held at its ends, at its lower edge or behind its lower half. What carries it once it
+is raised (`drop_supports`) only stands behind it.
 """
 
 from collections.abc import Callable, Iterator
@@ -81,7 +81,7 @@ def is_called_support(part: Part) -> bool:
     return bool(_SUPPORTS & {singular(word) for word in spoken(part.source.name)})
 
 
-def no_supports(leaf: HangingLeaf) -> frozenset[str]:
+def no_supports(_leaf: HangingLeaf) -> frozenset[str]:
     """Returns the parts that carry a leaf once it is raised: none."""
     return frozenset()
 
@@ -94,8 +94,9 @@ def with_drop_leaves(
 ) -> RealizationPlan:
     """Returns the plan in which leaves that hang from a table's top swing up.
 
-    `supports` are the ids of the parts that will carry a leaf once it is raised: they do not hold it while it hangs, nor
-    do those that are called so. What was predicted to turn about another border is a leaf where it hangs as one; other joints stay as they are.
+    `supports` returns the ids of what will carry a leaf once it is raised: that does not hold it while it hangs, nor
+    does what is called so. What was predicted to turn about another border is a leaf where it hangs as one; other
+    joints stay as they are.
     """
     config = at_scale(config, metre_on(asset.extent))
     moving = moving_parts(plan)

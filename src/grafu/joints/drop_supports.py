@@ -1,26 +1,24 @@
 """What carries a table's drop leaf once it is raised: gate legs and brackets swing out below it, lopers slide out.
 
-They are found beside leaves that hang (`drop_leaves`), by name, or by shape: a plank under the top along the frame, or an
-open frame that stands on the floor there. They move on what the table has, without hardware. Until the leaf is up it is
-in their way, so they wait for it.
+They are found beside leaves that hang (`drop_leaves`), by name, or by shape: a plank under the top along the frame, an
+open frame that stands on the floor, a bar that passes the frame and ends behind the leaf. They move on what the
+table has, without hardware. Until the leaf is up it is in their way, so they wait for it; it comes to lie on them.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from math import pi
-from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import RayCaster, depths_below
+from grafu.geometry.mesh import merge_meshes
 from grafu.graph.edges import Hinge, Slide
 from grafu.graph.functional_graph import joined_groups
+from grafu.joints.beside_leaf import BesideLeaf, comes_out, is_shown, looks_like_support, path_of_swing, pin_of
 from grafu.joints.drop_leaves import (
     SOURCE,
     HangingLeaf,
@@ -35,55 +33,7 @@ from grafu.scene.scene import metre_on
 from grafu.vocabulary import PartLabel
 
 _UP = 2
-_RAYS = 16  # along each side of an outline
 _QUARTER = pi / 2
-_UPRIGHT = vec3(0.0, 0.0, 1.0)
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class _Beside:
-    """A leaf that hangs, as the parts behind it are seen from it: `axis` looks along the way from the frame to it."""
-
-    leaf: HangingLeaf
-    config: DropSupportConfig
-
-    @property
-    def across(self) -> int:
-        """The axis along the edge of the top that the leaf hangs from."""
-        return 1 - self.leaf.axis
-
-    @property
-    def out(self) -> Vec3:
-        """From the frame to the leaf."""
-        return vec3(*(float(self.leaf.sign) * (np.arange(3) == self.leaf.axis)))
-
-    def ends(self, box: Box) -> tuple[float, float]:
-        """Returns how far out a box begins and ends, metres."""
-        low, high = box.low[self.leaf.axis], box.high[self.leaf.axis]
-        return (float(low), float(high)) if self.leaf.sign > 0 else (float(-high), float(-low))
-
-    def behind(self, box: Box) -> float:
-        """Returns how far behind the hanging leaf's inner face a box ends, metres."""
-        return self.ends(self.leaf.part.box)[0] - self.ends(box)[1]
-
-    def is_below_and_behind(self, box: Box) -> bool:
-        """Whether a box is under the top, close behind the leaf, and within its span."""
-        hung, config, across = self.leaf.part.box, self.config, self.across
-        below = box.high[_UP] <= self.leaf.top.box.low[_UP] + config.gap
-        behind = -config.gap <= self.behind(box) <= config.beside
-        span = hung.low[across] - config.gap <= box.low[across] and box.high[across] <= hung.high[across] + config.gap
-        return bool(below and behind and span)
-
-    def swings(self, box: Box) -> bool:
-        """Whether a box has the proportions of what lies folded behind the leaf, and carries it when swung out."""
-        long, tall = float(box.size[self.across]), float(self.leaf.part.box.size[_UP])
-        slim = box.size[self.leaf.axis] <= self.config.slim * long
-        return bool(slim and self.config.long[0] * tall <= long <= self.config.long[1] * tall)
-
-    def slides(self, box: Box) -> bool:
-        """Whether a box is a bar that points to the leaf."""
-        return bool(np.delete(box.size, self.leaf.axis).max() <= self.config.slim * box.size[self.leaf.axis])
 
 
 def with_drop_supports(
@@ -93,10 +43,11 @@ def with_drop_supports(
 
     What is called a support and was predicted to move in another way is one; other joints stay as they are.
     """
-    leaves = hanging_leaves(plan, asset)
-    found = _found(leaves, plan, asset, at_scale(config, metre_on(asset.extent))) if leaves else {}
+    scaled = at_scale(config, metre_on(asset.extent))
+    besides = [BesideLeaf(leaf, scaled) for leaf in hanging_leaves(plan, asset)]
+    found = _found(besides, plan, asset) if besides else {}
     taken = {name for request in found.values() for name in (request.moving, *request.attached)}
-    kept = tuple(request for request in plan.joints if request.moving not in taken)
+    kept = _resting([request for request in plan.joints if request.moving not in taken], found.values(), besides, asset)
     refused = tuple(refusal for refusal in plan.refused if refusal.part not in taken)
     return replace(plan, joints=(*kept, *found.values()), refused=refused) if found else plan
 
@@ -104,29 +55,24 @@ def with_drop_supports(
 def with_supported_leaves(
     plan: RealizationPlan, asset: Asset, config: DropSupportConfig = DropSupportConfig()
 ) -> RealizationPlan:
-    """Returns a predicted plan in which leaves that hang from a table's top swing up, and what carries them comes out."""
+    """Returns a predicted plan in which leaves that hang from a top swing up, and what carries them comes out."""
     scaled = at_scale(config, metre_on(asset.extent))
 
     def supports(leaf: HangingLeaf) -> frozenset[str]:
-        found = _found([leaf], plan, asset, scaled)
+        found = _found([BesideLeaf(leaf, scaled)], plan, asset)
         return frozenset(name for request in found.values() for name in (request.moving, *request.attached))
 
     return with_drop_supports(with_drop_leaves(plan, asset, supports=supports), asset, config)
 
 
-def _found(
-    leaves: Sequence[HangingLeaf], plan: RealizationPlan, asset: Asset, config: DropSupportConfig
-) -> dict[str, JointRequest]:
+def _found(besides: Sequence[BesideLeaf], plan: RealizationPlan, asset: Asset) -> dict[str, JointRequest]:
     """Returns what carries leaves that hang, by the part that moves."""
-    hung, moving = {leaf.part.id for leaf in leaves}, moving_parts(plan)
+    hung, moving = {one.leaf.part.id for one in besides}, moving_parts(plan)
     free = [part for part in asset.parts if part.id not in hung and _may_carry(part, moving)]
     still = [part for part in asset.parts if part.id not in moving and part.id not in hung]
-    besides = [_Beside(leaf, config) for leaf in leaves]
     found: dict[str, JointRequest] = {}
-    for group in _groups(free, config.touching):
-        box = Box.enclosing(part.box for part in group)
-        nearest = min(besides, key=lambda one: abs(one.behind(box)))
-        request = _request(group, nearest, still)
+    for group in _groups(free, besides[0].config.touching):
+        request = _request(group, _nearest(Box.enclosing(part.box for part in group), besides), still)
         found |= {} if request is None else {request.moving: request}
     return found
 
@@ -140,12 +86,29 @@ def with_stated_supports(
         return plan
     config = at_scale(config, metre_on(asset.extent))
     hung = {leaf.part.id for leaf in leaves}
-    besides = [_Beside(leaf, config) for leaf in leaves]
-    joints = (
-        replace(r, role=MotionRole.SUPPORT) if r.moving not in hung and _is_stated(r, asset, besides) else r
-        for r in plan.joints
-    )
-    return replace(plan, joints=tuple(joints))
+    besides = [BesideLeaf(leaf, config) for leaf in leaves]
+    stated = [replace(r, role=MotionRole.SUPPORT) for r in plan.joints if _is_stated(r, asset, besides)]
+    carrying = {request.moving: request for request in stated if request.moving not in hung}
+    joints = [carrying.get(request.moving, request) for request in plan.joints]
+    return replace(plan, joints=_resting(joints, carrying.values(), besides, asset)) if carrying else plan
+
+
+def _nearest(box: Box, besides: Sequence[BesideLeaf]) -> BesideLeaf:
+    """Returns the leaf that a box ends next to."""
+    return min(besides, key=lambda one: abs(one.behind(box)))
+
+
+def _resting(
+    joints: Sequence[JointRequest], supports: Collection[JointRequest], besides: Sequence[BesideLeaf], asset: Asset
+) -> tuple[JointRequest, ...]:
+    """Returns joints in which the leaves that have supports come to lie on these; a leaf that was found turns so."""
+    upper: dict[str, float] = {}
+    for support in supports:
+        box = asset.part(support.moving).box
+        leaf = _nearest(box, besides).leaf.part.id
+        upper[leaf] = max(upper.get(leaf, -np.inf), float(box.high[_UP]))
+    by_leaf = {one.leaf.part.id: one for one in besides}
+    return tuple(by_leaf[r.moving].resting(r, upper[r.moving]) if r.moving in upper else r for r in joints)
 
 
 def _may_carry(part: Part, moving: frozenset[str]) -> bool:
@@ -161,7 +124,7 @@ def _groups(free: Sequence[Part], touching: float) -> Iterator[tuple[Part, ...]]
     yield from ((part,) for part in free if part.id not in named)
 
 
-def _request(group: tuple[Part, ...], beside: _Beside, still: Sequence[Part]) -> JointRequest | None:
+def _request(group: tuple[Part, ...], beside: BesideLeaf, still: Sequence[Part]) -> JointRequest | None:
     """Returns how parts that hang together carry a leaf; None where they do not."""
     box, named = Box.enclosing(part.box for part in group), is_called_support(group[0])
     if not beside.is_below_and_behind(box):
@@ -174,78 +137,16 @@ def _request(group: tuple[Part, ...], beside: _Beside, still: Sequence[Part]) ->
     made = JointRequest(
         largest.id, Slide.joint_type, Axis(box.center, beside.out), SOURCE, attached=attached, role=MotionRole.SUPPORT
     )
-    if named and beside.slides(box):
-        return replace(made, reference=beside.config.travel * float(box.size[beside.leaf.axis]))
-    if not beside.swings(box) or not (named or _is_shown(mesh, beside, others)):
+    if beside.slides(box) and (named or comes_out(box, beside, others)):
+        return replace(made, reference=beside.travel(box))
+    if not beside.swings(box) or not (named or is_shown(mesh, beside, others)):
         return None
-    if any(other.overlaps(_path(box, beside)) for other in others):
+    if any(other.overlaps(path_of_swing(box, beside)) for other in others):
         return None
-    axis = _pin(box, beside, _pin_end(mesh, beside))
-    return replace(made, type=Hinge.joint_type, axis=axis, reference=_QUARTER)
+    return replace(made, type=Hinge.joint_type, axis=pin_of(mesh, beside), reference=_QUARTER)
 
 
-def _is_shown(mesh: TriangleMesh, beside: _Beside, others: Sequence[Box]) -> bool:
-    """Whether shape alone shows a support: it reaches the top, nothing holds its ends, and the frame is behind it."""
-    config, box, across = beside.config, mesh.box, beside.across
-    reaches = box.high[_UP] >= beside.leaf.top.box.low[_UP] - config.near
-    if not reaches or not looks_like_support(mesh, beside.leaf.axis, config):
-        return False
-    inner, beyond = beside.ends(box)[0], config.gap * (np.arange(3) == across)
-    ends = Box(box.low - beyond, box.high + beyond)
-    if any(o.overlaps(ends) and beside.ends(o)[1] > inner + config.gap for o in others):
-        return False
-    back = [o for o in others if abs(beside.ends(o)[1] - inner) <= config.reach and o.high[_UP] > box.low[_UP]]
-    along = [min(o.high[across], box.high[across]) - max(o.low[across], box.low[across]) for o in back]
-    return bool(max(along, default=0.0) >= config.behind * box.size[across])
-
-
-def looks_like_support(mesh: TriangleMesh, axis: int, config: DropSupportConfig = DropSupportConfig()) -> bool:
-    """Whether a body, seen along `axis`, is a plank that is longer than high, or an open frame, and no door."""
-    box = mesh.box
-    if box.size[_UP] <= config.low * box.size[1 - axis]:
-        return True
-    depths = depths_below(RayCaster(mesh), box, axis, _RAYS, float(box.size.max()))
-    return float(np.isfinite(depths).mean()) <= config.open
-
-
-def _path(box: Box, beside: _Beside) -> Box:
-    """Returns the box that a support sweeps before the frame as it swings out about either of its ends."""
-    axis, gap = beside.leaf.axis, beside.config.gap
-    low, high = box.low + gap, box.high - gap
-    length = float(box.size[beside.across])
-    if beside.leaf.sign > 0:
-        high[axis] = box.low[axis] + length
-    else:
-        low[axis] = box.high[axis] - length
-    return Box(low, np.maximum(low, high))
-
-
-def _pin_end(mesh: TriangleMesh, beside: _Beside) -> int:
-    """Returns the end about which a support swings: -1 or 1 along the leaf.
-
-    A gate's leg is at its other end, a bracket is highest at its pin; else it is the end nearer to the leaf's middle.
-    """
-    box, across, config = mesh.box, beside.across, beside.config
-    length, along = config.end * float(box.size[across]), mesh.vertices[:, across]
-    heights = mesh.vertices[:, _UP]
-    first = float(heights[along <= box.low[across] + length].min())
-    last = float(heights[along >= box.high[across] - length].min())
-    is_gate = bool(box.low[_UP] <= beside.leaf.part.box.low[_UP] - config.near)
-    if abs(first - last) >= config.differ * float(box.size[_UP]):
-        return -1 if (first < last) != is_gate else 1
-    return -1 if box.center[across] >= beside.leaf.part.box.center[across] else 1
-
-
-def _pin(box: Box, beside: _Beside, end: int) -> Axis:
-    """Returns the axis of a support at one of its ends, on the frame: the positive sense swings it out."""
-    point = box.center.copy()
-    point[beside.across] = box.low[beside.across] if end < 0 else box.high[beside.across]
-    point[beside.leaf.axis] = beside.leaf.sign * beside.ends(box)[0]
-    along = -float(end) * (np.arange(3) == beside.across)
-    return Axis(point, _UPRIGHT * float(np.cross(along, beside.out)[_UP]))
-
-
-def _is_stated(request: JointRequest, asset: Asset, besides: Sequence[_Beside]) -> bool:
+def _is_stated(request: JointRequest, asset: Asset, besides: Sequence[BesideLeaf]) -> bool:
     """Whether a request is of a support: beside a leaf, towards it or about an upright axis, and no door or drawer."""
     part, way = asset.part(request.moving), request.axis.direction
     if request.role is not MotionRole.NONE or request.parent or request.coupling is not None:

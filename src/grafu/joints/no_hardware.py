@@ -48,7 +48,8 @@ def door_without_hardware(search: DoorSearch) -> Placement | None:
     """
     frame = search.frame
     border = [frame.axis_at(0.0, -ratio * frame.thickness) for ratio in _DEPTHS]
-    placements = (_about(axis, search) for axis in (search.request.axis, *border))
+    axes = sorted((search.request.axis, *border), key=search.sinks)
+    placements = (_about(axis, search) for axis in axes)
     return next((placement for placement in placements if placement is not None), None)
 
 

@@ -147,7 +147,7 @@ def _edges(old: Sequence[Part], new: Sequence[Part], extent: float, parsing: Par
 
 
 def _attached(parts: Sequence[Part], new: Sequence[Part]) -> Iterator[Attached]:
-    """Yields how new handles are attached; on a moving part that is neither door nor drawer the type system has no way."""
+    """Yields how new handles are attached, where the type system allows it: to what may be a door or drawer."""
     labels = {part.id: part.label for part in parts}
     for part in new:
         if part.carried_by and part.label is PartLabel.HANDLE:

@@ -103,7 +103,7 @@ def bars_of(frame: Frame, supports: Supports | None) -> Iterator[Span]:
 
 
 def supports_of(frame: Frame, supports: Supports) -> Iterator[PieceDraft]:
-    """Yields the supports of the leaf at one end, with their true joints: from folded to a right angle, or drawn out."""
+    """Yields the supports of the leaf at one end, with their true joints: out to a right angle, or along themselves."""
     if supports.kind == "loper":
         yield from (_loper(frame, supports, y) for y in _places(frame, supports))
         return
