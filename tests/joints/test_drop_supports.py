@@ -15,7 +15,7 @@ from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings
 from grafu.render.picture import posed_visuals
 from grafu.synth.tables.drop_leaf import DropLeafTable, make_drop_leaf_table
-from grafu.synth.tables.drop_leaf_supports import Supports
+from grafu.synth.tables.drop_leaf_supports import LeafSupports
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
 from small_scenes import box, scene
@@ -33,7 +33,7 @@ LOPER = ((-0.1, -0.02, 0.69), (0.298, 0.02, 0.719))
 
 
 def table(kind, count=1, *, nameless=False, **sizes):
-    spec = DropLeafTable(drop=0.4, overhang=0.035, supports=Supports(kind, count, 0.7, 0.02), **sizes)
+    spec = DropLeafTable(drop=0.4, overhang=0.035, supports=LeafSupports(kind, count, 0.7, 0.02), **sizes)
     made = make_drop_leaf_table(replace(spec, depth=0.95))
     if not nameless:
         return made
@@ -97,6 +97,18 @@ OTHERS = {
 @pytest.mark.parametrize("what", OTHERS)
 def test_what_carries_no_leaf_stays(what):
     assert supports_in(scene(*TABLE, *OTHERS[what])) == {}
+
+
+def test_what_was_predicted_to_carry_or_move_a_support_no_longer_does():
+    side = Axis(vec3(0.25, 0.0, 0.6), vec3(0.0, 1.0, 0.0))
+    requests = (
+        JointRequest("apron", JointType.REVOLUTE, side, "network", attached=("bracket", "knob")),
+        JointRequest("bracket", JointType.PRISMATIC, side, "network"),
+    )
+    asset = scene(*TABLE, box("bracket", *BRACKET))
+    plan = with_supported_leaves(RealizationPlan(requests), asset)
+    assert {r.moving: r.attached for r in plan.joints} == {"apron": ("knob",), "leaf": (), "bracket": ()}
+    assert {r.moving: r.type for r in plan.joints}["bracket"] is JointType.REVOLUTE
 
 
 def test_without_a_leaf_nothing_is_a_support():

@@ -23,7 +23,7 @@ _UPRIGHT = vec3(0.0, 0.0, 1.0)
 @final
 @dataclass(frozen=True, slots=True)
 class BesideLeaf:
-    """A leaf that hangs, as the parts behind it are seen from it: `axis` looks along the way from the frame to it."""
+    """A leaf that hangs, and where the parts behind it are as seen from the frame: `out` points to the leaf."""
 
     leaf: HangingLeaf
     config: DropSupportConfig

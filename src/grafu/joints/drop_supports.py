@@ -47,9 +47,15 @@ def with_drop_supports(
     besides = [BesideLeaf(leaf, scaled) for leaf in hanging_leaves(plan, asset)]
     found = _found(besides, plan, asset) if besides else {}
     taken = {name for request in found.values() for name in (request.moving, *request.attached)}
-    kept = _resting([request for request in plan.joints if request.moving not in taken], found.values(), besides, asset)
+    others = [_without(request, taken) for request in plan.joints if request.moving not in taken]
+    kept = _resting(others, found.values(), besides, asset)
     refused = tuple(refusal for refusal in plan.refused if refusal.part not in taken)
     return replace(plan, joints=(*kept, *found.values()), refused=refused) if found else plan
+
+
+def _without(request: JointRequest, taken: set[str]) -> JointRequest:
+    """Returns a request whose part carries nothing of what moves by itself."""
+    return replace(request, attached=tuple(part for part in request.attached if part not in taken))
 
 
 def with_supported_leaves(
@@ -148,15 +154,15 @@ def _request(group: tuple[Part, ...], beside: BesideLeaf, still: Sequence[Part])
 
 def _is_stated(request: JointRequest, asset: Asset, besides: Sequence[BesideLeaf]) -> bool:
     """Whether a request is of a support: beside a leaf, towards it or about an upright axis, and no door or drawer."""
-    part, way = asset.part(request.moving), request.axis.direction
+    part, direction = asset.part(request.moving), request.axis.direction
     if request.role is not MotionRole.NONE or request.parent or request.coupling is not None:
         return False
     bodies = [asset.part(name).mesh for name in (request.moving, *request.attached)]
     mesh = merge_meshes(bodies)
     for beside in besides:
         aligned = beside.config.aligned
-        turns = request.kind.turns and abs(float(way[_UP])) >= aligned and beside.swings(mesh.box)
-        slides = request.kind.slides and float(way @ beside.out) >= aligned and beside.slides(mesh.box)
+        turns = request.kind.turns and abs(float(direction[_UP])) >= aligned and beside.swings(mesh.box)
+        slides = request.kind.slides and float(direction @ beside.out) >= aligned and beside.slides(mesh.box)
         shown = is_called_support(part) or slides or looks_like_support(mesh, beside.leaf.axis, beside.config)
         if (turns or slides) and shown and beside.is_below_and_behind(mesh.box):
             return True

@@ -67,7 +67,8 @@ def support_without_hardware(search: DoorSearch) -> Placement | None:
     It is None where hardware was chosen, where it is not free, and where it would come away from all static parts. The
     leaf, while it hangs, may be in its way.
     """
-    frame, found = search.frame, []
+    frame = search.frame
+    found: list[Placement] = []
     for axis in (search.request.axis, *(frame.axis_at(0.0, -ratio * frame.thickness) for ratio in _DEPTHS)):
         upper = search.widest(axis, search.wanted)
         if upper < search.config.restricted * search.wanted or (found and upper <= found[0].upper):

@@ -17,7 +17,7 @@ from grafu.graph.edges import Hinge
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, assemble, plank
 from grafu.synth.pieces.finish import PLAIN, Finish
 from grafu.synth.sampling.chance import between
-from grafu.synth.tables.drop_leaf_supports import Frame, Supports, apron_of, bars_of, drawn_supports, supports_of
+from grafu.synth.tables.drop_leaf_supports import LeafSupports, TableEnd, apron_of, bars_of, drawn_supports, supports_of
 from grafu.vocabulary import PartLabel
 
 
@@ -43,7 +43,7 @@ class DropLeafTable:
     apron: float = 0.1
     gap: float = 0.002
     overhang: float = 0.02
-    supports: Supports | None = None
+    supports: LeafSupports | None = None
     finish: Finish = PLAIN
 
     def __post_init__(self) -> None:
@@ -107,10 +107,10 @@ def _stand(spec: DropLeafTable) -> Iterator[PieceDraft]:
         yield from (plank(PartLabel.BAR, "stretcher", wood, bar) for bar in bars_of(frame, supports))
 
 
-def _frame(spec: DropLeafTable, side: float) -> Frame:
+def _frame(spec: DropLeafTable, side: float) -> TableEnd:
     """Returns the frame at the left (`side` -1) or the right end: the apron stands back a little behind the legs."""
     face, free = spec.width / 2 - spec.overhang - 0.005, spec.depth / 2 - spec.overhang - spec.leg
-    return Frame(side, face, 0.018, free, spec.height - spec.top, spec.apron, spec.drop, spec.finish.case)
+    return TableEnd(side, face, 0.018, free, spec.height - spec.top, spec.apron, spec.drop, spec.finish.case)
 
 
 def _leaf(spec: DropLeafTable, side: float) -> PieceDraft:

@@ -24,12 +24,12 @@ _STRETCHER = 0.14  # metres above the floor: the lower rail of a gate, and the o
 _SLOT = 0.0015  # metres between a loper and the apron around it
 _PROUD = 0.012  # metres that a swinging support stays off the legs of the frame, which stand out beside the apron
 _TRAVEL = 0.6  # of a loper's length: how far it comes out
-_BACK = 1.5  # of the way from the table's middle to its apron: how far back a loper reaches at most
+_BACK = 1.5  # times the distance from the table's middle to its apron: how long a loper is at most
 
 
 @final
 @dataclass(frozen=True, slots=True)
-class Supports:
+class LeafSupports:
     """`count` supports of each leaf; they reach out by `reach` of its length, and are `thickness` metres thick.
 
     `inwards`: two that swing have their pins apart, and lie folded towards each other.
@@ -46,12 +46,12 @@ class Supports:
 
     def __post_init__(self) -> None:
         if self.count not in (1, 2) or not 0 < self.reach < 1:
-            raise ValueError(f"`Supports` must be one or two that reach less than a leaf: got {self.count}")
+            raise ValueError(f"`LeafSupports` must be one or two that reach less than a leaf: got {self.count}")
 
 
 @final
 @dataclass(frozen=True, slots=True)
-class Frame:
+class TableEnd:
     """The frame of a table at one end, metres: `side` is -1 at the left end and 1 at the right one.
 
     `face` is how far from the middle the apron's outer face is, `board` how thick the apron; `free` is half of what is
@@ -73,16 +73,16 @@ class Frame:
         return (x0, y0, z[0]), (x1, y1, z[1])
 
 
-def drawn_supports(rng: np.random.Generator, depth: float) -> Supports:
+def drawn_supports(rng: np.random.Generator, depth: float) -> LeafSupports:
     """Returns supports of random kind and size for a table of a depth."""
     kinds: tuple[Literal["bracket", "gate", "loper"], ...] = ("bracket", "gate", "loper")
     kind = kinds[int(rng.integers(len(kinds)))]
     count = 2 if depth > 0.85 and kind != "gate" and chance(rng, 0.6) else 1
     thickness = between(rng, (0.024, 0.032) if kind == "gate" else (0.014, 0.022))
-    return Supports(kind, count, between(rng, (0.55, 0.9)), thickness, chance(rng, 0.5))
+    return LeafSupports(kind, count, between(rng, (0.55, 0.9)), thickness, chance(rng, 0.5))
 
 
-def apron_of(frame: Frame, supports: Supports | None) -> Iterator[Span]:
+def apron_of(frame: TableEnd, supports: LeafSupports | None) -> Iterator[Span]:
     """Yields the boards of the apron, with slots where lopers pass it."""
     x, low = (frame.face - frame.board, frame.face), frame.under - frame.apron
     if supports is None or supports.kind != "loper":
@@ -95,14 +95,14 @@ def apron_of(frame: Frame, supports: Supports | None) -> Iterator[Span]:
         yield frame.span(x, (first, last), (sill, frame.under))
 
 
-def bars_of(frame: Frame, supports: Supports | None) -> Iterator[Span]:
+def bars_of(frame: TableEnd, supports: LeafSupports | None) -> Iterator[Span]:
     """Yields the stretcher beside which gates lie folded."""
     if supports is not None and supports.kind == "gate":
         z = _STRETCHER, _STRETCHER + _RAIL
         yield frame.span((frame.face - frame.board, frame.face), (-frame.free, frame.free), z)
 
 
-def supports_of(frame: Frame, supports: Supports) -> Iterator[PieceDraft]:
+def supports_of(frame: TableEnd, supports: LeafSupports) -> Iterator[PieceDraft]:
     """Yields the supports of the leaf at one end, with their true joints: out to a right angle, or along themselves."""
     if supports.kind == "loper":
         yield from (_loper(frame, supports, y) for y in _places(frame, supports))
@@ -119,24 +119,24 @@ def supports_of(frame: Frame, supports: Supports) -> Iterator[PieceDraft]:
         yield boards(frame, supports, pin, along, _swing(frame, pin, along))
 
 
-def _length(frame: Frame, supports: Supports) -> float:
+def _length(frame: TableEnd, supports: LeafSupports) -> float:
     """Returns how long what swings is: less than was asked for where legs or the other one leave no more room."""
     room = 2 * (frame.free - supports.thickness - _PROUD) / supports.count - 2 * _MIDDLE
     return min(supports.reach * frame.drop, room)
 
 
-def _height(frame: Frame) -> float:
+def _height(frame: TableEnd) -> float:
     """Returns how high a bracket at its pin and a loper are."""
     return min(_RAIL, frame.apron / 2)
 
 
-def _swing(frame: Frame, pin: float, along: float) -> PieceMotion:
+def _swing(frame: TableEnd, pin: float, along: float) -> PieceMotion:
     """Returns the quarter turn out of the frame about a pin; folded, the support points `along` y."""
     axis = Axis(vec3(frame.side * (frame.face + _SEAM), pin, 0.0), vec3(0.0, 0.0, -along * frame.side))
     return PieceMotion(Hinge.joint_type, axis, pi / 2)
 
 
-def _bracket(frame: Frame, supports: Supports, pin: float, along: float, motion: PieceMotion) -> PieceDraft:
+def _bracket(frame: TableEnd, supports: LeafSupports, pin: float, along: float, motion: PieceMotion) -> PieceDraft:
     """Returns a plank that tapers from its pin to its end."""
     top, tip = frame.under - _SEAM, pin + along * _length(frame, supports)
     tall = 1.5 * _height(frame)
@@ -147,7 +147,7 @@ def _bracket(frame: Frame, supports: Supports, pin: float, along: float, motion:
     return PieceDraft(piece.label, piece.stem, piece.surfaces, motion)
 
 
-def _gate(frame: Frame, supports: Supports, pin: float, along: float, motion: PieceMotion) -> PieceDraft:
+def _gate(frame: TableEnd, supports: LeafSupports, pin: float, along: float, motion: PieceMotion) -> PieceDraft:
     """Returns a post, two rails and a leg that stands on the floor."""
     thick, top = supports.thickness, frame.under - _SEAM
     x = frame.face + _SEAM, frame.face + _SEAM + thick
@@ -163,13 +163,13 @@ def _gate(frame: Frame, supports: Supports, pin: float, along: float, motion: Pi
     return PieceDraft(piece.label, piece.stem, piece.surfaces, motion)
 
 
-def _places(frame: Frame, supports: Supports) -> list[float]:
+def _places(frame: TableEnd, supports: LeafSupports) -> list[float]:
     """Returns where lopers are along the end of the table; those of the other end pass beside them."""
     off = frame.side * supports.thickness
     return [off] if supports.count == 1 else [off - frame.free / 2, off + frame.free / 2]
 
 
-def _loper(frame: Frame, supports: Supports, place: float) -> PieceDraft:
+def _loper(frame: TableEnd, supports: LeafSupports, place: float) -> PieceDraft:
     length, top, half = min(_BACK * frame.face, frame.drop), frame.under - _SEAM, supports.thickness / 2
     x, y = (frame.face - length, frame.face), (place - half, place + half)
     piece = plank(PartLabel.BAR, "loper", frame.wood, frame.span(x, y, (top - _height(frame), top)))
