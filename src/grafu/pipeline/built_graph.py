@@ -4,7 +4,7 @@ Where a part was built for a node that the network had added, what was decided a
 builds nothing.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -33,9 +33,9 @@ def as_built(
     bare = without_nodes(completion.completed, completion.added)
     new = [addition.part for addition in additions]
     nodes = (*bare.nodes, *(PartNode(p.id, p.label, p.box) for p in new))
-    graph = with_edges(
-        replace(bare, nodes=nodes), _edges([p for p in asset.parts if p.id in bare], new, asset.extent, parsing)
-    )
+    old = [part for part in asset.parts if part.id in bare]
+    joined = replace(bare, nodes=nodes)
+    graph = with_edges(joined, _edges(old, new, _attached(new, joined), asset.extent, parsing))
     names = _stands_for(completion, new)
     decisions = tuple(
         replace(d, part=names.get(d.part, d.part)) for d in completion.decisions if d.part in bare or d.part in names
@@ -132,25 +132,23 @@ def _stands_for(completion: GraphCompletion, new: Sequence[Part]) -> dict[str, s
     return found
 
 
-def _edges(old: Sequence[Part], new: Sequence[Part], extent: float, parsing: ParsingConfig) -> list[Edge]:
+def _edges(
+    old: Sequence[Part], new: Sequence[Part], attached: Sequence[Edge], extent: float, parsing: ParsingConfig
+) -> list[Edge]:
     """Returns what new parts touch, and where handles are attached."""
     parts = [*old, *new]
     if parsing.contact == "none":
-        return list(_attached(parts, new))
+        return [*attached]
     pairs = [(a, b) for a, b in near_pairs([p.box for p in parts], parsing.box_tolerance * extent) if b >= len(old)]
     if parsing.contact == "mesh":
         pairs = touching_pairs([p.mesh for p in parts], pairs, parsing.mesh_tolerance * extent)
     contacts = [Contact(parts[a].id, parts[b].id) for a, b in pairs]
-    attached = list(_attached(parts, new))
     joined = {frozenset(ends_of(edge)) for edge in attached}
     return [*(c for c in contacts if frozenset(ends_of(c)) not in joined), *attached]
 
 
-def _attached(parts: Sequence[Part], new: Sequence[Part]) -> Iterator[Attached]:
-    """Yields how new handles are attached, where the type system allows it: to what may be a door or drawer."""
-    labels = {part.id: part.label for part in parts}
-    for part in new:
-        if part.carried_by and part.label is PartLabel.HANDLE:
-            edge = Attached(part.carried_by, part.id)
-            if is_allowed(edge, labels[part.carried_by], part.label):
-                yield edge
+def _attached(new: Sequence[Part], graph: FunctionalGraph) -> list[Edge]:
+    """Returns how new handles are attached; on what is neither door nor drawer the type system has no such edge."""
+    handles = [Attached(p.carried_by, p.id) for p in new if p.carried_by and p.label is PartLabel.HANDLE]
+    label = {node.id: node.label for node in graph.nodes}
+    return [edge for edge in handles if is_allowed(edge, label[edge.parent], label[edge.child])]
