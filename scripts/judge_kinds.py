@@ -76,7 +76,7 @@ def judge(kind: str, motion: str, seed: int, out: Path | None, number: int) -> J
     asset = KINDS[kind](np.random.default_rng([seed, number]), name)
     try:
         result = grafu.functionalize(asset, motion=motion, small_parts=True)
-    except grafu.GrafuError as error:
+    except grafu.FunctionalizationError as error:
         return Judged(name, (), 0, str(error))
     if out:
         write_files(out / "truth" / name, _as_mobility(asset))

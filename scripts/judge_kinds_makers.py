@@ -18,7 +18,7 @@ from grafu.synth.fronts.setting import Mount
 from grafu.synth.openings.door import drawn_door, make_building_door
 from grafu.synth.openings.window import drawn_window, make_window
 from grafu.synth.sampling.chance import between, chance
-from grafu.synth.tables.drop_leaf import drawn_drop_leaf_table, make_drop_leaf_table
+from grafu.synth.tables.drop_leaf import drawn_drop_leaf_table, drawn_supported_table, make_drop_leaf_table
 from grafu.synth.tables.extending import ExtendingTable, make_extending_table
 
 Maker = Callable[[np.random.Generator, str], Asset]
@@ -60,6 +60,7 @@ KINDS: Mapping[str, Maker] = {
     "folding": _folding,
     "tilting": _tilting,
     "drop-leaf": lambda rng, name: make_drop_leaf_table(drawn_drop_leaf_table(rng, name)),
+    "drop-leaf-supports": lambda rng, name: make_drop_leaf_table(drawn_supported_table(rng, name)),
     "extending": _extending,
     "pull-out": lambda rng, name: make_pull_out(drawn_pull_out(rng, name)),
     "waste-bin": _bin,

@@ -96,7 +96,7 @@ RAIL_CLASSES = (MechanismClass.CENTRE, MechanismClass.CORNER)
 
 
 MOTION_WORDS = (
-    *("left", "right", "top", "bottom", "lift", "drop", "tilt", "lift-parallel"),
+    *("left", "right", "top", "bottom", "front", "back", "lift", "drop", "tilt", "lift-parallel"),
     *("slides", "pull", "slide-left", "slide-right", "slide-up", "fold-left", "fold-right", "fold-up", "fixed"),
 )
 """How a user states a motion: the border that a part turns about (`lift`: the top, `drop`: the bottom; `tilt`: the

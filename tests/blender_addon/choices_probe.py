@@ -16,7 +16,9 @@ from probe_end import carry_out  # noqa: E402
 from stepping import FACTS, session, step  # noqa: E402
 
 import blender_addon  # noqa: E402
-from blender_addon import joint_operators, objects  # noqa: E402
+from blender_addon import joint_operators, motion_operators, objects, state  # noqa: E402
+from grafu.joints.motion_choice import choice_in_words  # noqa: E402
+from grafu.vocabulary import MOTION_WORDS  # noqa: E402
 
 
 def bring(name):
@@ -39,6 +41,17 @@ def offered(part, mechanism="auto") -> list:
     return [[item[0] for item in menu(question, bpy.context)] for menu in menus]
 
 
+def chosen_as(word) -> list:
+    """What the menus choose for a word of the command, as they offer it: how the part moves then, and the side."""
+    choice = choice_in_words(word)
+    moves = [item[0] for item in motion_operators.MOVES if item[0] == choice.moves.value]
+    sides = [item[0] for item in motion_operators.SIDES if item[0] == (choice.side or motion_operators.USUAL)]
+    question = SimpleNamespace(part="door_1", moves=moves[0], side=sides[0], inwards=False)
+    change = motion_operators.GRAFU_OT_set_motion.changed
+    made = change(question, bpy.context, state.settings_of(session())).motions["door_1"]
+    return [made.moves.value, made.side.value if made.side else None, made.inwards]
+
+
 def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     blender_addon.register()
@@ -49,6 +62,10 @@ def main():
     FACTS[-1]["row"] = next(row.mechanism for row in session().joints if row.part == "door_1")
     step("hang right", grafu.set_motion, part="door_1", moves="turns", side="right")
     step("flap", grafu.set_motion, part="door_1", moves="turns", side="bottom")
+    FACTS[-1]["words"] = {word: chosen_as(word) for word in MOTION_WORDS}
+    step("tilts", grafu.set_motion, part="door_1", moves="tilts")
+    step("rises on arms", grafu.set_motion, part="door_1", moves="lifts")
+    step("slides left", grafu.set_motion, part="door_1", moves="slides", side="left")
     step("no border", grafu.set_motion, part="door_1", moves="turns")
     step("broad face", grafu.set_motion, part="door_1", moves="turns", side="front")
     step("wall slides", grafu.set_motion, part="back_panel", moves="slides", side="back")

@@ -5,9 +5,11 @@ import json
 import pytest
 from probe_runs import SAMPLES, assert_refused, assert_taken_back, facts_in, run_probe
 
+from grafu.joints.motion_choice import choice_in_words
 from grafu.joints.plan import Supports
 from grafu.pipeline.settings import settings_from_json
 from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import MOTION_WORDS
 
 REFUSED = {
     "no border": "choose the border",
@@ -53,6 +55,18 @@ def test_a_rejected_door_is_static_and_can_be_hung_anew(steps):
     assert steps["flap"]["mounts"]["door_1"] == "bottom_panel"
     assert steps["as found"]["joints"] == steps["as found again"]["joints"] == steps["functionalize"]["joints"]
     assert "door_1" not in steps["active"]["joints"]
+
+
+def test_the_menus_offer_every_motion_that_the_command_has_a_word_for(steps):
+    words = {word: choice_in_words(word) for word in MOTION_WORDS}
+    expected = {word: [c.moves.value, c.side.value if c.side else None, c.inwards] for word, c in words.items()}
+    assert steps["flap"]["words"] == expected
+
+
+def test_a_front_tilts_as_chosen_and_a_flap_without_room_for_arms_turns_up(steps):
+    assert steps["tilts"]["joints"]["door_1"][3] < steps["flap"]["joints"]["door_1"][3]
+    assert steps["tilts"]["mounts"]["door_1"] == "bottom_panel"
+    assert steps["rises on arms"]["motions"]["door_1"] == ["turns", "top", False]
 
 
 def test_a_door_hangs_on_the_part_that_is_chosen(steps):

@@ -13,6 +13,7 @@ from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.config import BlockConfig, RealizationConfig, TimeConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
+from grafu.joints.drop_support_config import DropSupportConfig
 from grafu.joints.extension_leaves import ExtensionConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
@@ -58,6 +59,7 @@ REASONS = {
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/in_frame.py": {"GAPS": EFFORT},
     "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},
+    "beside_leaf.py": {"_UP": NUMBERING, "_RAYS": SAMPLES, "_UPRIGHT": NUMBERING},
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "clearance/loss.py": {"_MOST_EXACT": EFFORT, "_POINTS": SAMPLES, "_PLASTIC": GEOMETRY},
     "clearance/separate.py": {"_SAMPLES": SAMPLES},
@@ -65,6 +67,7 @@ REASONS = {
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
     "drop_leaves.py": {"_UP": NUMBERING},
+    "drop_supports.py": {"_UP": NUMBERING, "_QUARTER": GEOMETRY},
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
     "extension_leaves.py": {"_UP": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
@@ -107,10 +110,10 @@ REASONS = {
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
-    DrawerConfig, DrawnConfig, DropLeafConfig, ExtensionConfig, FlankConfig, FoldConfig, FootingConfig, HingeConfig,
-    LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig, PlanConfig, PullOutConfig, RackConfig, RailConfig,
-    RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig, TiltConfig, TimeConfig, WasteBinConfig,
-    WideBarConfig, WindowConfig,
+    DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
+    FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig, PlanConfig,
+    PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig,
+    TiltConfig, TimeConfig, WasteBinConfig, WideBarConfig, WindowConfig,
 )  # fmt: skip
 
 

@@ -117,3 +117,12 @@ def test_added_parts_touch_what_they_touch() -> None:
     assert [edge for edge in built.completed.edges if isinstance(edge, Contact) and "shelf" in (edge.a, edge.b)] == [
         Contact(side.id, "shelf")
     ]
+
+
+def test_a_handle_on_what_is_neither_door_nor_drawer_only_touches_it() -> None:
+    model = asset()
+    board = next(part.id for part in model.parts if part.label is PartLabel.SIDE_PANEL)
+    middle = np.asarray(model.part(board).box.face_center(0))
+    built = as_built(expected(model), model, [addition("handle_1", PartLabel.HANDLE, middle, board)]).completed
+    assert [edge for edge in built.edges if isinstance(edge, Attached)] == []
+    assert "handle_1" in built.neighbours[board]

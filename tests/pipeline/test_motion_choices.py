@@ -271,6 +271,8 @@ def test_a_door_of_a_sample_can_be_rejected_and_hung_anew(sample):
         ("lift", MotionChoice(Moves.TURNS, Side.TOP)),
         ("drop", MotionChoice(Moves.TURNS, Side.BOTTOM)),
         ("left", MotionChoice(Moves.TURNS, Side.LEFT)),
+        ("front", MotionChoice(Moves.TURNS, Side.FRONT)),
+        ("back", MotionChoice(Moves.TURNS, Side.BACK)),
         ("pull", MotionChoice(Moves.SLIDES)),
         ("slide-left", MotionChoice(Moves.SLIDES, Side.LEFT)),
         ("slide-right", MotionChoice(Moves.SLIDES, Side.RIGHT)),

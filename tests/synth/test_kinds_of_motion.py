@@ -8,7 +8,13 @@ from grafu.metrics.collision import CollisionConfig, collision_shares
 from grafu.synth.appliances.appliance import Appliance, drawn_appliance, make_appliance
 from grafu.synth.cabinets.pull_out import PullOutUnit, drawn_pull_out, make_pull_out
 from grafu.synth.cabinets.sliding import SlidingDoors, drawn_sliding_doors, make_sliding_doors
-from grafu.synth.tables.drop_leaf import DropLeafTable, drawn_drop_leaf_table, make_drop_leaf_table
+from grafu.synth.tables.drop_leaf import (
+    DropLeafTable,
+    drawn_drop_leaf_table,
+    drawn_supported_table,
+    make_drop_leaf_table,
+)
+from grafu.synth.tables.drop_leaf_supports import LeafSupports
 from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import JointType
 from judging import installed, realized
@@ -17,6 +23,7 @@ SEEDS = range(6)
 MAKERS = {
     "sliding": lambda rng: make_sliding_doors(drawn_sliding_doors(rng, "x")),
     "drop leaf": lambda rng: make_drop_leaf_table(drawn_drop_leaf_table(rng, "x")),
+    "supported leaf": lambda rng: make_drop_leaf_table(drawn_supported_table(rng, "x")),
     "pull-out": lambda rng: make_pull_out(drawn_pull_out(rng, "x")),
     "dishwasher": lambda rng: make_appliance(drawn_appliance(rng, "x", "dishwasher")),
     "oven": lambda rng: make_appliance(drawn_appliance(rng, "x", "oven")),
@@ -25,6 +32,7 @@ MAKERS = {
 TYPES = {
     "sliding": {JointType.PRISMATIC},
     "drop leaf": {JointType.REVOLUTE},
+    "supported leaf": {JointType.REVOLUTE, JointType.PRISMATIC},
     "pull-out": {JointType.PRISMATIC},
     "dishwasher": {JointType.REVOLUTE, JointType.PRISMATIC},
     "oven": {JointType.REVOLUTE, JointType.PRISMATIC, JointType.CONTINUOUS},
@@ -47,7 +55,7 @@ def test_true_joints_are_of_their_types_and_collide_with_nothing(kind):
         assert set(colliding.values()) == {0.0}, (kind, asset.name)
 
 
-@pytest.mark.parametrize("kind", ["sliding", "pull-out", "drop leaf"])
+@pytest.mark.parametrize("kind", ["sliding", "pull-out", "drop leaf", "supported leaf"])
 def test_they_are_realized_as_far_as_they_truly_open(kind):
     asset = drawn(kind, 1)
     made = installed(realized(asset))
@@ -63,6 +71,11 @@ def test_they_are_realized_as_far_as_they_truly_open(kind):
     [
         (lambda: SlidingDoors(leaves=1), "must be 2 or 3, of a barn door 1: got 1"),
         (lambda: DropLeafTable(leaves=3), "end above the floor"),
+        (lambda: LeafSupports(count=3), "one or two that reach less than a leaf: got 3"),
+        (
+            lambda: DropLeafTable(supports=LeafSupports(thickness=0.03)),
+            "must hold the supports behind a leaf",
+        ),
         (lambda: PullOutUnit(trays=0), "must be at least 1: got 0"),
         (lambda: Appliance(knobs=2), "knobs a panel"),
     ],

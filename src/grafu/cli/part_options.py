@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from grafu.pipeline.settings import Settings
 
 MOVE_HELP = (
-    "how a part moves, whatever the motion source states: it turns about its left, right, top or bottom side "
-    "(lift: top, drop: bottom; tilt: bottom, with its bin, and not far); lift-parallel: upright, on arms; slides, "
+    "how a part moves, whatever the motion source states: it turns about its left, right, top, bottom, front or back "
+    "side (lift: top, drop: bottom; tilt: bottom, with its bin, and not far); lift-parallel: upright, on arms; slides, "
     "pull: out of the front; slide-left, slide-right, slide-up: along itself; fold-left, fold-right, fold-up: as one "
     "of two leaves that fold to that side; fixed; once for each part"
 )

@@ -24,6 +24,7 @@ from grafu.joints.no_hardware import (
     drawer_without_hardware,
     leaf_without_hardware,
     lift_without_hardware,
+    support_without_hardware,
 )
 from grafu.joints.plan import JointRequest, MotionRole
 from grafu.joints.rail.place import place_rails
@@ -66,7 +67,8 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     search = door_search(request, scene, config)
     if not search.has_pins:
         return Refusal(request.moving, Reason.NO_ROOM, f"what stands around it allows no {request.choice}")
-    drawn = _on_drawn_hinges(search)
+    swung = support_without_hardware(search) if request.role is MotionRole.SUPPORT else None
+    drawn = (swung, scene, ()) if swung else _on_drawn_hinges(search)
     if drawn is not None:
         return _built(request, drawn, search.wanted)
     found = _cleared(search) if search.best().free < search.wanted else (search, ())
@@ -158,8 +160,8 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
 
 
 def _guided(search: DrawerSearch, gallery: Gallery) -> Placement | None:
-    """Returns the rails, or what a column in its sleeve and the leaf of a table run in, which need none."""
-    if search.request.role is MotionRole.EXTENSION:
+    """Returns the rails, or what a column, the leaf of a table and its support run in, which need none."""
+    if search.request.role in (MotionRole.EXTENSION, MotionRole.SUPPORT):
         return leaf_without_hardware(search)
     return lift_without_hardware(search) if search.is_column else place_rails(search, gallery)
 

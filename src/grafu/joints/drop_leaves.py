@@ -1,15 +1,17 @@
 """Leaves of tables that hang from their tops, and swing up level with them.
 
 They are found by boxes, whatever the parts are called: an upright board outside the top's edge, along most of it, that
-neither reaches the floor nor is held at its ends, at its lower edge or behind its lower half.
+neither reaches the floor nor is held at its ends, at its lower edge or behind its lower half. What carries it once it
+is raised (`drop_supports`) only stands behind it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 
+from grafu.asset.names import singular, spoken
 from grafu.asset.part import Asset, Part
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
@@ -20,6 +22,7 @@ from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"
 """`JointRequest.source` of a drop leaf: its shape alone tells."""
+_SUPPORTS = frozenset({"gateleg", "gate", "bracket", "support", "loper", "flyleg"})
 _UP = 2
 _RAISED = MotionChoice(Moves.TURNS, Side.TOP)
 
@@ -50,28 +53,57 @@ class DropLeafConfig:
     """How high above the floor it ends at least (fraction of the piece's height)."""
     held: float = 0.4
     """Nothing stands behind this lower part of it (fraction of its height): a side of a case is held there."""
+    level: float = 0.1
+    """Below this cosine to the vertical an axis is level: a leaf turns up about it."""
     core: float = 0.5
     """What stands within this middle part of its thickness, beside or below it, holds it (fraction)."""
 
     def __post_init__(self) -> None:
         require_positive(self, "gap")
-        require_ratios(self, "thin", "covers", "high", "along", "off_floor", "held", "core")
+        require_ratios(self, "thin", "covers", "high", "along", "off_floor", "held", "level", "core")
         if not 0 < self.tall[0] < self.tall[1] < 1:
             raise ValueError(f"`DropLeafConfig.tall` must be two rising fractions: got {self.tall}")
 
 
-def with_drop_leaves(plan: RealizationPlan, asset: Asset, config: DropLeafConfig = DropLeafConfig()) -> RealizationPlan:
+@final
+@dataclass(frozen=True, slots=True)
+class HangingLeaf:
+    """A leaf that hangs from a top: the level `axis` (0 or 1) that its faces look along, and the side, -1 or 1."""
+
+    part: Part
+    top: Part
+    axis: int
+    sign: int
+
+
+def is_called_support(part: Part) -> bool:
+    """Whether a part's name is that of what carries a leaf: a gate leg, a bracket, a loper."""
+    return bool(_SUPPORTS & {singular(word) for word in spoken(part.source.name)})
+
+
+def no_supports(_leaf: HangingLeaf) -> frozenset[str]:
+    """Returns the parts that carry a leaf once it is raised: none."""
+    return frozenset()
+
+
+def with_drop_leaves(
+    plan: RealizationPlan,
+    asset: Asset,
+    config: DropLeafConfig = DropLeafConfig(),
+    supports: Callable[[HangingLeaf], frozenset[str]] = no_supports,
+) -> RealizationPlan:
     """Returns the plan in which leaves that hang from a table's top swing up.
 
-    What was predicted to turn about another border is a leaf where it hangs as one; other joints stay as they are.
+    `supports` returns the ids of what will carry a leaf once it is raised: that does not hold it while it hangs, nor
+    does what is called so. What was predicted to turn about another border is a leaf where it hangs as one; other
+    joints stay as they are.
     """
     config = at_scale(config, metre_on(asset.extent))
-    moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
+    moving = moving_parts(plan)
     turning = {r.moving: r for r in plan.joints if r.kind.turns and not r.parent and r.coupling is None}
-    static = [part for part in asset.parts if part.id not in moving and not part.label.is_movable]
     may_hang = [part for part in asset.parts if part.id in turning or _is_free(part, moving)]
-    tops = [part for part in static if _is_top(part.box, asset.box, config)]
-    found = {leaf.id: leaf for top in tops for leaf in _leaves(top, may_hang, asset, config)}
+    hanging = _hanging(may_hang, moving, asset, config)
+    found = {leaf.part.id: leaf.part for leaf in hanging if _is_alone(leaf, supports(leaf), asset, config)}
     if not found:
         return plan
     kept = tuple(request for request in plan.joints if request.moving not in found)
@@ -80,7 +112,23 @@ def with_drop_leaves(plan: RealizationPlan, asset: Asset, config: DropLeafConfig
     return replace(plan, joints=(*kept, *swung), refused=refused)
 
 
-def _is_free(part: Part, moving: set[str]) -> bool:
+def moving_parts(plan: RealizationPlan) -> frozenset[str]:
+    """Returns the ids of all parts that move as a plan has it."""
+    return frozenset(part for request in plan.joints for part in (request.moving, *request.attached))
+
+
+def hanging_leaves(
+    plan: RealizationPlan, asset: Asset, config: DropLeafConfig = DropLeafConfig()
+) -> tuple[HangingLeaf, ...]:
+    """Returns the leaves that hang from a table's top and turn up, as a plan has it, wherever that comes from."""
+    turning = {r.moving for r in plan.joints if r.kind.turns and abs(float(r.axis.direction[_UP])) < config.level}
+    if not turning:
+        return ()
+    may_hang = [part for part in asset.parts if part.id in turning]
+    return tuple(_hanging(may_hang, moving_parts(plan), asset, at_scale(config, metre_on(asset.extent))))
+
+
+def _is_free(part: Part, moving: frozenset[str]) -> bool:
     return part.id not in moving and part.label not in (PartLabel.DRAWER, PartLabel.HANDLE)
 
 
@@ -97,14 +145,25 @@ def _is_top(box: Box, whole: Box, config: DropLeafConfig) -> bool:
     return bool(flat and covers and box.high[_UP] >= whole.high[_UP] - config.high * whole.size[_UP])
 
 
-def _leaves(top: Part, may_hang: list[Part], asset: Asset, config: DropLeafConfig) -> Iterator[Part]:
-    for part in may_hang:
-        sides = [(axis, sign) for axis in (0, 1) for sign in (-1, 1) if _hangs(part.box, top.box, axis, sign, config)]
-        if len(sides) != 1 or not _is_leaf(part.box, asset.box, sides[0][0], config):
-            continue
-        others = [other.box for other in asset.parts if other is not part and other is not top]
-        if not any(_holds(other, part.box, sides[0][0], config) for other in others):
-            yield part
+def _hanging(
+    may_hang: list[Part], moving: frozenset[str], asset: Asset, config: DropLeafConfig
+) -> Iterator[HangingLeaf]:
+    """Yields what has a leaf's proportions, and hangs at one side of a top alone."""
+    static = [part for part in asset.parts if part.id not in moving and not part.label.is_movable]
+    for top in (part for part in static if _is_top(part.box, asset.box, config)):
+        for part in may_hang:
+            all_sides = [(axis, sign) for axis in (0, 1) for sign in (-1, 1)]
+            sides = [(axis, sign) for axis, sign in all_sides if _hangs(part.box, top.box, axis, sign, config)]
+            if len(sides) == 1 and _is_leaf(part.box, asset.box, sides[0][0], config):
+                yield HangingLeaf(part, top, *sides[0])
+
+
+def _is_alone(leaf: HangingLeaf, supports: frozenset[str], asset: Asset, config: DropLeafConfig) -> bool:
+    """Whether nothing but the top holds a leaf, its supports apart."""
+    apart = supports | {leaf.part.id, leaf.top.id}
+    others = [part for part in asset.parts if part.id not in apart]
+    holding = [part.box for part in others if not is_called_support(part)]
+    return not any(_holds(other, leaf.part.box, leaf.axis, config) for other in holding)
 
 
 def _hangs(leaf: Box, top: Box, axis: int, sign: int, config: DropLeafConfig) -> bool:

@@ -114,7 +114,7 @@ _TYPES: dict[Moves, JointType] = {
 _BORDERS = {Moves.TILTS: Side.BOTTOM, Moves.LIFTS: Side.TOP}
 FIXED = MotionChoice(Moves.FIXED)
 
-TURNING_SIDES = ("left", "right", "top", "bottom")
+TURNING_SIDES = ("left", "right", "top", "bottom", "front", "back")
 """The borders that a part can turn about, as words."""
 _CHOICES: dict[str, MotionChoice] = dict(
     zip(

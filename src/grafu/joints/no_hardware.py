@@ -48,7 +48,8 @@ def door_without_hardware(search: DoorSearch) -> Placement | None:
     """
     frame = search.frame
     border = [frame.axis_at(0.0, -ratio * frame.thickness) for ratio in _DEPTHS]
-    placements = (_about(axis, search) for axis in (search.request.axis, *border))
+    axes = sorted((search.request.axis, *border), key=search.sinks)
+    placements = (_about(axis, search) for axis in axes)
     return next((placement for placement in placements if placement is not None), None)
 
 
@@ -58,6 +59,25 @@ def _about(axis: Axis, search: DoorSearch) -> Placement | None:
     if in_way or upper < search.config.restricted * search.wanted:
         return None
     return _joint(search, axis, axis.rotation, upper, ())
+
+
+def support_without_hardware(search: DoorSearch) -> Placement | None:
+    """Returns the joint of what swings out below a leaf, on the pin that the table has: as asked for, or on its border.
+
+    It is None where hardware was chosen, where it is not free, and where it would come away from all static parts. The
+    leaf, while it hangs, may be in its way.
+    """
+    frame = search.frame
+    found: list[Placement] = []
+    for axis in (search.request.axis, *(frame.axis_at(0.0, -ratio * frame.thickness) for ratio in _DEPTHS)):
+        upper = search.widest(axis, search.wanted)
+        if upper < search.config.restricted * search.wanted or (found and upper <= found[0].upper):
+            continue
+        joint = _joint(search, axis, axis.rotation, upper, search.bodies_in_the_way(axis, upper))
+        found = found if joint is None else [replace(joint, template=DRAWN, notes=())]
+        if found and upper >= search.wanted:
+            break
+    return found[0] if found else None
 
 
 def drawer_without_hardware(search: DrawerSearch) -> Placement | None:

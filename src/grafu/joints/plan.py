@@ -42,6 +42,7 @@ class MotionRole(StrEnum):
     LOWER = "lower"  # of two leaves that fold up: it follows the leaf above it
     EXTENSION = "extension"  # it makes a table longer, and slides on what the table has
     BIN = "bin"  # it stands behind a door, and slides out on what is there
+    SUPPORT = "support"  # it carries a table's raised leaf, and swings or slides out on what the table has
     LIFTED = "lifted"  # arms lift it upright where they find room
 
 
@@ -141,7 +142,7 @@ class JointRequest:
     it. With a `coupling` the joint follows that of another part, which it names; both count values from closed.
     `carriers` are the parts that alone may hold the hardware (empty: every static part). `role` states what it is
     within a mechanism. What turns opens no further than `stop` (radians; None: as far as such a thing does), unless the
-    user chose an opening.
+    user chose an opening. Open, it is to lie no lower than `rests` (metres; None: anywhere): on what carries it.
 
     Raises:
         ValueError: if nothing moves, it is carried by or follows itself, or `stop` is not above 0.
@@ -161,6 +162,7 @@ class JointRequest:
     carriers: tuple[str, ...] = ()
     role: MotionRole = MotionRole.NONE
     stop: float | None = None
+    rests: float | None = None
 
     def __post_init__(self) -> None:
         if not self.kind.moves:

@@ -47,14 +47,18 @@ def add_before_joints(
 
 
 def add_after_joints(
-    scene: Scene, completion: GraphCompletion, config: AdditionConfig, own: Mapping[str, HandleTemplate]
+    scene: Scene,
+    completion: GraphCompletion,
+    plan: RealizationPlan,
+    config: AdditionConfig,
+    own: Mapping[str, HandleTemplate],
 ) -> tuple[StepResult, Scene]:
     """Returns a final scene with the handles, grips and panels that it lacks and may have, and that without panels.
 
     Raises:
         TemplateError: if the config names a handle that there is not.
     """
-    request = StepRequest(handles=_handle_hints(completion), panels=_panel_hints(completion), own_handles=own)
+    request = StepRequest(plan, handles=_handle_hints(completion), panels=_panel_hints(completion), own_handles=own)
     fronts = run_steps(ON_FRONTS, scene, request, config)
     made = fronts.then(run_steps(INSIDE, fronts.scene, request, config))
     forget_large_shapes()

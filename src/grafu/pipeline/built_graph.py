@@ -17,7 +17,7 @@ from grafu.graph.annotated import joint_edges
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Attached, Contact, Edge, MotionEdge, ends_of
 from grafu.graph.edit import with_edges, without_nodes
-from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.functional_graph import FunctionalGraph, PartNode, is_allowed
 from grafu.graph.parse import ParsingConfig
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
@@ -33,9 +33,9 @@ def as_built(
     bare = without_nodes(completion.completed, completion.added)
     new = [addition.part for addition in additions]
     nodes = (*bare.nodes, *(PartNode(p.id, p.label, p.box) for p in new))
-    graph = with_edges(
-        replace(bare, nodes=nodes), _edges([p for p in asset.parts if p.id in bare], new, asset.extent, parsing)
-    )
+    old = [part for part in asset.parts if part.id in bare]
+    joined = replace(bare, nodes=nodes)
+    graph = with_edges(joined, _edges(old, new, _attached(new, joined), asset.extent, parsing))
     names = _stands_for(completion, new)
     decisions = tuple(
         replace(d, part=names.get(d.part, d.part)) for d in completion.decisions if d.part in bare or d.part in names
@@ -132,15 +132,23 @@ def _stands_for(completion: GraphCompletion, new: Sequence[Part]) -> dict[str, s
     return found
 
 
-def _edges(old: Sequence[Part], new: Sequence[Part], extent: float, parsing: ParsingConfig) -> list[Edge]:
+def _edges(
+    old: Sequence[Part], new: Sequence[Part], attached: Sequence[Edge], extent: float, parsing: ParsingConfig
+) -> list[Edge]:
     """Returns what new parts touch, and where handles are attached."""
     parts = [*old, *new]
     if parsing.contact == "none":
-        return [Attached(p.carried_by, p.id) for p in new if p.carried_by and p.label is PartLabel.HANDLE]
+        return [*attached]
     pairs = [(a, b) for a, b in near_pairs([p.box for p in parts], parsing.box_tolerance * extent) if b >= len(old)]
     if parsing.contact == "mesh":
         pairs = touching_pairs([p.mesh for p in parts], pairs, parsing.mesh_tolerance * extent)
     contacts = [Contact(parts[a].id, parts[b].id) for a, b in pairs]
-    attached = [Attached(p.carried_by, p.id) for p in new if p.carried_by and p.label is PartLabel.HANDLE]
     joined = {frozenset(ends_of(edge)) for edge in attached}
     return [*(c for c in contacts if frozenset(ends_of(c)) not in joined), *attached]
+
+
+def _attached(new: Sequence[Part], graph: FunctionalGraph) -> list[Edge]:
+    """Returns how new handles are attached; on what is neither door nor drawer the type system has no such edge."""
+    handles = [Attached(p.carried_by, p.id) for p in new if p.carried_by and p.label is PartLabel.HANDLE]
+    label = {node.id: node.label for node in graph.nodes}
+    return [edge for edge in handles if is_allowed(edge, label[edge.parent], label[edge.child])]

@@ -215,7 +215,7 @@ def functionalize(
     realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
     wanted = additions_wanted(asset, settings.additions)
-    fit = partial(add_after_joints, realized.scene, completion, wanted, config.own_handles)
+    fit = partial(add_after_joints, realized.scene, completion, plan, wanted, config.own_handles)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     small = small_parts_wanted(asset, motion.reads_annotation, settings.small_parts, turning)
     realized = with_small_joints_of(realized, fittings, asset, joints, stages, small)

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from grafu.asset.part import Asset
 from grafu.graph.completion import GraphCompletion
 from grafu.joints.config import RealizationConfig
+from grafu.joints.drop_supports import with_stated_supports
 from grafu.joints.extension_leaves import with_extension_leaves
 from grafu.joints.folding import Fold, with_folds
 from grafu.joints.motion_choice import MotionChoice, Moves
@@ -29,7 +30,7 @@ def with_mechanisms(
     """
     plan = with_folds(plan_with_motions(plan, motions, completion, asset), folds, joints.fold)
     plan = with_tilts(plan, asset, completion.completed, _stated(motions, Moves.TILTS))
-    plan = with_extension_leaves(plan, asset)
+    plan = with_stated_supports(with_extension_leaves(plan, asset), asset)
     return with_lifted(plan, _stated(motions, Moves.LIFTS))
 
 

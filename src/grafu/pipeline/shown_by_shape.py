@@ -12,7 +12,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.building_doors import building_door, with_building_doors
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
-from grafu.joints.drop_leaves import with_drop_leaves
+from grafu.joints.drop_supports import with_supported_leaves
 from grafu.joints.extension_leaves import with_shown_extensions
 from grafu.joints.folding import with_folds
 from grafu.joints.lifts import with_lifts
@@ -57,7 +57,7 @@ def shown_by_shape(
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_wide_bars(plan, asset, settled)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
-    plan = with_racks(with_drop_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
+    plan = with_racks(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
     plan = with_waste_bins(plan, asset, graph)
     plan = with_lifts(plan, graph, at_scale(joints.lift, metre_on(asset.extent)))
     return _without_turntables(plan, asset, small)

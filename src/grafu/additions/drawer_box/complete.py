@@ -43,6 +43,7 @@ from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
 WITH_THE_CASE = "the boards that do not move with it are drawn in their places, as part of what is static"
+_NO_DRAWERS = {MotionRole.BIN: "it is a bin", MotionRole.SUPPORT: "it carries a raised leaf"}
 
 
 @final
@@ -131,8 +132,8 @@ def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxCon
     """Returns what a drawer, closed, has of a box behind its front, and what is missing."""
     if closed.scene.parts[request.moving].label is PartLabel.DOOR:
         return BoxVerdict(request.moving, "no drawer", why="it is a door, which has what it carries")
-    if request.role is MotionRole.BIN:
-        return BoxVerdict(request.moving, "no drawer", why="it is a bin")
+    if request.role in _NO_DRAWERS:
+        return BoxVerdict(request.moving, "no drawer", why=_NO_DRAWERS[request.role])
     if is_grid(closed.scene.moving_mesh(request.moving)):
         return BoxVerdict(request.moving, "no drawer", why="it is a rack")
     framed = closed.framed(request)

@@ -15,6 +15,7 @@ from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.handle.place import add_handles, bodies_without
 from grafu.additions.handle.relief import Reliefs
 from grafu.additions.step import Changes, Grasp, StepRequest, StepResult
+from grafu.joints.plan import MotionRole
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.visible import ShortRepr
@@ -53,7 +54,7 @@ def add_grasps(scene: Scene, request: StepRequest, config: FrontConfig) -> StepR
         TemplateError: if the config names a handle that there is not.
     """
     reliefs = Reliefs(scene, config.grasp.relief)
-    grasps = find_grasps(scene, config.grasp, reliefs)
+    grasps = find_grasps(scene, config.grasp, reliefs) | _supports(scene, request)
     free = {moving: grasp for moving, grasp in grasps.items() if moving not in config.fronts}
     made = StepResult(scene, grasps=grasps)
     wanting: dict[str, Refusal | None] = {}
@@ -64,6 +65,14 @@ def add_grasps(scene: Scene, request: StepRequest, config: FrontConfig) -> StepR
     elif config.grips is not None:
         wanting = dict.fromkeys(bodies_without(scene, free))
     return made.then(_gripped(made.scene, wanting, config.grips))
+
+
+def _supports(scene: Scene, request: StepRequest) -> dict[str, Grasp]:
+    """Returns how what carries a raised leaf is grasped: a hand below the leaf pulls it out by its free end."""
+    supports = [r.moving for r in request.plan.joints if r.role is MotionRole.SUPPORT]
+    boxes = {moving: scene.parts[moving].box for moving in supports if moving in scene.moving_bodies}
+    why = "what carries a raised leaf is pulled out by its end"
+    return {name: Grasp(name, "edge", 1.0, why, box.center, float(box.size.min())) for name, box in boxes.items()}
 
 
 def _gripped(scene: Scene, wanting: Mapping[str, Refusal | None], config: GripConfig | None) -> StepResult:

@@ -229,6 +229,13 @@ class DoorSearch:
         mesh = self.scene.moving_mesh(self.request.moving)
         return widest_above(mesh, axis, reach, self.scene.floor, self.config.coarse_poses)
 
+    def sinks(self, axis: Axis) -> bool:
+        """Whether the door, open about an axis as far as wanted, lies lower than what is to carry it there."""
+        if self.request.rests is None:
+            return False
+        raised = self.scene.parts[self.request.moving].mesh.transformed(axis.rotation(self.wanted))
+        return float(raised.box.low[2]) < self.request.rests - self.depth
+
     def bodies_in_the_way(self, axis: Axis, reach: float) -> tuple[str, ...]:
         """Returns the other moving bodies, at rest, that the door runs into about an axis."""
         near = in_the_way(self.neighbours, swept_box(self.box, axis.rotation, reach))
@@ -246,7 +253,7 @@ class DoorSearch:
         above = self._above_floor(axis, self.wanted)
         stopped = free if above >= self.config.restricted * self.wanted else min(free, above)
         neighbours = self.bodies_in_the_way(axis, self.wanted)
-        shortfall = round(1.0 - stopped / self.wanted, 2) + round(ratio, 2)
+        shortfall = round(1.0 - stopped / self.wanted, 2) + round(ratio, 2) + float(self.sinks(axis))
         rank = (shortfall, len(neighbours), pin.preference, self.request.axis.distance_to(axis.point))
         is_clear = shortfall <= self.config.hinge.nearly and not neighbours
         return JudgedPin(pin, axis, min(free, above), neighbours, rank, is_clear)

@@ -1,7 +1,10 @@
-"""Tables with leaves that hang from hinges at the top's edges, straight or half round."""
+"""Tables with leaves that hang from hinges at the top's edges, straight or half round.
+
+What carries the raised leaves may be drawn, with joints of its own (`drop_leaf_supports`).
+"""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import final
 
@@ -16,6 +19,7 @@ from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, assemble, plank
 from grafu.synth.pieces.finish import PLAIN, Finish, surface_of
 from grafu.synth.pieces.shapes import prism_along_x
 from grafu.synth.sampling.chance import between
+from grafu.synth.tables.drop_leaf_supports import LeafSupports, TableEnd, apron_of, bars_of, drawn_supports, supports_of
 from grafu.synth.tables.table_parts import table_legs
 from grafu.vocabulary import PartLabel
 
@@ -27,10 +31,11 @@ ARC = 17  # points along a round leaf's edge
 class DropLeafTable:
     """A table, metres: a fixed top of `width` by `depth` and, at its ends, `leaves` that hang and are `drop` long.
 
-    Legs are `leg` wide and of any shape. Leaves are boards, or half round with `is_round`.
+    Legs are `leg` wide, of any shape, and stand back from the top's edges by `overhang`; `supports` carry each leaf
+    once it is raised (None: not drawn). Leaves are boards, or half round with `is_round`.
 
     Raises:
-        ValueError: if there are neither one nor two leaves, or they reach the floor.
+        ValueError: if there are neither one nor two leaves, they reach the floor, or supports find no room behind them.
     """
 
     name: str = "drop_leaf_table"
@@ -43,6 +48,8 @@ class DropLeafTable:
     leg: float = 0.05
     apron: float = 0.1
     gap: float = 0.002
+    overhang: float = 0.02
+    supports: LeafSupports | None = None
     finish: Finish = PLAIN
     leg_shape: LegShape = "square"
     leg_foot: float = 0.6
@@ -52,6 +59,9 @@ class DropLeafTable:
         if self.leaves not in (1, 2) or self.drop > self.height - self.top:
             got = f"{self.leaves} of {self.drop} m"
             raise ValueError(f"`DropLeafTable` needs one or two leaves that end above the floor: got {got}")
+        if self.supports and self.supports.kind != "loper" and self.supports.thickness >= self.overhang:
+            got = f"{self.supports.thickness} m in {self.overhang} m"
+            raise ValueError(f"`DropLeafTable.overhang` must hold the supports behind a leaf: got {got}")
 
 
 def drawn_drop_leaf_table(rng: np.random.Generator, name: str) -> DropLeafTable:
@@ -71,23 +81,42 @@ def drawn_drop_leaf_table(rng: np.random.Generator, name: str) -> DropLeafTable:
     )
 
 
+def drawn_supported_table(rng: np.random.Generator, name: str) -> DropLeafTable:
+    """Returns a table of random size with supports of its leaves."""
+    plain = drawn_drop_leaf_table(rng, name)
+    depth, drop = between(rng, (0.7, 1.0)), between(rng, (0.3, 0.6)) * plain.height
+    return replace(plain, depth=depth, drop=drop, overhang=0.035, supports=drawn_supports(rng, depth))
+
+
 def make_drop_leaf_table(spec: DropLeafTable) -> Asset:
     """Returns the table with its leaves' true joints: from hanging to level."""
-    return assemble(spec.name, [*_stand(spec), *(_leaf(spec, side) for side in (-1.0, 1.0)[: spec.leaves])])
+    sides = (-1.0, 1.0)[: spec.leaves]
+    leaves = [_leaf(spec, side) for side in sides]
+    if spec.supports is not None:
+        leaves += [piece for side in sides for piece in supports_of(_frame(spec, side), spec.supports)]
+    return assemble(spec.name, [*_stand(spec), *leaves])
 
 
 def _stand(spec: DropLeafTable) -> Iterator[PieceDraft]:
     x, y, under = spec.width / 2, spec.depth / 2, spec.height - spec.top
     yield plank(PartLabel.TOP_PANEL, "top", spec.finish.front, ((-x, -y, under), (x, y, spec.height)))
-    inset, wood, leg = 0.02, spec.finish.case, Leg(spec.leg_shape, spec.leg, spec.leg_foot)
+    inset, wood, leg = spec.overhang, spec.finish.case, Leg(spec.leg_shape, spec.leg, spec.leg_foot)
     feet = x - inset - spec.leg / 2, y - inset - spec.leg / 2
     yield from table_legs(leg, feet, under, spec.apron, spec.finish)
-    inner_x, inner_y, low = x - inset - spec.leg, y - inset - spec.leg, under - spec.apron
+    inner_x, low = x - inset - spec.leg, under - spec.apron
     for side in (-1.0, 1.0):
         ends = sorted((side * (y - inset - 0.005), side * (y - inset - 0.023)))
         yield plank(PartLabel.BAR, "apron", wood, ((-inner_x, ends[0], low), (inner_x, ends[1], under)))
-        ends = sorted((side * (x - inset - 0.005), side * (x - inset - 0.023)))
-        yield plank(PartLabel.BAR, "apron", wood, ((ends[0], -inner_y, low), (ends[1], inner_y, under)))
+        supports = spec.supports if side < 0 or spec.leaves > 1 else None
+        frame = _frame(spec, side)
+        yield plank(PartLabel.BAR, "apron", wood, *apron_of(frame, supports))
+        yield from (plank(PartLabel.BAR, "stretcher", wood, bar) for bar in bars_of(frame, supports))
+
+
+def _frame(spec: DropLeafTable, side: float) -> TableEnd:
+    """Returns the frame at the left (`side` -1) or the right end: the apron stands back a little behind the legs."""
+    face, free = spec.width / 2 - spec.overhang - 0.005, spec.depth / 2 - spec.overhang - spec.leg
+    return TableEnd(side, face, 0.018, free, spec.height - spec.top, spec.apron, spec.drop, spec.finish.case)
 
 
 def _leaf(spec: DropLeafTable, side: float) -> PieceDraft:
