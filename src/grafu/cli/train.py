@@ -57,7 +57,7 @@ def training_packages() -> Iterator[None]:
         raise FunctionalizationError(said) from error
 
 
-CONFIGS = ("base", "paper", "small", "tiny")
+CONFIGS = ("base", "tune", "paper", "small", "tiny")
 
 _DESCRIPTION = """\
 Trains the network that completes functional graphs, and keeps in DIR what it needs to go on, the weights that did best
@@ -84,7 +84,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--config",
         choices=CONFIGS,
         default="base",
-        help="base: what is shipped; paper: the paper's numbers; small: what `ablate` compares by; "
+        help="base: the shipped network; tune: the same, from weights that exist (--start); paper: the paper's numbers; small: what `ablate` compares by; "
         "tiny: to see that all works (default: base)",
     )
     parser.add_argument("--resume", action="store_true", help="go on where the run in DIR was cut, if there is one")
