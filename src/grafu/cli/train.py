@@ -84,8 +84,8 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--config",
         choices=CONFIGS,
         default="base",
-        help="base: the shipped network; tune: the same, from weights that exist (--start); paper: the paper's numbers; small: what `ablate` compares by; "
-        "tiny: to see that all works (default: base)",
+        help="base: the shipped network; tune: the same from weights that exist (--start); paper: the paper's numbers; "
+        "small: what `ablate` compares by; tiny: to see that all works (default: base)",
     )
     parser.add_argument("--resume", action="store_true", help="go on where the run in DIR was cut, if there is one")
     parser.add_argument(
