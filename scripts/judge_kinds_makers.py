@@ -1,4 +1,4 @@
-"""Furniture that is made for one way to move, of random size: the kinds that `judge_kinds.py` judges."""
+"""Furniture that is made for one way to move, or that is drawn because it has it: what `judge_kinds.py` judges."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -7,19 +7,22 @@ from typing import Literal
 
 import numpy as np
 
-from grafu.asset.part import Asset
+from grafu.articulation.motion_kind import motion_kind
+from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.synth.appliances.appliance import drawn_appliance, make_appliance
 from grafu.synth.cabinets.folding import WARDROBE, FoldingDoors, make_folding_doors
 from grafu.synth.cabinets.pull_out import drawn_pull_out, make_pull_out
 from grafu.synth.cabinets.sliding import drawn_sliding_doors, make_sliding_doors
 from grafu.synth.cabinets.tilting import NARROW, TiltingFronts, make_tilting_fronts
 from grafu.synth.cabinets.waste import BASE_UNIT, WasteUnit, make_waste_unit
+from grafu.synth.families.table import draw_made
 from grafu.synth.fronts.setting import Mount
 from grafu.synth.openings.door import drawn_door, make_building_door
 from grafu.synth.openings.window import drawn_window, make_window
 from grafu.synth.sampling.chance import between, chance
 from grafu.synth.tables.drop_leaf import drawn_drop_leaf_table, drawn_supported_table, make_drop_leaf_table
 from grafu.synth.tables.extending import ExtendingTable, make_extending_table
+from grafu.vocabulary import PartLabel
 
 Maker = Callable[[np.random.Generator, str], Asset]
 
@@ -55,6 +58,43 @@ def _extending(rng: np.random.Generator, name: str) -> Asset:
     return make_extending_table(ExtendingTable(name, kind, *size, travel=between(rng, (0.4, 0.75))))
 
 
+Wanted = Callable[[Asset, AnnotatedJoint], bool]
+
+
+def _of_families(families: tuple[str, ...], wanted: Wanted) -> Maker:
+    """Returns a maker that draws pieces of the generator's families until one has such a joint."""
+
+    def make(rng: np.random.Generator, name: str) -> Asset:
+        while True:
+            asset = draw_made(rng, families[int(rng.integers(len(families)))])[1]
+            if any(wanted(asset, joint) for joint in (*asset.joints, *asset.small_joints)):
+                return replace(asset, name=name)
+
+    return make
+
+
+def _is_flap(asset: Asset, joint: AnnotatedJoint) -> bool:
+    """Whether a front turns about a level line."""
+    return motion_kind(joint.type).turns and abs(float(joint.axis.direction[2])) < LEVEL
+
+
+def _is_tray(asset: Asset, joint: AnnotatedJoint) -> bool:
+    """Whether a low drawer without a handle slides, as one for a keyboard."""
+    part = asset.part(joint.part)
+    is_grasped = any(other.carried_by == part.id for other in asset.parts)
+    return part.label is PartLabel.DRAWER and float(part.box.size[2]) <= TRAY and not is_grasped
+
+
+def _is_mirror(asset: Asset, joint: AnnotatedJoint) -> bool:
+    return motion_kind(joint.type).turns and asset.part(joint.part).label is not PartLabel.DOOR
+
+
+def _hangs_on_a_leaf(asset: Asset, joint: AnnotatedJoint) -> bool:
+    return asset.part(joint.part).carried_by is not None and asset.part(joint.part).label is PartLabel.DOOR
+
+
+LEVEL = 0.1  # the rise of a unit direction
+TRAY = 0.08  # metres
 KINDS: Mapping[str, Maker] = {
     "sliding": lambda rng, name: make_sliding_doors(drawn_sliding_doors(rng, name)),
     "folding": _folding,
@@ -70,5 +110,12 @@ KINDS: Mapping[str, Maker] = {
     "building-door": lambda rng, name: make_building_door(drawn_door(rng, name)),
     "casement": lambda rng, name: make_window(drawn_window(rng, name, "casement")),
     "two-leaf-window": lambda rng, name: make_window(drawn_window(rng, name, "pair")),
+    "lid": _of_families(("chest",), _is_flap),
+    "lift-up": _of_families(("wall cabinet",), _is_flap),
+    "drop-front": _of_families(("bureau",), _is_flap),
+    "keyboard-tray": _of_families(("desk", "writing desk"), _is_tray),
+    "refrigerator": _of_families(("fridge",), lambda asset, joint: motion_kind(joint.type).turns),
+    "swivel-mirror": _of_families(("vanity",), _is_mirror),
+    "folding-corner": _of_families(("corner cabinet",), _hangs_on_a_leaf),
     "sash": lambda rng, name: make_window(drawn_window(rng, name, "sash")),
 }

@@ -36,7 +36,7 @@ class PartLabel(StrEnum):
 
 
 class EdgeKind(StrEnum):
-    """The paper's four kinds of functional edges, and two that the network does not know.
+    """The paper's four kinds of functional edges, and two of ours, which the authors' files do not have.
 
     `slide` is a part that slides and is no drawer, `turn` one that turns about no border of its box.
     """

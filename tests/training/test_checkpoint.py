@@ -151,3 +151,14 @@ def test_a_config_with_the_name_that_a_field_had_is_read(folder: Path) -> None:
 
     assert read_config(old, folder) == read_config(stated, folder)
     assert "deal" in old
+
+
+def test_a_config_of_the_first_network_is_one_of_the_paper_s_kinds_of_edges(folder: Path) -> None:
+    stated = json.loads((folder / "config.json").read_text(encoding="utf-8"))
+    loss = read_config(stated, folder).loss
+    del stated["network"]["kinds"], stated["features"]["kinds"]
+    stated["loss"]["edge_kinds"] = stated["loss"]["edge_kinds"][:5]
+
+    config = read_config(stated, folder)
+    assert (config.network.kinds, config.features.kinds) == ("paper", "paper")
+    assert config.loss == loss

@@ -1,8 +1,8 @@
 """The kinds of functional edges as final types: a motion stands only where it can exist. No geometry here.
 
-Four are the paper's; the network and the authors' files know no others. `Slide` and `Turn` stand in graphs that were
-completed by what the input or the user states, and in graphs as built. So does a joint that follows another
-(`coupling`), and one whose parent is a moving part itself.
+Four are the paper's; the authors' files know no others. `Slide`, `Turn`, and a joint whose parent is a moving part
+itself, are predicted by networks that know all kinds of edges, or stated by the input or the user. That a joint follows
+another (`coupling`) is never predicted.
 
 Codes are the authors': `HingeBorder` names a border of the door's own box, `AxisSign` the sense of the
 rotation axis along it (1 is positive), `SignedAxis` one of -X, +X, -Y, +Y, -Z, +Z. `grafu.graph.motion` turns them into

@@ -18,8 +18,10 @@ from torch.optim.swa_utils import AveragedModel
 from grafu.asset.json_files import read_own_json
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import whole_file
+from grafu.graph.arrays import EDGE_CODES
 from grafu.network.grafu import GraFu
 from grafu.training.config import TrainingConfig
+from grafu.training.loss_config import LossConfig
 from grafu.training.optimiser import Optimiser
 
 SCHEMA = "grafu.training/1"
@@ -205,9 +207,20 @@ def read_config(stated: Any, path: Path) -> TrainingConfig:
 
 
 def _renamed(stated: Any) -> Any:
-    """Returns a config with today's names: earlier versions called one field otherwise."""
-    is_old = isinstance(stated, dict) and "deal" in stated and "sampling" not in stated
-    return {"sampling" if name == "deal" else name: value for name, value in stated.items()} if is_old else stated
+    """Returns a config with today's names: earlier versions called one field otherwise, and knew the paper's edges."""
+    if not isinstance(stated, dict):
+        return stated
+    if "deal" in stated and "sampling" not in stated:
+        stated = {"sampling" if name == "deal" else name: value for name, value in stated.items()}
+    knows = {name: {"kinds": "paper"} | stated[name] for name in ("network", "features") if _is_dict(stated, name)}
+    weights = stated["loss"].get("edge_kinds") if _is_dict(stated, "loss") else None
+    if isinstance(weights, list | tuple) and len(weights) == EDGE_CODES["paper"]:
+        knows["loss"] = stated["loss"] | {"edge_kinds": (*weights, *LossConfig().edge_kinds[len(weights) :])}
+    return stated | knows
+
+
+def _is_dict(stated: dict[str, Any], name: str) -> bool:
+    return isinstance(stated.get(name), dict)
 
 
 def _require_same(stated: TrainingConfig, asked: TrainingConfig, folder: Path) -> None:
