@@ -10,6 +10,7 @@ import numpy as np
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.synth.appliances.appliance import drawn_appliance, make_appliance
+from grafu.synth.appliances.washing_machine import drawn_washing_machine, make_washing_machine
 from grafu.synth.cabinets.folding import WARDROBE, FoldingDoors, make_folding_doors
 from grafu.synth.cabinets.pull_out import drawn_pull_out, make_pull_out
 from grafu.synth.cabinets.sliding import drawn_sliding_doors, make_sliding_doors
@@ -73,7 +74,7 @@ def _of_families(families: tuple[str, ...], wanted: Wanted) -> Maker:
     return make
 
 
-def _is_flap(asset: Asset, joint: AnnotatedJoint) -> bool:
+def _is_flap(_: Asset, joint: AnnotatedJoint) -> bool:
     """Whether a front turns about a level line."""
     return motion_kind(joint.type).turns and abs(float(joint.axis.direction[2])) < LEVEL
 
@@ -107,6 +108,7 @@ KINDS: Mapping[str, Maker] = {
     "dishwasher": lambda rng, name: make_appliance(drawn_appliance(rng, name, "dishwasher")),
     "oven": lambda rng, name: make_appliance(drawn_appliance(rng, name, "oven")),
     "microwave": lambda rng, name: make_appliance(drawn_appliance(rng, name, "microwave")),
+    "washing-machine": lambda rng, name: make_washing_machine(drawn_washing_machine(rng, name)),
     "building-door": lambda rng, name: make_building_door(drawn_door(rng, name)),
     "casement": lambda rng, name: make_window(drawn_window(rng, name, "casement")),
     "two-leaf-window": lambda rng, name: make_window(drawn_window(rng, name, "pair")),
@@ -114,7 +116,7 @@ KINDS: Mapping[str, Maker] = {
     "lift-up": _of_families(("wall cabinet",), _is_flap),
     "drop-front": _of_families(("bureau",), _is_flap),
     "keyboard-tray": _of_families(("desk", "writing desk"), _is_tray),
-    "refrigerator": _of_families(("fridge",), lambda asset, joint: motion_kind(joint.type).turns),
+    "refrigerator": _of_families(("fridge",), lambda _, joint: motion_kind(joint.type).turns),
     "swivel-mirror": _of_families(("vanity",), _is_mirror),
     "folding-corner": _of_families(("corner cabinet",), _hangs_on_a_leaf),
     "sash": lambda rng, name: make_window(drawn_window(rng, name, "sash")),

@@ -6,6 +6,7 @@ import pytest
 from grafu.asset.part import Asset
 from grafu.metrics.collision import CollisionConfig, collision_shares
 from grafu.synth.appliances.appliance import Appliance, drawn_appliance, make_appliance
+from grafu.synth.appliances.washing_machine import WashingMachine, drawn_washing_machine, make_washing_machine
 from grafu.synth.cabinets.pull_out import PullOutUnit, drawn_pull_out, make_pull_out
 from grafu.synth.cabinets.sliding import SlidingDoors, drawn_sliding_doors, make_sliding_doors
 from grafu.synth.tables.drop_leaf import (
@@ -27,6 +28,7 @@ MAKERS = {
     "pull-out": lambda rng: make_pull_out(drawn_pull_out(rng, "x")),
     "dishwasher": lambda rng: make_appliance(drawn_appliance(rng, "x", "dishwasher")),
     "oven": lambda rng: make_appliance(drawn_appliance(rng, "x", "oven")),
+    "washing machine": lambda rng: make_washing_machine(drawn_washing_machine(rng, "x")),
     "microwave": lambda rng: make_appliance(drawn_appliance(rng, "x", "microwave")),
 }
 TYPES = {
@@ -37,6 +39,7 @@ TYPES = {
     "dishwasher": {JointType.REVOLUTE, JointType.PRISMATIC},
     "oven": {JointType.REVOLUTE, JointType.PRISMATIC, JointType.CONTINUOUS},
     "microwave": {JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC},
+    "washing machine": {JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC},
 }
 
 
@@ -78,6 +81,7 @@ def test_they_are_realized_as_far_as_they_truly_open(kind):
         ),
         (lambda: PullOutUnit(trays=0), "must be at least 1: got 0"),
         (lambda: Appliance(knobs=2), "knobs a panel"),
+        (lambda: WashingMachine(radius=0.29), "leave 3 cm"),
     ],
 )
 def test_what_cannot_be_made_is_refused(make, text):

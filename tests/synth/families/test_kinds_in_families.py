@@ -38,6 +38,7 @@ KINDS = {
     "dishwasher": ("appliance", "kind='dishwasher'", Slide, PartLabel.SHELF),
     "oven": ("appliance", "kind='oven'", Turn, PartLabel.MISC),
     "microwave oven": ("appliance", "kind='microwave'", Turn, PartLabel.MISC),
+    "washing machine": ("appliance", "WashingMachine(", Hinge, PartLabel.DOOR),
     "door of a building": ("building door", "", Hinge, PartLabel.DOOR),
     "window": ("window", "kind='pair'", Hinge, PartLabel.DOOR),
     "sash": ("window", "kind='sash'", Slide, PartLabel.DOOR),

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from grafu.synth.appliances.appliance import Appliance, ApplianceKind, drawn_appliance
+from grafu.synth.appliances.washing_machine import WashingMachine, drawn_washing_machine
 from grafu.synth.fronts.layout import LeafStyle
 from grafu.synth.openings.door import DoorSpec, drawn_door
 from grafu.synth.openings.window import Kind, WindowSpec, drawn_window
@@ -18,11 +19,15 @@ LEAVES: Mapping[LeafStyle, float] = {
     "slab": 0.45, "two panels": 0.2, "raised panel": 0.08, "shaker": 0.07, "glass": 0.12, "muntins": 0.08
 }  # fmt: skip
 GLAZED: Mapping[ApplianceKind, float] = {"oven": 0.75, "microwave": 0.7, "dishwasher": 0.0}  # doors with a window
+WASHING_MACHINES = 0.2  # of appliances
 WITH_BUTTONS = 0.4  # of ovens with knobs
 
 
-def appliance(rng: np.random.Generator) -> Appliance:
-    """Returns an oven, a dishwasher or a microwave oven, with racks, knobs and buttons as parts."""
+def appliance(rng: np.random.Generator) -> Appliance | WashingMachine:
+    """Returns an oven, a dishwasher, a microwave oven or a washing machine, with racks, knobs and buttons as parts."""
+    if chance(rng, WASHING_MACHINES):
+        machine = drawn_washing_machine(rng, "washing_machine")
+        return replace(machine, finish=draw_style(rng, {"appliance": 1.0}).finish)
     kind = pick(rng, APPLIANCES)
     drawn = drawn_appliance(rng, kind, kind)
     buttons = count(rng, 1, 4) if kind == "oven" and chance(rng, WITH_BUTTONS) else drawn.buttons

@@ -15,6 +15,7 @@ import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.synth.appliances.appliance import Appliance, make_appliance
+from grafu.synth.appliances.washing_machine import WashingMachine, make_washing_machine
 from grafu.synth.cabinets.bureau import Bureau, make_bureau
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.cabinets.chest import Chest, make_chest
@@ -32,7 +33,9 @@ from grafu.synth.tables.extending import ExtendingTable, make_extending_table
 from grafu.synth.tables.table import DrawerTable, make_table
 
 Storage = Cabinet | Chest | CornerCabinet | InnerCorner | FoldingCorner | Rack | Ensemble | Bureau
-Spec = Storage | DrawerTable | Desk | DropLeafTable | ExtendingTable | Appliance | DoorSpec | WindowSpec
+Spec = (
+    Storage | DrawerTable | Desk | DropLeafTable | ExtendingTable | Appliance | WashingMachine | DoorSpec | WindowSpec
+)
 Draw = Callable[[np.random.Generator], Spec]
 
 FAMILIES: Mapping[str, tuple[float, Draw]] = {
@@ -92,6 +95,7 @@ MAKERS: dict[type, Callable[[Any], Asset]] = {
     DropLeafTable: make_drop_leaf_table,
     ExtendingTable: make_extending_table,
     Appliance: make_appliance,
+    WashingMachine: make_washing_machine,
     DoorSpec: make_building_door,
     WindowSpec: make_window_with_labels,
 }
