@@ -45,12 +45,14 @@ def test_a_run_is_not_begun_twice(trained: Path, capsys: pytest.CaptureFixture[s
 def test_the_best_weights_become_one_file(
     trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(train, "exported", lambda best: f"weights of step {best.step}".encode())
+    monkeypatch.setattr(train, "exported", lambda network, features: f"weights of {network.config.hidden}".encode())
     target = tmp_path / "new" / "grafu.onnx"
     assert main(["train", "--out", str(trained), "--export", str(target)]) == 0
-    assert target.read_bytes().startswith(b"weights of step")
+    assert target.read_bytes() == b"weights of 32"
     assert [path.name for path in target.parent.iterdir()] == ["grafu.onnx"]
-    assert f"written to {target}" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert f"written to {target}" in said
+    assert "temperatures: category " in said
 
 
 @pytest.mark.parametrize(

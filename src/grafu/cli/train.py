@@ -18,7 +18,8 @@ from grafu.cli.verb import complain, say
 from grafu.errors import FunctionalizationError, WeightsError
 
 if TYPE_CHECKING:
-    from grafu.training.checkpoint import BestWeights
+    from grafu.completion.features import FeatureConfig
+    from grafu.network.grafu import GraFu
     from grafu.training.config import TrainingConfig
     from grafu.training.loop import StepReport
     from grafu.training.source import Source
@@ -64,7 +65,8 @@ Trains the network that completes functional graphs, and keeps in DIR what it ne
 on furniture that it never trained on, and a log (CSV and TensorBoard). Stopped by Ctrl-C or a signal, or killed, it
 goes on with --resume. A GPU is used where there is one, several with `torchrun --nproc-per-node N -m grafu.cli.main`.
 
-With --export it trains nothing and writes the best weights of the run in DIR as one ONNX file.
+With --export it trains nothing and writes the best weights of the run in DIR as one ONNX file, its probabilities
+calibrated on the furniture that the weights were chosen by.
 """
 _EXAMPLES = """\
 examples:
@@ -124,10 +126,10 @@ def run(options: argparse.Namespace) -> int:
         FunctionalizationError: if the options are wrong, or files cannot be read or written.
     """
     with training_packages():
-        return export_weights(options.out, options.export) if options.export else run_training(options)
+        return export_weights(options.out, options.export, options.data) if options.export else run_training(options)
 
 
-def exported(best: "BestWeights") -> bytes:
+def exported(network: "GraFu", features: "FeatureConfig") -> bytes:
     """Returns an ONNX file; weights are stored in 16 bits and computed with in 32."""
     from grafu.network.export import onnx_bytes
     from grafu.processes.lifetime import keep_private
@@ -136,7 +138,7 @@ def exported(best: "BestWeights") -> bytes:
     before = logging.root.manager.disable
     logging.disable(logging.WARNING)  # torch's exporter warns of packages that it does not need
     try:
-        return onnx_bytes(best.network(), **asdict(best.config.features), half_weights=True)
+        return onnx_bytes(network, **asdict(features), half_weights=True)
     finally:
         logging.disable(before)
 
@@ -179,21 +181,28 @@ def run_training(options: argparse.Namespace) -> int:
         return _ended(last, config, options.out, workers)
 
 
-def export_weights(folder: Path, target: Path) -> int:
-    """Writes the best weights of a run as ONNX; returns 0.
+def export_weights(folder: Path, target: Path, data: str = "synth") -> int:
+    """Writes the best weights of a run as ONNX, calibrated on the data that they were chosen by; returns 0.
 
     Raises:
-        UnreadableAsset: if there are none.
+        UnreadableAsset: if there are none, or `data` cannot be read.
         ExportError: if the file cannot be written.
     """
     from grafu.export.whole_file import whole_file
+    from grafu.training.calibration import calibrated, temperatures
     from grafu.training.checkpoint import load_best
+    from grafu.training.source import source_to_train_on
+    from grafu.training.validation import validation_batches, validation_source
 
     best = load_best(folder)
-    content = exported(best)
+    points = best.config.features.points
+    source = validation_source(source_to_train_on(data, best.config.seed, points), points)
+    by_head = temperatures(best.network(), validation_batches(source, best.config), best.config.loss)
+    content = exported(calibrated(best.network(), by_head), best.config.features)
     with whole_file(target) as fresh:
         fresh.write_bytes(content)
     score = best.figures["score"]
+    say("temperatures: " + ", ".join(f"{name} {value:.2f}" for name, value in by_head.items()))
     say(f"written to {target}: {len(content) / 1e6:.1f} MB, the weights of step {best.step} (score {score:.4f})")
     return EXIT_DONE
 

@@ -1,7 +1,7 @@
 """Graphs of random numbers, for a network that has learnt nothing."""
 
-import torch
-from torch import Tensor
+import torch  # noqa: TID251  # for tests of network and training alone
+from torch import Tensor  # noqa: TID251
 
 from grafu.graph.arrays import EDGE_CODES, NULL
 from grafu.network.batch import GraphBatch, Predictions, one_graph
