@@ -1,11 +1,15 @@
 """Judges which motions are predicted for doors and drawers of annotated models: type, side, direction; it builds none.
 
-    python scripts/judge_motions.py MODELS [--rule] [--copies 4] [--jobs 2] [--json FILE]
+    python scripts/judge_motions.py MODELS... [--rule] [--weights FILE] [--copies 4] [--jobs 2] [--json FILE]
 
-MODELS is a folder as `grafu evaluate --data` takes it. Of each model the network (with --rule the rule-based baseline)
+MODELS are folders as `grafu evaluate --data` takes it. Of each model the network (with --rule the rule-based baseline)
 gets the parts alone (as the annotation groups them), no joints, in seven variants: as they are, without labels, and
 with parts removed. Random variants are drawn --copies times. A motion is right by the definition of `grafu evaluate`:
 `aligned` (docs/evaluation.md). Prints a table in Markdown, and of the first two variants each part that is wrong.
+
+The last column is the expected calibration error: the confidence of a motion is the product of the scores of its
+decisions (what the part is, how it moves); in ten bins of confidence, how far the mean confidence is from the fraction
+that is right, a mean by the number of motions.
 """
 
 import argparse
@@ -33,7 +37,10 @@ from grafu.pipeline.complete import complete_by_weights
 from grafu.vocabulary import PartLabel
 
 GONE = 0.25  # of the parts that are static
+BINS = 10
+OF_MOTION = ("label", "border", "sign", "slide")
 Change = Callable[[Asset, Asset, int], Asset]
+Complete = Callable[[Asset], GraphCompletion]
 
 
 @final
@@ -49,27 +56,30 @@ class Variant:
 @final
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What was said of one model in one variant, all draws together."""
+    """What was said of one model in one variant, all draws together; `sure`: confidences, and whether they are right."""
 
     variant: str
     right: int
     parts: int
     wrong: tuple[str, ...]
+    sure: tuple[tuple[float, bool], ...] = ()
 
 
 def main() -> int:
     """Judges, and prints the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("models", type=Path, help="a folder of annotated models")
+    parser.add_argument("models", type=Path, nargs="+", help="folders of annotated models")
+    parser.add_argument("--weights", type=Path, help="judge these weights instead of those that ship")
     parser.add_argument("--rule", action="store_true", help="judge the rule-based baseline instead")
     parser.add_argument("--copies", type=int, default=4, help="draws of what is drawn (default: 4; 0 leaves it out)")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--json", type=Path, help="also write the counts there")
     options = parser.parse_args()
-    refs = find_models(options.models)
+    refs = [ref for folder in options.models for ref in find_models(folder)]
+    complete = complete_by_rules if options.rule else partial(complete_with, options.weights)
     with ProcessPoolExecutor(options.jobs) as pool:
         found = []
-        for done, one in enumerate(pool.map(partial(judge, options.rule, options.copies), refs), 1):
+        for done, one in enumerate(pool.map(partial(judge, complete, options.copies), refs), 1):
             found += one
             print(f"  {done}/{len(refs)}", file=sys.stderr, end="\r")
     print(file=sys.stderr)
@@ -79,7 +89,7 @@ def main() -> int:
     return 0
 
 
-def judge(rule: bool, copies: int, ref: ModelRef) -> list[Found]:
+def judge(complete: Complete, copies: int, ref: ModelRef) -> list[Found]:
     """Returns what is said of one model in each variant."""
     asset = load_model(ref)
     truth = counted_parts(asset)
@@ -87,23 +97,44 @@ def judge(rule: bool, copies: int, ref: ModelRef) -> list[Found]:
     found = []
     for variant in VARIANTS:
         draws = range(copies if variant.drawn else 1)
-        wrong = [part for draw in draws for part in wrong_parts(rule, variant.change(asset, bare, draw), truth)]
-        found.append(Found(variant.name, len(truth) * len(draws) - len(wrong), len(truth) * len(draws), tuple(wrong)))
+        answers = [one for draw in draws for one in answered(complete, variant.change(asset, bare, draw), truth)]
+        wrong = tuple(part for part, _, right in answers if not right)
+        sure = tuple((confidence, right) for _, confidence, right in answers if confidence is not None)
+        found.append(Found(variant.name, len(answers) - len(wrong), len(answers), wrong, sure))
     return [replace(one, wrong=tuple(f"{ref.id}/{part}" for part in one.wrong)) for one in found]
 
 
-def wrong_parts(rule: bool, asset: Asset, truth: tuple[MovingPart, ...]) -> Iterator[str]:
-    """Yields the parts whose motion is not stated as annotated."""
-    stated = plan_from_completion(complete(rule, asset), asset)
+def answered(
+    complete: Complete, asset: Asset, truth: tuple[MovingPart, ...]
+) -> Iterator[tuple[str, float | None, bool]]:
+    """Yields each moving part, the confidence of its motion (None: it has none), and whether it is as annotated."""
+    completion = complete(asset)
+    stated = plan_from_completion(completion, asset)
     true = {part.id: part.motion for part in truth}
     motions = {r.moving: Motion(r.type, r.axis, true[r.moving].center) for r in stated.joints if r.moving in true}
-    yield from (one.part for one in compare_motions(motions, true) if not one.whole)
+    for one in compare_motions(motions, true):
+        scores = [d.score for d in completion.decisions if d.part == one.part and d.question in OF_MOTION]
+        yield one.part, float(np.prod(scores)) if scores and one.part in motions else None, one.whole
 
 
-def complete(rule: bool, asset: Asset) -> GraphCompletion:
-    """Returns the asset's graph as the rules or the shipped weights complete it."""
-    graph = parse_graph(asset)
-    return complete_by_rule(graph) if rule else complete_by_weights(asset, graph)
+def complete_by_rules(asset: Asset) -> GraphCompletion:
+    """Returns the asset's graph as the rules complete it."""
+    return complete_by_rule(parse_graph(asset))
+
+
+def complete_with(weights: Path | None, asset: Asset) -> GraphCompletion:
+    """Returns the asset's graph as weights complete it: those in a file, or those that ship."""
+    return complete_by_weights(asset, parse_graph(asset), weights)
+
+
+def calibration_error(sure: list[tuple[float, bool]]) -> float:
+    """Returns the expected calibration error of confidences in ten bins; not a number where there are none."""
+    if not sure:
+        return float("nan")
+    confidence, right = np.array([c for c, _ in sure]), np.array([r for _, r in sure], dtype=float)
+    bins = np.minimum((confidence * BINS).astype(int), BINS - 1)
+    apart = [abs(float((confidence - right)[bins == k].sum())) for k in range(BINS)]
+    return sum(apart) / len(sure)
 
 
 def without_some_still_parts(asset: Asset, bare: Asset, draw: int) -> Asset:
@@ -149,6 +180,7 @@ def counts(found: list[Found]) -> dict[str, dict[str, object]]:
             "right": sum(one.right for one in ones),
             "parts": sum(one.parts for one in ones),
             "wrong": [part for one in ones for part in one.wrong],
+            "calibration error": calibration_error([pair for one in ones for pair in one.sure]),
         }
         for name, ones in of.items()
     }
@@ -157,11 +189,12 @@ def counts(found: list[Found]) -> dict[str, dict[str, object]]:
 def table(found: list[Found]) -> str:
     """Returns the counts as a table, and below it what is wrong in the variants that nothing is drawn for."""
     counted = counts(found)
-    lines = ["| asked about | motions | right | fraction |", "|---|---|---|---|"]
+    lines = ["| asked about | motions | right | fraction | calibration error |", "|---|---|---|---|---|"]
     for name, one in counted.items():
         if one["parts"]:
             ratio = one["right"] / one["parts"]  # type: ignore[operator]
-            lines.append(f"| {name} | {one['parts']} | {one['right']} | {ratio:.3f} |")
+            error = one["calibration error"]
+            lines.append(f"| {name} | {one['parts']} | {one['right']} | {ratio:.3f} | {error:.3f} |")
     wrong = [f"wrong, {name}: {', '.join(counted[name]['wrong'])}" for name in ("labels given", "no labels")]  # type: ignore[arg-type]
     return "\n".join([*lines, "", *wrong])
 

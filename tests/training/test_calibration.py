@@ -3,10 +3,10 @@
 import pytest
 import torch
 from perfect_answers import perfect, truth_of, two_cabinets
-from random_graphs import graph, tiny_network
 
 from grafu.graph.arrays import ATTACHED, HINGE, RAIL, UNKNOWN
 from grafu.training.calibration import HEADS, Answers, calibrated, fitted, head_answers
+from random_graphs import graph, tiny_network
 
 
 @pytest.mark.parametrize("sureness", [0.5, 1.0, 3.0])
