@@ -56,7 +56,7 @@ class Variant:
 @final
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What was said of one model in one variant, all draws together; `sure`: confidences, and whether they are right."""
+    """What was said of one model in one variant, all draws together; `sure`: confidences, and whether it is right."""
 
     variant: str
     right: int
