@@ -59,20 +59,20 @@ _FEW = "--config tiny --steps 2 --jobs 2"
 MEASURES = (
     Measure(
         "synthetic",
-        "python scripts/judge_network.py --count 600 --jobs {jobs}",
+        "python scripts/judge_network.py --count 300 --jobs {jobs}",
         "python scripts/judge_network.py --count 4 --jobs {jobs}",
         "the network on synthetic furniture that was not used in training",
         ("network.md",),
-        25,
+        13,
         weights=True,
     ),
     Measure(
         "synthetic by rules",
-        "python scripts/judge_network.py --rule --count 600 --jobs {jobs}",
+        "python scripts/judge_network.py --rule --count 300 --jobs {jobs}",
         "python scripts/judge_network.py --rule --count 4 --jobs {jobs}",
         "the rules on the same furniture",
         ("network.md",),
-        5,
+        3,
     ),
     Measure(
         "motions",
