@@ -59,7 +59,7 @@ _FEW = "--config tiny --steps 2 --jobs 2"
 MEASURES = (
     Measure(
         "synthetic",
-        "python scripts/judge_network.py --count 300 --jobs {jobs}",
+        "python scripts/judge_network.py --count 150 --jobs {jobs}",
         "python scripts/judge_network.py --count 4 --jobs {jobs}",
         "the network on synthetic furniture that was not used in training",
         ("network.md",),
@@ -68,7 +68,7 @@ MEASURES = (
     ),
     Measure(
         "synthetic by rules",
-        "python scripts/judge_network.py --rule --count 300 --jobs {jobs}",
+        "python scripts/judge_network.py --rule --count 150 --jobs {jobs}",
         "python scripts/judge_network.py --rule --count 4 --jobs {jobs}",
         "the rules on the same furniture",
         ("network.md",),
