@@ -12,7 +12,7 @@ from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.top.config import TopConfig
-from grafu.articulation.physics import DynamicsConfig
+from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.completion.features import FeatureConfig
 from grafu.export.usd.config import UsdConfig
 from grafu.joints.config import RealizationConfig
