@@ -42,17 +42,15 @@ class ConvexPieceConfig:
 
     tolerance: float = 0.02
     """Pits less deep than this are filled (metres)."""
-    most: int = 16
-    """Most pieces of one mesh."""
-    cuts: bool = True
-    """Without them, connected parts stay whole."""
+    most_cuts: int = 32
+    """How often one mesh is cut at most; connected parts come apart without a cut."""
     past_wall: float = 0.0005
     """How far behind the wall of a pit a cut lies: faces on it belong to the board that is cut off (metres)."""
     speck: float = 0.004
     """Pieces with a shorter diagonal carry no load and stop no hand (metres)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "tolerance", "most", "past_wall", "speck")
+        require_positive(self, "tolerance", "most_cuts", "past_wall", "speck")
 
 
 DEFAULT_PIECE_CONFIG = ConvexPieceConfig()
@@ -145,24 +143,22 @@ def _solid(mesh: TriangleMesh) -> Any:
 
 
 def _taken_apart(whole: _Piece) -> list[_Piece]:
-    waiting, done = [whole], list[_Piece]()
+    waiting, done, cuts = [whole], list[_Piece](), whole.config.most_cuts
     while waiting:
         require_time()
-        piece = waiting.pop(int(np.argmax([w.mesh.box.diagonal for w in waiting])))  # large ones first: room is scarce
-        parts = _apart_once(piece) if len(done) + len(waiting) + 1 < whole.config.most else []
+        piece = waiting.pop(int(np.argmax([w.mesh.box.diagonal for w in waiting])))  # large ones first: cuts are scarce
+        if piece.pit is None:
+            done.append(piece)
+            continue
+        parts = piece.parts()
+        if len(parts) == 1 and cuts:
+            parts = _cut(parts[0], piece.pit)
+            cuts -= 1
         if len(parts) > 1:
             waiting += parts
         else:
             done.append(piece)
     return done
-
-
-def _apart_once(piece: _Piece) -> list[_Piece]:
-    """Returns the piece's connected parts or, of a single one, those on both sides of a cut; nothing without a pit."""
-    if piece.pit is None:
-        return []
-    parts = piece.parts()
-    return _cut(parts[0], piece.pit) if len(parts) == 1 and piece.config.cuts else parts
 
 
 def _is_box(mesh: TriangleMesh) -> bool:

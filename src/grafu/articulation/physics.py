@@ -1,10 +1,12 @@
 """The physics of an object, computed once for all formats: frames, masses, shapes, resistance of joints."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeVar, final
 from weakref import WeakKeyDictionary
+
+import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.build_material import MassConfig
@@ -13,7 +15,8 @@ from grafu.articulation.collision_shapes import (
     CollisionShape,
     CollisionShapeConfig,
     box_of,
-    collision_shapes,
+    chosen_shapes,
+    corners_of,
     shapes_of,
 )
 from grafu.articulation.joint_dynamics import DynamicsConfig, JointDynamics, joint_dynamics
@@ -81,7 +84,9 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     measured = WhileTimeLasts(_MASSES, moments_of, moments_of_box)
     masses = {link.id: mass_of_link(link, config.mass, measured) for link in articulated.links}
     of_part = WhileTimeLasts(_PIECES, shapes_of, box_of)
-    drawn = {link.id: collision_shapes(link, config.collision, of_part) for link in articulated.links}
+    chosen = {link.id: chosen_shapes(link, config.collision, of_part) for link in articulated.links}
+    drawn = {link: kept for link, (kept, _) in chosen.items()}
+    notes += [note for link, (_, left) in chosen.items() for note in _left_out(link, left, config.collision)]
     if measured.spared:
         notes.append(f"{_parts(measured.spared)} got the mass of boards all over the box around: {_NO_TIME}")
     if of_part.spared:
@@ -105,6 +110,13 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
 def _noted(notes: list[str], what: str, found: T, why: str) -> T:
     notes.append(f"{what}: {why}")
     return found
+
+
+def _left_out(link: str, left: Sequence[CollisionShape], config: CollisionShapeConfig) -> Iterator[str]:
+    """Yields a note where one of the shapes that are left out is large enough to be missed."""
+    if any(np.linalg.norm(np.ptp(corners_of(shape), axis=0)) > config.noticed for shape in left):
+        most = f"{config.most_shapes} shapes are kept"
+        yield f"{link} does not collide where it is smallest: {most}, {len(left):,} are left out"
 
 
 def _parts(count: int) -> str:
