@@ -52,7 +52,8 @@ class PhysicsModel:
     """The physics of an object at rest, in the object frame; tables by the ids of links and of moving joints.
 
     `origins` is where the frame of each link stands, parallel to the object frame. `touching` names the pairs of links
-    whose shapes meet at rest all the same. `notes` state what was found in a simpler way, because there was no time.
+    whose shapes meet at rest all the same. `notes` state which shapes were left out, and what was found more simply,
+    because there was no time (then it is `simplified`).
     """
 
     origins: Mapping[str, Vec3]
@@ -61,6 +62,7 @@ class PhysicsModel:
     dynamics: Mapping[str, JointDynamics]
     touching: tuple[tuple[str, str], ...]
     notes: tuple[str, ...] = ()
+    simplified: bool = False
 
 
 _LATEST: WeakKeyDictionary[ArticulatedObject, tuple[PhysicsConfig, PhysicsModel]] = WeakKeyDictionary()
@@ -73,7 +75,7 @@ def physics_of(articulated: ArticulatedObject, config: PhysicsConfig = DEFAULT_P
     What the budget in force does not hold is found in a simpler way: masses and shapes from boxes around parts.
     """
     known = _LATEST.get(articulated)
-    if known is None or known[0] != config or (known[1].notes and present_budget().is_unlimited):
+    if known is None or known[0] != config or (known[1].simplified and present_budget().is_unlimited):
         known = (config, _found(articulated, config))
         _LATEST[articulated] = known
     return known[1]
@@ -86,7 +88,7 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     of_part = WhileTimeLasts(_PIECES, shapes_of, box_of)
     chosen = {link.id: chosen_shapes(link, config.collision, of_part) for link in articulated.links}
     drawn = {link: kept for link, (kept, _) in chosen.items()}
-    notes += [note for link, (_, left) in chosen.items() for note in _left_out(link, left, config.collision)]
+    left_out = [note for link, (_, left) in chosen.items() for note in _left_out(link, left, config.collision)]
     if measured.spared:
         notes.append(f"{_parts(measured.spared)} got the mass of boards all over the box around: {_NO_TIME}")
     if of_part.spared:
@@ -104,7 +106,7 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     dynamics = {
         joint.id: joint_dynamics(articulated, joint, masses, config.dynamics) for joint in articulated.moving_joints
     }
-    return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, touching, tuple(notes))
+    return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, touching, (*left_out, *notes), bool(notes))
 
 
 def _noted(notes: list[str], what: str, found: T, why: str) -> T:
