@@ -47,6 +47,9 @@ class ShapeClearanceConfig:
     """... a shape is not cut where it would keep less of a side than this part ..."""
     least_thickness: float = 0.002
     """... or become thinner than this."""
+    moving_counts: float = 3.0
+    """What a moving shape loses counts this many times as much as what stands still: a drawer is there to be filled,
+    and what stands still is often a hull around more than its part."""
     rounds: int = 4
     """How often cuts are repeated; in the last round what still meets is left out."""
 
@@ -223,7 +226,8 @@ def _cut(conflict: _Conflict, config: ShapeClearanceConfig) -> tuple[ShapeBody, 
     for body, obstacle in ((moving, onto_moving), (still, onto_still)):
         rest = _cut_back(body.shape, obstacle, config)
         options += [(body, rest)] if rest is not None else []
-    return min(options, key=lambda option: _loss(*option))
+    weight = 1.0 if conflict.still_moves else config.moving_counts
+    return min(options, key=lambda option: _loss(*option) * (weight if option[0] is moving else 1.0))
 
 
 def _loss(body: ShapeBody, rest: CollisionShape | None) -> float:
