@@ -47,9 +47,11 @@ class ShapeClearanceConfig:
     """... a shape is not cut where it would keep less of a side than this part ..."""
     least_thickness: float = 0.002
     """... or become thinner than this."""
+    moving_share: float = 0.1
+    """Where a moving shape would lose more of its surface than this part ..."""
     moving_counts: float = 3.0
-    """What a moving shape loses counts this many times as much as what stands still: a drawer is there to be filled,
-    and what stands still is often a hull around more than its part."""
+    """... its loss counts this many times: a drawer is there to be filled, and what stands still is often a hull around
+    more than its part."""
     rounds: int = 4
     """How often cuts are repeated; in the last round what still meets is left out."""
 
@@ -226,12 +228,15 @@ def _cut(conflict: _Conflict, config: ShapeClearanceConfig) -> tuple[ShapeBody, 
     for body, obstacle in ((moving, onto_moving), (still, onto_still)):
         rest = _cut_back(body.shape, obstacle, config)
         options += [(body, rest)] if rest is not None else []
-    weight = 1.0 if conflict.still_moves else config.moving_counts
-    return min(options, key=lambda option: _loss(*option) * (weight if option[0] is moving else 1.0))
+    guarded = None if conflict.still_moves else moving
+    return min(options, key=lambda option: _loss(*option, config, option[0] is guarded))
 
 
-def _loss(body: ShapeBody, rest: CollisionShape | None) -> float:
-    return extent_of(body.shape) - (0.0 if rest is None else extent_of(rest))
+def _loss(body: ShapeBody, rest: CollisionShape | None, config: ShapeClearanceConfig, guarded: bool) -> float:
+    """Returns the surface that a body loses, square metres; counted several times where a guarded one loses much."""
+    whole = extent_of(body.shape)
+    loss = whole - (0.0 if rest is None else extent_of(rest))
+    return loss * (config.moving_counts if guarded and loss > config.moving_share * whole else 1.0)
 
 
 def _cut_back(shape: CollisionShape, obstacle: Points, config: ShapeClearanceConfig) -> CollisionShape | None:

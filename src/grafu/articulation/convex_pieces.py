@@ -226,8 +226,8 @@ def _cut(piece: _Piece, pit: Vec3) -> list[_Piece]:
 def _walls(piece: _Piece, pit: Vec3) -> Iterator[tuple[int, float, float]]:
     """Yields axis, sense and position of each wall seen from the pit, the largest faces of the box first.
 
-    Where no wall is seen, as in the opening of a sheet, cuts at the corners nearest to the pit along the long sides come
-    last: the edges of the opening.
+    Cuts at the corners nearest to the pit along the long sides come last: where no wall is seen, as in the opening of a
+    sheet, they are its edges.
     """
     seen = _looks(piece.caster, pit[None])[0]
     size = piece.mesh.box.size
