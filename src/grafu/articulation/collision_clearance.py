@@ -229,7 +229,7 @@ def _cut(conflict: _Conflict, config: ShapeClearanceConfig) -> tuple[ShapeBody, 
         rest = _cut_back(body.shape, obstacle, config)
         options += [(body, rest)] if rest is not None else []
     guarded = None if conflict.still_moves else moving
-    return min(options, key=lambda option: _loss(*option, config, option[0] is guarded))
+    return min(options, key=lambda option: _loss(option[0], option[1], config, option[0] is guarded))
 
 
 def _loss(body: ShapeBody, rest: CollisionShape | None, config: ShapeClearanceConfig, guarded: bool) -> float:
