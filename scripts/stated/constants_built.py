@@ -159,7 +159,7 @@ def joints() -> Iterator[Sentence]:
     yield "exports.md", "velocity is {:g} rad/s or {:g} m/s", (MOVES.hinge_velocity, MOVES.rail_velocity)
     yield "exports.md", "A pull of {:g} N at the far", (MOVES.pull,)
     yield "exports.md", "opens whatever is not lifted within {:g} s", (2 * MOVES.opened,)
-    yield "exports.md", "friction takes no more than {:g} % of it", (per_cent(MOVES.braking_share),)
+    yield "exports.md", "friction takes no more than {:g} % of it", (per_cent(MOVES.braking_ratio),)
     yield "exports.md", "damped more, down to {:g} ms", (mm(MOVES.quickest),)
     yield "exports.md", "Nothing moves under less than {:g} N at its", (MOVES.touch,)
     yield (

@@ -4,7 +4,7 @@ import pytest
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.articulation.collision_clearance import ShapeClearanceConfig, cleared
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
-from grafu.articulation.sweep import shares_of_way
+from grafu.articulation.sweep import ratios_of_range
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box, OrientedBox
@@ -119,12 +119,12 @@ def test_what_is_met_for_a_short_part_of_the_way_gives_way(way):
 
 def test_poses_lie_closer_near_rest():
     config = ShapeClearanceConfig()
-    shares = shares_of_way(config.poses, config.crowding)
+    ratios = ratios_of_range(config.poses, config.crowding)
 
-    assert shares[[0, -1]].tolist() == [0.0, 1.0]
-    assert shares[1] * 0.5 < 0.001  # of a drawer of half a metre, the first step is less than a millimetre
-    assert np.all(np.diff(shares, 2) > 0)
-    assert np.diff(shares).max() < 0.09
+    assert ratios[[0, -1]].tolist() == [0.0, 1.0]
+    assert ratios[1] * 0.5 < 0.001  # of a drawer of half a metre, the first step is less than a millimetre
+    assert np.all(np.diff(ratios, 2) > 0)
+    assert np.diff(ratios).max() < 0.09
 
 
 def test_the_bottom_of_a_drawer_stays_where_a_hull_around_the_case_is_in_its_way():
@@ -136,7 +136,7 @@ def test_the_bottom_of_a_drawer_stays_where_a_hull_around_the_case_is_in_its_way
     assert bounds(result["drawer"][0]) == bounds(bottom)
 
 
-@pytest.mark.parametrize("name", ["poses", "crowding", "margin", "moving_share", "moving_counts", "rounds"])
+@pytest.mark.parametrize("name", ["poses", "crowding", "margin", "moving_ratio", "moving_counts", "rounds"])
 def test_a_setting_that_is_not_above_0_is_refused(name):
     with pytest.raises(ValueError, match=f"`ShapeClearanceConfig.{name}` must be above 0"):
         ShapeClearanceConfig(**{name: type(getattr(ShapeClearanceConfig(), name))(0)})

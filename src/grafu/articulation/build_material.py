@@ -111,16 +111,16 @@ DEFAULT_MASS_CONFIG = MassConfig()
 
 
 def builds_of(visual: Visual, config: MassConfig = DEFAULT_MASS_CONFIG) -> dict[MaterialBuild, float]:
-    """Returns how a visual is built: each kind of build with its share (0 to 1) of the visual's area."""
+    """Returns how a visual is built: each kind of build with its ratio (0 to 1) of the visual's area."""
     areas = [surface.mesh.area for surface in visual.surfaces]
     whole = sum(areas)
     if whole <= 0:
         return {_board(config): 1.0}
-    shares: dict[MaterialBuild, float] = {}
+    ratios: dict[MaterialBuild, float] = {}
     for surface, area in zip(visual.surfaces, areas, strict=True):
         build = _build(surface.material, visual, config)
-        shares[build] = shares.get(build, 0.0) + area / whole
-    return {build: share for build, share in shares.items() if share > 0}
+        ratios[build] = ratios.get(build, 0.0) + area / whole
+    return {build: ratio for build, ratio in ratios.items() if ratio > 0}
 
 
 def _build(material: Material, visual: Visual, config: MassConfig) -> MaterialBuild:

@@ -13,7 +13,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of, extent_of
 from grafu.articulation.kinematics import link_poses
-from grafu.articulation.sweep import rest_to_full, shares_of_way, values_before
+from grafu.articulation.sweep import ratios_of_range, rest_to_full, values_before
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import require_time
@@ -29,7 +29,7 @@ Shapes = dict[str, tuple[CollisionShape, ...]]
 class ShapeClearanceConfig:
     """How shapes give way; lengths in metres.
 
-    Of a pair that cannot be cut the one that stands still is left out: a drawer without a bottom is worse than a frame
+    Of a pair that cannot be cut the static one is left out: a drawer without a bottom is worse than a frame
     without a rail.
 
     Raises:
@@ -47,10 +47,10 @@ class ShapeClearanceConfig:
     """... a shape is not cut where it would keep less of a side than this part ..."""
     least_thickness: float = 0.002
     """... or become thinner than this."""
-    moving_share: float = 0.1
+    moving_ratio: float = 0.1
     """Where a moving shape would lose more of its surface than this part ..."""
     moving_counts: float = 3.0
-    """... its loss counts this many times: a drawer is there to be filled, and what stands still is often a hull around
+    """... its loss counts this many times: a drawer is there to be filled, and what is static is often a hull around
     more than its part."""
     rounds: int = 4
     """How often cuts are repeated; in the last round what still meets is left out."""
@@ -125,7 +125,7 @@ def _motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearance
         return _coupled_motion(articulated, joint, config)
     start = link_poses(articulated, values_before(articulated, joint.id))
     T_object_parent, T_child_object = start[joint.parent], invert(start[joint.child])
-    values = joint.limits.lower + joint.limits.range * shares_of_way(config.poses, config.crowding)
+    values = joint.limits.lower + joint.limits.range * ratios_of_range(config.poses, config.crowding)
     Ts = np.stack([T_object_parent @ joint.motion(float(value)) @ T_child_object for value in values])
     carried = _carried(articulated, joint)
     still = {link: T for link, T in start.items() if link not in carried and not np.array_equal(T, np.eye(4))}
@@ -236,7 +236,7 @@ def _loss(body: ShapeBody, rest: CollisionShape | None, config: ShapeClearanceCo
     """Returns the surface that a body loses, square metres; counted several times where a guarded one loses much."""
     whole = extent_of(body.shape)
     loss = whole - (0.0 if rest is None else extent_of(rest))
-    return loss * (config.moving_counts if guarded and loss > config.moving_share * whole else 1.0)
+    return loss * (config.moving_counts if guarded and loss > config.moving_ratio * whole else 1.0)
 
 
 def _cut_back(shape: CollisionShape, obstacle: Points, config: ShapeClearanceConfig) -> CollisionShape | None:

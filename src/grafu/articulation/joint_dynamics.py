@@ -66,7 +66,7 @@ class DynamicsConfig:
     """Friction of a hinge brakes a swing by this (rad/s2) ..."""
     rail_friction: float = 0.03
     """... that of a rail is this part of the weight, as ball-bearing slides have ..."""
-    braking_share: float = 0.25
+    braking_ratio: float = 0.25
     """... but neither takes more than this part of the pull: hinges and slides for heavy leaves run easier."""
     holding: float = 1.5
     """Friction over what keeps gravity from moving the joint (factor)."""
@@ -79,7 +79,7 @@ class DynamicsConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *(set(self.__dataclass_fields__) - {"counterbalance"}))
-        require_ratios(self, "rail_friction", "braking_share")
+        require_ratios(self, "rail_friction", "braking_ratio")
 
 
 DEFAULT_DYNAMICS_CONFIG = DynamicsConfig()
@@ -133,7 +133,7 @@ def _sliding(joint: Joint, carried: list[MassProperties], config: DynamicsConfig
 
 def _braking(usual: float, arm: float, config: DynamicsConfig) -> float:
     """Returns the friction that brakes a joint pulled at an arm (m; 1 for a slide), N m or N."""
-    most = config.braking_share * config.pull * arm
+    most = config.braking_ratio * config.pull * arm
     return max(min(usual, most), config.touch * arm) if arm > 0 else usual
 
 
@@ -145,8 +145,8 @@ def _damping(
     if arm <= 0:
         return usual
     light = min(config.pull * arm / (config.runaway * velocity), inertia / config.quickest)
-    way = joint.limits.range if joint.kind.limited else velocity * config.opened
-    heavy = (config.pull * arm - braking) * config.opened / way if way > 0 else usual
+    distance = joint.limits.range if joint.kind.limited else velocity * config.opened
+    heavy = (config.pull * arm - braking) * config.opened / distance if distance > 0 else usual
     return min(max(usual, light), heavy)
 
 

@@ -189,9 +189,9 @@ def mass_of_link(
     """
     total = NO_MOMENTS
     for visual in link.visuals:
-        for build, share in builds_of(visual, config).items():  # as if each went evenly over the whole part
+        for build, ratio in builds_of(visual, config).items():  # as if each went evenly over the whole part
             made = measured(visual.mesh, build.sheet, config.flat, build.wall)
-            total = total.plus(made.scaled(share * build.density))
+            total = total.plus(made.scaled(ratio * build.density))
     if total.volume <= 0:
         center = link.mesh.box.center if len(link.mesh.faces) else np.zeros(3)
         return MassProperties(config.least_mass, center, np.eye(3) * config.least_mass * config.least_size**2 / 6.0)

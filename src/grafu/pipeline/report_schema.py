@@ -271,7 +271,7 @@ class Report(ReportRecord):
     skipped: tuple[SkippedRecord, ...] = Field(description="what was asked for and not built")
     notes: tuple[str, ...] = Field(
         default=(),
-        description="what was simplified or left out: the budget was too small, or a link has too many collision shapes",
+        description="what was simplified or left out: the budget was too small, or collision shapes are too many",
     )
     guesses: tuple[GuessRecord, ...] = Field(default=(), description="decisions that motions rest on")
     moves: dict[str, tuple[str, ...]] = Field(
