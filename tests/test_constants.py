@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from grafu.articulation.mass import MassConfig
+from grafu.articulation.build_material import MassConfig
+from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.asset.body_kinds import BodyKindConfig
 from grafu.asset.cutting import CutConfig
 from grafu.asset.drafts import GroupConfig
@@ -65,7 +66,8 @@ READERS = (
 OF_MODULES = {
     "articulation": {
         "coupled_weight.py": {"_STEP": TOLERANCE, "_EXACT": TOLERANCE, "_AT": SAMPLES},
-        "mass.py": {"NO_MOMENTS": FORMULA, "_BY_WORD": MATERIALS, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA},
+        "build_material.py": {"_BY_WORD": MATERIALS, "_GLASS": MATERIALS, "_STEEL": MATERIALS, "_TEXTILE": MATERIALS},
+        "mass.py": {"NO_MOMENTS": FORMULA, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA},
     },
     "asset": {
         "bodies.py": {},
@@ -175,6 +177,7 @@ IN_FUNCTIONS = {
 }
 CONFIGS = (
     AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
+    DynamicsConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LooseConfig,
     MassConfig, MatchConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
@@ -184,7 +187,7 @@ NUMBERS = [
     (kind, f.name)
     for kind in CONFIGS
     for f in fields(kind)
-    if not is_dataclass(f.default) and f.name != "density_by_word"  # a table
+    if not is_dataclass(f.default) and f.name not in ("build_by_word", "counterbalance")
 ]
 
 

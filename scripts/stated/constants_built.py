@@ -12,7 +12,10 @@ from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.top.config import TopConfig
-from grafu.articulation.physics import DynamicsConfig
+from grafu.articulation.build_material import MassConfig
+from grafu.articulation.collision_clearance import ShapeClearanceConfig
+from grafu.articulation.collision_shapes import CollisionShapeConfig
+from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.completion.features import FeatureConfig
 from grafu.export.usd.config import UsdConfig
 from grafu.joints.config import RealizationConfig
@@ -25,6 +28,7 @@ Sentence = tuple[str, str, tuple[float | int | str, ...]]
 TOP, BOX, CARCASS = TopConfig(), DrawerBoxConfig(), CarcassConfig()
 HANDLE, GRIP, GRASP, INTERIOR = HandleConfig(), GripConfig(), GraspConfig(), InteriorConfig()
 BUILT, SEEN, MOVES = RealizationConfig(), FeatureConfig(), DynamicsConfig()
+MASS, SHAPES = MassConfig(), CollisionShapeConfig()
 
 
 def per_cent(ratio: float) -> float:
@@ -153,5 +157,28 @@ def joints() -> Iterator[Sentence]:
         ),
     )
     yield "exports.md", "velocity is {:g} rad/s or {:g} m/s", (MOVES.hinge_velocity, MOVES.rail_velocity)
+    yield "exports.md", "A pull of {:g} N at the far", (MOVES.pull,)
+    yield "exports.md", "opens whatever is not lifted within {:g} s", (2 * MOVES.opened,)
+    yield "exports.md", "friction takes no more than {:g} % of it", (per_cent(MOVES.braking_ratio),)
+    yield "exports.md", "damped more, down to {:g} ms", (mm(MOVES.quickest),)
+    yield "exports.md", "Nothing moves under less than {:g} N at its", (MOVES.touch,)
+    yield (
+        "exports.md",
+        "| wood, and all that has no word | {:g} | {:g} mm:",
+        (MASS.default_density, mm(MASS.solid_wood)),
+    )
+    yield (
+        "exports.md",
+        "boards up to {:g} mm and posts up to {:g} mm",
+        (mm(2 * MASS.solid_wood), mm(4 * MASS.solid_wood)),
+    )
+    yield "exports.md", "are solid | {:g} mm |", (mm(MASS.board_thickness),)
+    yield "exports.md", "| handles without a word | {:g} | {:g} mm |", (MASS.handle_density, mm(MASS.handle_wall))
+    yield "exports.md", "| hinges and rails | {:g} | {:g} mm:", (MASS.hardware_density, mm(MASS.hardware_wall))
+    yield "exports.md", "is cut up to {} times beside that", (SHAPES.pieces.most_cuts,)
+    yield "exports.md", "handles, legs and bars up to {} times", (SHAPES.cuts_of_bars,)
+    yield "exports.md", "at least {:g} mm thick", (mm(SHAPES.least_thickness),)
+    yield "exports.md", "in any of {} poses of a motion", (ShapeClearanceConfig().poses,)
+    yield "exports.md", "A link has at most {}:", (SHAPES.most_shapes,)
     yield "exports.md", "a pull of {:g} N at its far", (MOVES.counterbalance.pull,)
     yield "exports.md", "an armature of {:g} % of what moves", (per_cent(UsdConfig().armature),)

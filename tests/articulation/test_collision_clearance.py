@@ -4,6 +4,7 @@ import pytest
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.articulation.collision_clearance import ShapeClearanceConfig, cleared
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
+from grafu.articulation.sweep import ratios_of_range
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box, OrientedBox
@@ -103,3 +104,39 @@ def test_no_motion_needs_no_clearance():
     static = ArticulatedObject("o", "body", (Link("body", (Visual("a", ()),)),))
 
     assert cleared(static, {"body": (SIDE,)}, ShapeClearanceConfig()) == {"body": (SIDE,)}
+
+
+@pytest.mark.parametrize("way", [0.003, 0.01, 0.03, 0.08, 0.2, 0.35])
+def test_what_is_met_for_a_short_part_of_the_way_gives_way(way):
+    front = box(0, -0.31, 0.1, 0.3, -0.3, 0.3)
+    stop = box(0.298, -0.3105 - way - 0.02, 0.1, 0.33, -0.3105 - way, 0.3)  # ahead of the front by `way`, 2 mm into it
+
+    result = cleared(made(), {"body": (stop,), "drawer": (front,)})
+
+    (drawer,), body = result["drawer"], result["body"]
+    assert all(bounds(drawer)[1][0] < bounds(other)[0][0] for other in body)
+
+
+def test_poses_lie_closer_near_rest():
+    config = ShapeClearanceConfig()
+    ratios = ratios_of_range(config.poses, config.crowding)
+
+    assert ratios[[0, -1]].tolist() == [0.0, 1.0]
+    assert ratios[1] * 0.5 < 0.001  # of a drawer of half a metre, the first step is less than a millimetre
+    assert np.all(np.diff(ratios, 2) > 0)
+    assert np.diff(ratios).max() < 0.09
+
+
+def test_the_bottom_of_a_drawer_stays_where_a_hull_around_the_case_is_in_its_way():
+    bottom = box(0, -0.3, 0.1, 0.6, 0.3, 0.17)
+    case = box(0.16, -0.3, 0.0, 1.5, 0.3, 0.7)  # stands for sheets around the drawer's place
+
+    result = cleared(made(), {"body": (case,), "drawer": (bottom,)})
+
+    assert bounds(result["drawer"][0]) == bounds(bottom)
+
+
+@pytest.mark.parametrize("name", ["poses", "crowding", "margin", "moving_ratio", "moving_counts", "rounds"])
+def test_a_setting_that_is_not_above_0_is_refused(name):
+    with pytest.raises(ValueError, match=f"`ShapeClearanceConfig.{name}` must be above 0"):
+        ShapeClearanceConfig(**{name: type(getattr(ShapeClearanceConfig(), name))(0)})

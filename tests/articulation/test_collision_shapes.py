@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
-from grafu.articulation.collision_shapes import CollisionShapeConfig, collision_shapes, corners_of
+from grafu.articulation.collision_shapes import CollisionShapeConfig, chosen_shapes, collision_shapes, corners_of
 from grafu.articulation.convex_pieces import ConvexPieceConfig, convex_pieces, hull_of
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
@@ -130,11 +130,93 @@ def test_mechanisms_carry_no_shape(name, count):
 
 def test_the_number_of_shapes_is_capped():
     posts = merge_meshes([board(0.2 * k, 0, 0, 0.2 * k + 0.05, 0.05, 0.5 + 0.01 * k) for k in range(9)])
-    config = replace(CollisionShapeConfig(), most_shapes=3, pieces=ConvexPieceConfig(most=20))
+    config = replace(CollisionShapeConfig(), most_shapes=3)
 
     shapes = collision_shapes(link_of(posts), config)
 
     assert [round(2 * float(s.half[2]), 2) for s in shapes] == [0.58, 0.57, 0.56]
+
+
+def test_what_stands_on_the_floor_stays_and_what_is_left_out_is_told():
+    shelves = merge_meshes([board(0.3 * k, 0, 0.2, 0.3 * k + 0.2, 0.3, 0.22) for k in range(6)])
+    feet = merge_meshes([board(x, y, 0, x + 0.03, y + 0.03, 0.1) for x in (0.0, 1.5) for y in (0.0, 0.3)])
+    config = replace(CollisionShapeConfig(), most_shapes=7)
+
+    kept, left_out = chosen_shapes(link_of(merge_meshes([shelves, feet])), config)
+
+    assert len(kept) == 7
+    assert len(left_out) == 3
+    assert sum(corners_of(shape)[:, 2].min() < 0.005 for shape in kept) == 4
+    assert all(corners_of(shape)[:, 2].min() > 0.1 for shape in left_out)
+
+
+def test_what_carries_a_hinge_stays():
+    shelves = merge_meshes([board(0.3 * k, 0, 0.2, 0.3 * k + 0.2, 0.3, 0.22) for k in range(6)])
+    post = board(1.9, 0, 0.2, 1.93, 0.03, 0.5)
+    hinge = Visual("hinge_door", (Surface(board(1.93, 0, 0.3, 1.94, 0.02, 0.35)),), VisualRole.HARDWARE)
+    link = Link("a", (Visual("a", (Surface(merge_meshes([shelves, post])),)), hinge))
+
+    kept, _ = chosen_shapes(link, replace(CollisionShapeConfig(), most_shapes=3))
+
+    assert any(corners_of(shape)[:, 0].min() > 1.85 for shape in kept)
+
+
+def test_a_body_with_many_loose_parts_keeps_its_cavity():
+    case = without(board(0, 0, 0, 0.6, 0.6, 0.8), board(0.02, -0.1, 0.02, 0.58, 0.58, 0.78))
+    screws = [board(0.03 * k + 0.02, 0.62, 0.4, 0.03 * k + 0.03, 0.63, 0.41) for k in range(18)]
+    link = link_of(merge_meshes([case, *screws]), PartLabel.UNKNOWN)
+    inside = np.array([[0.3, 0.05, 0.4], [0.1, 0.5, 0.1], [0.5, 0.3, 0.7]])
+
+    assert not covered(link, inside).any()
+    assert len(collision_shapes(link)) == 5 + 18
+
+
+def test_drawers_and_case_in_one_mesh_of_many_parts_are_all_hollow():
+    trays = [
+        without(board(0, 0, z, 0.4, 0.5, z + 0.1), board(0.015, 0.015, z + 0.012, 0.385, 0.485, z + 1.0))
+        for z in (0.0, 0.2, 0.4)
+    ]
+    knobs = [board(0.02 * k, -0.02, 1.0, 0.02 * k + 0.01, -0.01, 1.01) for k in range(20)]
+    inside = np.array([[0.2, 0.25, z + 0.06] for z in (0.0, 0.2, 0.4)])
+
+    assert not covered(link_of(merge_meshes([*trays, *knobs])), inside).any()
+
+
+@pytest.mark.parametrize("label", [PartLabel.LEG, PartLabel.BAR])
+def test_a_leg_that_is_a_frame_keeps_its_opening(label):
+    sled = without(board(0, 0, 0, 0.03, 0.6, 0.7), board(-1, 0.03, 0.03, 1, 0.57, 0.67))
+
+    assert covered(link_of(sled, label), np.array([[0.015, 0.3, 0.35], [0.015, 0.3, 0.015]])).tolist() == [False, True]
+
+
+def test_the_opening_of_a_sheet_stays_open():
+    outer, inner = [(0, 0), (1, 0), (1, 1), (0, 1)], [(0.3, 0.2), (0.7, 0.2), (0.7, 0.8), (0.3, 0.8)]
+    points = np.array([(x, 0.0, z) for x, z in outer + inner], dtype=float)
+    faces = [(k, (k + 1) % 4, 4 + k) for k in range(4)] + [((k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
+    link = link_of(TriangleMesh(points, np.array(faces)), PartLabel.UNKNOWN)
+
+    at = np.array([[0.5, 0, 0.5], [0.35, 0, 0.75], [0.15, 0, 0.5], [0.5, 0, 0.1]])
+
+    assert covered(link, at).tolist() == [False, False, True, True]
+    assert len(collision_shapes(link)) == 4
+
+
+def test_cuts_are_budgeted():
+    assert len(convex_pieces(TRAY, ConvexPieceConfig(most_cuts=2))) == 3
+
+
+def test_a_lining_adds_no_shapes():
+    panel = board(0, 0, 0, 0.6, 0.018, 0.8)
+    lining = [board(0.2 * k + 0.01, 0.017, 0.1, 0.2 * k + 0.19, 0.019, 0.7) for k in range(3)]  # 1 mm proud
+    link = Link("a", tuple(Visual(f"v{k}", (Surface(m),)) for k, m in enumerate([panel, *lining])))
+
+    assert len(collision_shapes(link)) == 1
+
+
+@pytest.mark.parametrize("name", ["margin", "most_shapes", "within", "cuts_of_bars"])
+def test_a_setting_that_is_not_above_0_is_refused(name):
+    with pytest.raises(ValueError, match=f"`CollisionShapeConfig.{name}` must be above 0"):
+        CollisionShapeConfig(**{name: type(getattr(CollisionShapeConfig(), name))(0)})
 
 
 def test_a_link_without_faces_has_no_shape():

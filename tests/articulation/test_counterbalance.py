@@ -120,3 +120,17 @@ def test_a_number_that_is_not_above_0_is_refused(name):
 def test_a_spring_without_stiffness_is_refused():
     with pytest.raises(ValueError, match="must be above 0"):
         Counterbalance(ORIGIN, X, 0.0)
+
+
+@KINDS
+@pytest.mark.parametrize("mass", [0.3, 1.0, 1.5, 2.1, 3.0])
+def test_what_friction_holds_opens_and_closes_with_a_light_pull(axis, center, mass):
+    reach = 2 * joint(axis).axis.distance_to(center)
+
+    made = held(joint(axis), mass, center, reach, (0.01, 0.02))
+
+    heaviest = np.abs(gravity_torque(joint(axis), mass, center, np.linspace(0.0, radians(90), 61))).max()
+    if made.counterbalance is None:
+        assert made.friction + heaviest <= 12 * reach
+    else:
+        assert 2.2 * heaviest > 12 * reach

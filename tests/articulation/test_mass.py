@@ -5,14 +5,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.articulation.articulated_object import Link, Visual, VisualRole
-from grafu.articulation.mass import MassConfig, MassProperties, density_of, mass_of_link, moments_of
+from grafu.articulation.articulated_object import Link, Visual
+from grafu.articulation.build_material import MassConfig
+from grafu.articulation.mass import MassProperties, mass_of_link, moments_of
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.vocabulary import PartLabel
 
 PANEL = Box(vec3(0.1, -0.3, 0.0), vec3(0.5, -0.282, 0.7))
 PANEL_MESH = TriangleMesh.box_mesh(PANEL)
@@ -29,9 +29,9 @@ def box_inertia(mass: float, size: np.ndarray) -> np.ndarray:
 
 @given(sizes, st.floats(-3, 3))
 def test_a_box_weighs_what_the_textbook_says(size, offset):
-    made = mass_of_link(
-        link_of(TriangleMesh.box_mesh(Box(np.full(3, offset), offset + size))), MassConfig(least_mass=1e-9)
-    )
+    mesh = TriangleMesh.box_mesh(Box(np.full(3, offset), offset + size))
+
+    made = mass_of_link(link_of(mesh), MassConfig(least_mass=1e-9, solid_wood=1.0))
 
     assert made.mass == pytest.approx(650 * np.prod(size), rel=1e-6)
     assert np.allclose(made.center, offset + size / 2, atol=1e-6)
@@ -109,29 +109,6 @@ def test_any_triangles_have_the_mass_of_a_body(seed):
 
 def test_a_link_without_parts_has_the_least_mass():
     assert mass_of_link(Link("empty", ())).mass == MassConfig().least_mass
-
-
-@pytest.mark.parametrize(
-    ("visual", "density"),
-    [
-        (Visual("door", (Surface(PANEL_MESH),)), 650),
-        (Visual("door", (Surface(PANEL_MESH, Material("Frosted Glass 01")),)), 2500),
-        (Visual("door", (Surface(PANEL_MESH, Material("pane", (1.0, 1.0, 1.0, 0.2), alpha_mode="BLEND")),)), 2500),
-        (Visual("hinge_1", (Surface(PANEL_MESH),), VisualRole.HARDWARE), 7800),
-        (Visual("support_1", (Surface(PANEL_MESH),), VisualRole.HARDWARE), 650),
-        (Visual("handle_1", (Surface(PANEL_MESH),), label=PartLabel.HANDLE), 2700),
-        (Visual("handle_1", (Surface(PANEL_MESH, Material("brass")),), label=PartLabel.HANDLE), 8500),
-        (Visual("nothing", ()), 650),
-    ],
-)
-def test_density_follows_material_role_and_label(visual, density):
-    assert density_of(visual) == density
-
-
-def test_density_is_weighted_by_area():
-    half = (Surface(PANEL_MESH, Material("glass")), Surface(PANEL_MESH, Material("oak")))
-
-    assert density_of(Visual("door", half)) == pytest.approx((2500 + 650) / 2)
 
 
 def test_impossible_inertia_is_refused():

@@ -23,12 +23,13 @@ PHYSICS = "a constant of physics, or the density of a material"
 REASONS = {
     "articulation": {
         "articulated_object.py": {"_ALIKE": TOLERANCE},
+        "build_material.py": dict.fromkeys(("_BY_WORD", "_GLASS", "_STEEL", "_TEXTILE"), PHYSICS),
         "collision_clearance.py": {"_REST": UNIT},
         "collision_shapes.py": {"_DENSE": EFFORT},
         "convex_pieces.py": {"_DIRECTIONS": SAMPLES, "_HULL_CORNERS": SAMPLES, "_GRID": SAMPLES, "_TRIES": EFFORT},
         "coupled_weight.py": {"_STEP": SAMPLES, "_EXACT": TOLERANCE, "_AT": SAMPLES},
         "kinematics.py": {"_ALIKE": TOLERANCE},
-        "mass.py": {"_BY_WORD": PHYSICS, "_TETRAHEDRON": UNIT, "_TRIANGLE": UNIT, "NO_MOMENTS": UNIT},
+        "mass.py": {"_TETRAHEDRON": UNIT, "_TRIANGLE": UNIT, "NO_MOMENTS": UNIT},
         "motion_kind.py": {"_A_LITTLE": SAMPLES, "_DEGREES": UNIT, "_CENTIMETRES": UNIT, "_ROWS": UNIT},
         "open_together.py": {"_STEPS": SAMPLES},
         "counterbalance.py": {"GRAVITY": PHYSICS},

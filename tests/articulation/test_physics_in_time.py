@@ -7,6 +7,7 @@ from clocks import Clock
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.articulation.mass import moments_of, moments_of_box
 from grafu.articulation.physics import physics_of
+from grafu.export.urdf import export_urdf
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -76,6 +77,18 @@ def test_what_was_found_in_haste_is_not_kept_for_who_has_time(cabinet: Articulat
     assert physics_of(cabinet) is whole
     with spent().in_force():
         assert physics_of(cabinet) is whole
+
+
+def test_shapes_that_are_left_out_are_noted_and_found_once() -> None:
+    shelves = merge_meshes([board((0.3 * k, 0, 0.2), (0.3 * k + 0.02, 0.3, 0.5)) for k in range(70)])
+    base = Link("base", (Visual("base", (Surface(shelves),)),))
+    made = ArticulatedObject("o", "base", (base,), ())
+
+    found = physics_of(made)
+
+    assert found.notes == ("base does not collide where it is smallest: 64 shapes are kept, 6 are left out",)
+    assert physics_of(made) is found
+    assert export_urdf(made).notes == found.notes
 
 
 def test_a_board_weighs_the_same_by_its_box() -> None:

@@ -13,10 +13,11 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of, extent_of
 from grafu.articulation.kinematics import link_poses
-from grafu.articulation.sweep import rest_to_full, values_before
+from grafu.articulation.sweep import ratios_of_range, rest_to_full, values_before
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import require_time
+from grafu.geometry.config_checks import require_positive
 from grafu.geometry.solids import ConvexSolid
 from grafu.geometry.transform import invert, transform_points
 
@@ -28,16 +29,34 @@ Shapes = dict[str, tuple[CollisionShape, ...]]
 class ShapeClearanceConfig:
     """How shapes give way; lengths in metres.
 
-    Each motion is looked at in `poses` poses. A cut leaves `margin`; where a shape would keep less than `least_ratio`
-    of a side, or become thinner than `least_thickness`, it is not cut. Of a pair that cannot be cut the one that stands
-    still is left out: a drawer without a bottom is worse than a frame without a rail. Cuts are repeated `rounds` times.
+    Of a pair that cannot be cut the static one is left out: a drawer without a bottom is worse than a frame
+    without a rail.
+
+    Raises:
+        ValueError: if a number is not above 0.
     """
 
-    poses: int = 9
+    poses: int = 25
+    """In how many poses each motion is looked at."""
+    crowding: float = 2.0
+    """Poses lie closer near rest, where parts fit tightly: the first of 25 is at a sixth of a percent of the way, the
+    last step is 8 % (power of even steps)."""
     margin: float = 0.0005
+    """What a cut leaves between two shapes ..."""
     least_ratio: float = 0.25
+    """... a shape is not cut where it would keep less of a side than this part ..."""
     least_thickness: float = 0.002
+    """... or become thinner than this."""
+    moving_ratio: float = 0.1
+    """Where a moving shape would lose more of its surface than this part ..."""
+    moving_counts: float = 3.0
+    """... its loss counts this many times: a drawer is there to be filled, and what is static is often a hull around
+    more than its part."""
     rounds: int = 4
+    """How often cuts are repeated; in the last round what still meets is left out."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
 
 
 DEFAULT_CLEARANCE_CONFIG = ShapeClearanceConfig()
@@ -89,7 +108,7 @@ def cleared(
     Joints move one at a time from rest to full, those they wait for open; shapes are in the object frame at rest.
     """
     bodies = [ShapeBody(link, shape) for link, held in shapes.items() for shape in held]
-    motions = [_motion(articulated, joint, config.poses) for joint in articulated.moving_joints]
+    motions = [_motion(articulated, joint, config) for joint in articulated.moving_joints]
     settled: frozenset[ShapeBody] = frozenset()
     for left in reversed(range(config.rounds)):
         conflicts = [found for motion in motions for found in _conflicts(motion, bodies, settled, articulated.root)]
@@ -100,13 +119,13 @@ def cleared(
     return {link: tuple(body.shape for body in bodies if body.link == link) for link in shapes}
 
 
-def _motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _JointPath:
+def _motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearanceConfig) -> _JointPath:
     """Returns the path of a joint: what hangs on it moves as one body with its child, unless joints are coupled."""
     if any(articulated.leader_of(other) is articulated.leader_of(joint) for other in _others(articulated, joint)):
-        return _coupled_motion(articulated, joint, poses)
+        return _coupled_motion(articulated, joint, config)
     start = link_poses(articulated, values_before(articulated, joint.id))
     T_object_parent, T_child_object = start[joint.parent], invert(start[joint.child])
-    values = np.linspace(joint.limits.lower, joint.limits.upper, poses)
+    values = joint.limits.lower + joint.limits.range * ratios_of_range(config.poses, config.crowding)
     Ts = np.stack([T_object_parent @ joint.motion(float(value)) @ T_child_object for value in values])
     carried = _carried(articulated, joint)
     still = {link: T for link, T in start.items() if link not in carried and not np.array_equal(T, np.eye(4))}
@@ -117,9 +136,10 @@ def _others(articulated: ArticulatedObject, joint: Joint) -> list[Joint]:
     return [other for other in articulated.moving_joints if other is not joint]
 
 
-def _coupled_motion(articulated: ArticulatedObject, joint: Joint, poses: int) -> _JointPath:
+def _coupled_motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearanceConfig) -> _JointPath:
     """Returns the path of a joint that moves together with others."""
-    frames = [link_poses(articulated, values) for values in rest_to_full(articulated, joint.id, poses)]
+    values = rest_to_full(articulated, joint.id, config.poses, config.crowding)
+    frames = [link_poses(articulated, at) for at in values]
     Ts = {link.id: np.stack([frame[link.id] for frame in frames]) for link in articulated.links}
     carried = _carried(articulated, joint)
     others = {link: Ts_link for link, Ts_link in Ts.items() if link not in carried}
@@ -208,11 +228,15 @@ def _cut(conflict: _Conflict, config: ShapeClearanceConfig) -> tuple[ShapeBody, 
     for body, obstacle in ((moving, onto_moving), (still, onto_still)):
         rest = _cut_back(body.shape, obstacle, config)
         options += [(body, rest)] if rest is not None else []
-    return min(options, key=lambda option: _loss(*option))
+    guarded = None if conflict.still_moves else moving
+    return min(options, key=lambda option: _loss(option[0], option[1], config, option[0] is guarded))
 
 
-def _loss(body: ShapeBody, rest: CollisionShape | None) -> float:
-    return extent_of(body.shape) - (0.0 if rest is None else extent_of(rest))
+def _loss(body: ShapeBody, rest: CollisionShape | None, config: ShapeClearanceConfig, guarded: bool) -> float:
+    """Returns the surface that a body loses, square metres; counted several times where a guarded one loses much."""
+    whole = extent_of(body.shape)
+    loss = whole - (0.0 if rest is None else extent_of(rest))
+    return loss * (config.moving_counts if guarded and loss > config.moving_ratio * whole else 1.0)
 
 
 def _cut_back(shape: CollisionShape, obstacle: Points, config: ShapeClearanceConfig) -> CollisionShape | None:

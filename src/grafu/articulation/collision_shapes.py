@@ -23,6 +23,7 @@ from grafu.articulation.convex_pieces import (
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
 from grafu.geometry.box import Box, OrientedBox, yaw_of
 from grafu.geometry.components import clustered
+from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.geometry.transform import rotation_matrix
@@ -37,20 +38,37 @@ _DENSE = 500  # faces: fewer are not worth simplifying
 class CollisionShapeConfig:
     """How collision shapes are made; lengths in metres.
 
-    Every side of a shape moves in by `margin`, so that parts that touch at rest do not push one another. No shape is
-    thinner than `least_thickness`: thin hulls fall through in PhysX. A hull that fills its box to `box_ratio` becomes
-    that box. What is finer than `resolution` is left out of dense meshes. Gaps in handles are kept down to a depth of
-    `grip`, so that a finger fits. A link has at most `most_shapes`, a hull at most `most_corners` (PhysX allows 64).
+    Raises:
+        ValueError: if a number is not above 0.
     """
 
     margin: float = 0.0005
+    """Every side of a shape moves in by this, so that parts that touch at rest do not push one another."""
     least_thickness: float = 0.004
+    """No shape is thinner: thin hulls fall through in PhysX."""
     box_ratio: float = 0.85
+    """A hull that fills its box to this part becomes that box."""
     grip: float = 0.008
+    """Gaps in handles are kept down to this depth, so that a finger fits."""
     resolution: float = 0.001
-    most_shapes: int = 48
+    """What is finer is left out of dense meshes."""
+    within: float = 0.003
+    """A shape that sticks out of another by no more adds nothing; hardware as near as this is carried."""
+    on_floor: float = 0.005
+    """What reaches below this height stands on the floor."""
+    most_shapes: int = 64
+    """Most shapes of a link: simulators slow down with them."""
+    noticed: float = 0.05
+    """Shapes that are left out are reported where one has a diagonal longer than this: a hand or a foot."""
     most_corners: int = 48
+    """Most corners of a hull: PhysX allows 64."""
+    cuts_of_bars: int = 8
+    """Most cuts of a handle, a leg or a bar: frames come apart, turned ones are not sliced."""
     pieces: ConvexPieceConfig = DEFAULT_PIECE_CONFIG
+    """How finely a mesh is taken apart."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *(set(self.__dataclass_fields__) - {"pieces"}))
 
 
 DEFAULT_COLLISION_CONFIG = CollisionShapeConfig()
@@ -82,19 +100,45 @@ def collision_shapes(
     config: CollisionShapeConfig = DEFAULT_COLLISION_CONFIG,
     of_part: Callable[[Visual, CollisionShapeConfig], list[CollisionShape]] = shapes_of,
 ) -> tuple[CollisionShape, ...]:
-    """Returns the collision shapes of a link in the object frame at rest, the largest first.
+    """Returns the collision shapes of a link in the object frame at rest, the largest first (see `chosen_shapes`)."""
+    return chosen_shapes(link, config, of_part)[0]
 
-    `of_part` finds those of one part.
+
+def chosen_shapes(
+    link: Link,
+    config: CollisionShapeConfig = DEFAULT_COLLISION_CONFIG,
+    of_part: Callable[[Visual, CollisionShapeConfig], list[CollisionShape]] = shapes_of,
+) -> tuple[tuple[CollisionShape, ...], tuple[CollisionShape, ...]]:
+    """Returns the collision shapes of a link in the object frame at rest, and those left out because they are too many.
+
+    `of_part` finds those of one part. What stands on the floor or carries a joint is the last to be left out, then the
+    largest; both come with the largest first.
     """
     shapes = [shape for visual in link.visuals for shape in of_part(visual, config)]
     shapes.sort(key=lambda shape: -extent_of(shape))
-    kept: list[CollisionShape] = []
-    boxes: list[OrientedBox] = []
+    distinct: list[CollisionShape] = []
     for shape in shapes:
-        if len(kept) < config.most_shapes and not _within_any(shape, boxes):
-            kept.append(shape)
-            boxes += [shape] if isinstance(shape, OrientedBox) else []
-    return tuple(kept)
+        if not any(_lies_within(shape, other, config.within) for other in distinct):
+            distinct.append(shape)
+    if len(distinct) <= config.most_shapes:
+        return tuple(distinct), ()
+    held = np.array([_carries(shape, link, config) for shape in distinct])
+    first = {int(k) for k in np.argsort(~held, kind="stable")[: config.most_shapes]}
+    kept = tuple(shape for k, shape in enumerate(distinct) if k in first)
+    return kept, tuple(shape for k, shape in enumerate(distinct) if k not in first)
+
+
+def _carries(shape: CollisionShape, link: Link, config: CollisionShapeConfig) -> bool:
+    """Whether a shape stands on the floor, or touches a hinge or rail of its link."""
+    corners = corners_of(shape)
+    if corners[:, 2].min() <= config.on_floor:
+        return True
+    box = Box.around(corners)
+    mounts = [v.mesh.box for v in link.visuals if v.role is VisualRole.HARDWARE and len(v.mesh.faces)]
+    return any(
+        bool(np.all(box.low <= mount.high + config.within) and np.all(mount.low <= box.high + config.within))
+        for mount in mounts
+    )
 
 
 def corners_of(shape: CollisionShape) -> Points:
@@ -113,10 +157,12 @@ def _collides(visual: Visual) -> bool:
 
 
 def _fineness(label: PartLabel, config: CollisionShapeConfig) -> ConvexPieceConfig:
-    if label in (PartLabel.LEG, PartLabel.BAR):  # nothing reaches inside, and turned legs would fall into many slices
-        return replace(config.pieces, cuts=False)
-    tolerance = min(config.pieces.tolerance, config.grip) if label is PartLabel.HANDLE else config.pieces.tolerance
-    return replace(config.pieces, tolerance=tolerance)
+    if label in (PartLabel.LEG, PartLabel.BAR):
+        return replace(config.pieces, most_cuts=config.cuts_of_bars)
+    if label is PartLabel.HANDLE:
+        tolerance = min(config.pieces.tolerance, config.grip)
+        return replace(config.pieces, tolerance=tolerance, most_cuts=config.cuts_of_bars)
+    return config.pieces
 
 
 def _yaw_rotation(points: Points) -> Mat3:
@@ -158,13 +204,12 @@ def _volume(hull: ConvexSolid) -> float:
     return float(np.abs(np.linalg.det(triangles)).sum() / 6.0)
 
 
-def _within_any(shape: CollisionShape, boxes: list[OrientedBox]) -> bool:
-    """Whether a shape lies wholly inside one of the boxes."""
-    if not boxes:
-        return False
-    centers, half = np.stack([box.center for box in boxes]), np.stack([box.half for box in boxes])
-    local = (corners_of(shape) - centers[:, None]) @ np.stack([box.rotation for box in boxes])
-    return bool(np.all(np.abs(local) <= half[:, None] + 1e-9, axis=(1, 2)).any())
+def _lies_within(shape: CollisionShape, other: CollisionShape, tolerance: float) -> bool:
+    """Whether no corner of a shape lies outside another by more than `tolerance` (metres)."""
+    points = corners_of(shape)
+    if isinstance(other, OrientedBox):
+        return bool(np.all(np.abs((points - other.center) @ other.rotation) <= other.half + tolerance))
+    return bool(np.all(points @ other.planes[:, :3].T <= other.planes[:, 3] + tolerance))
 
 
 @final

@@ -28,7 +28,7 @@ from grafu.geometry.solids import ConvexSolid
 _DIRECTIONS = np.array([[-1.0, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
 _HULL_CORNERS = 32
 _GRID = 10  # points per side at most: pits narrower than a tenth of the part are filled
-_TRIES = 4  # walls of one pit that are tried for a clean cut
+_TRIES = 8  # walls of one pit, and cuts through it, that are tried for a clean cut
 
 
 @final
@@ -42,17 +42,17 @@ class ConvexPieceConfig:
 
     tolerance: float = 0.02
     """Pits less deep than this are filled (metres)."""
-    most: int = 16
-    """Most pieces of one mesh."""
-    cuts: bool = True
-    """Without them, connected parts stay whole."""
+    most_cuts: int = 40
+    """How often one mesh is cut at most; connected parts come apart without a cut."""
+    rim: float = 0.02
+    """A cut that takes off less than this part of the surface shaves a rim: others are tried first."""
     past_wall: float = 0.0005
     """How far behind the wall of a pit a cut lies: faces on it belong to the board that is cut off (metres)."""
     speck: float = 0.004
     """Pieces with a shorter diagonal carry no load and stop no hand (metres)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "tolerance", "most", "past_wall", "speck")
+        require_positive(self, "tolerance", "most_cuts", "rim", "past_wall", "speck")
 
 
 DEFAULT_PIECE_CONFIG = ConvexPieceConfig()
@@ -106,6 +106,11 @@ class _Piece:
         return points[int(np.argmax(depth))]
 
     @cached_property
+    def area(self) -> float:
+        """The area of all its faces."""
+        return self.mesh.area
+
+    @cached_property
     def caster(self) -> RayCaster:
         """Rays against the piece."""
         return RayCaster(self.mesh)
@@ -145,24 +150,22 @@ def _solid(mesh: TriangleMesh) -> Any:
 
 
 def _taken_apart(whole: _Piece) -> list[_Piece]:
-    waiting, done = [whole], list[_Piece]()
+    waiting, done, cuts = [whole], list[_Piece](), whole.config.most_cuts
     while waiting:
         require_time()
-        piece = waiting.pop(int(np.argmax([w.mesh.box.diagonal for w in waiting])))  # large ones first: room is scarce
-        parts = _apart_once(piece) if len(done) + len(waiting) + 1 < whole.config.most else []
+        piece = waiting.pop(int(np.argmax([w.area for w in waiting])))  # large ones first: cuts are scarce
+        if piece.pit is None:
+            done.append(piece)
+            continue
+        parts = piece.parts()
+        if len(parts) == 1 and cuts:
+            parts = _cut(parts[0], piece.pit)
+            cuts -= 1
         if len(parts) > 1:
             waiting += parts
         else:
             done.append(piece)
     return done
-
-
-def _apart_once(piece: _Piece) -> list[_Piece]:
-    """Returns the piece's connected parts or, of a single one, those on both sides of a cut; nothing without a pit."""
-    if piece.pit is None:
-        return []
-    parts = piece.parts()
-    return _cut(parts[0], piece.pit) if len(parts) == 1 and piece.config.cuts else parts
 
 
 def _is_box(mesh: TriangleMesh) -> bool:
@@ -202,23 +205,29 @@ def _depths(caster: RayCaster, points: Points, most: float) -> Scalars:
 
 
 def _cut(piece: _Piece, pit: Vec3) -> list[_Piece]:
-    """Returns both sides of a wall of the pit: at best one where what lies beyond it has no pit."""
-    fallback: list[_Piece] = []
+    """Returns both sides of a wall of the pit: at best one where what lies beyond it has no pit and is no mere rim.
+
+    Else the two are as even as they can be.
+    """
+    fallback, most = list[_Piece](), 0.0
     for axis, sign, position in islice(_walls(piece, pit), _TRIES):
         require_time()
         board, rest = piece.halves(axis, sign, position - sign * piece.config.past_wall)
         if not len(board.mesh.faces) or not len(rest.mesh.faces):
             continue
-        if board.pit is None:
+        if board.area >= piece.config.rim * piece.area and board.pit is None:
             return [board, rest]
-        fallback = fallback or [board, rest]
+        smaller = min(board.area, rest.area)
+        if smaller > most:
+            fallback, most = [board, rest], smaller
     return fallback
 
 
 def _walls(piece: _Piece, pit: Vec3) -> Iterator[tuple[int, float, float]]:
     """Yields axis, sense and position of each wall seen from the pit, the largest faces of the box first.
 
-    Where no wall is seen (a ring seen from its middle along a diagonal), cuts through the pit itself come last.
+    Cuts at the corners nearest to the pit along the long sides come last: where no wall is seen, as in the opening of a
+    sheet, they are its edges.
     """
     seen = _looks(piece.caster, pit[None])[0]
     size = piece.mesh.box.size
@@ -226,8 +235,10 @@ def _walls(piece: _Piece, pit: Vec3) -> Iterator[tuple[int, float, float]]:
     for k in order:
         if np.isfinite(seen[k]):
             yield k // 2, float(_DIRECTIONS[k, k // 2]), float(pit[k // 2] + _DIRECTIONS[k, k // 2] * seen[k])
-    for axis in np.argsort(-size)[:2]:
-        yield int(axis), 1.0, float(pit[axis])
+    for axis in map(int, np.argsort(-size)[:2]):
+        corners = np.unique(piece.mesh.vertices[piece.mesh.faces, axis])
+        yield from ((axis, 1.0, float(at)) for at in corners[corners > pit[axis]][:1])
+        yield from ((axis, -1.0, float(at)) for at in corners[corners < pit[axis]][-1:])
 
 
 def _thickened(points: np.ndarray, least: float) -> Points:

@@ -31,7 +31,7 @@ class CounterbalanceConfig:
     level: float = 0.2
     """An axis counts as level up to this upright component of its direction (cosine) ..."""
     pull: float = 12.0
-    """... friction alone holds what still opens when pulled with this force at its far edge (newtons)."""
+    """... friction alone holds what still opens and closes when pulled with this force at its far edge (newtons)."""
     margin: float = 1.2
     """Friction over the torque that it must hold (factor)."""
     height: float = 2.0
@@ -111,7 +111,9 @@ def held(
     needed = config.margin * float(np.abs(torque).max())
     if needed <= friction_alone:
         return as_it_is
-    if needed + max(0.0, -float(torque.min())) <= config.pull * reach:
+    if (
+        needed + float(np.abs(torque).max()) <= config.pull * reach
+    ):  # it can be lifted against both, to open or to close
         return Holding(needed)
     arm = joint.axis.distance_to(center)
     anchor = joint.axis.closest_point(center) + vec3(0.0, 0.0, config.height * arm)

@@ -1,73 +1,25 @@
-"""Mass, centre and inertia of links, from the volume of their parts and stated densities.
+"""Mass, centre and inertia of links, from the volume of their parts and how their materials are built.
 
-Volume is found for any mesh, also with modelling errors. Watertight surfaces count by what they enclose. Open ones, and
-sheets without thickness, count as shells: their area, doubled faces once, times a board's thickness. Nothing counts for
-more than the box around it.
+Volume is found for any mesh, also with modelling errors. Watertight surfaces count by what they enclose, filled no
+deeper than the walls of their material. Open ones, and sheets without thickness, count as shells: their area, doubled
+faces once, times a sheet's thickness. Nothing counts for more than the box around it.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
 from typing import final
 
 import numpy as np
 
-from grafu.articulation.articulated_object import Link, Visual, VisualRole
-from grafu.geometry.appearance import Material
+from grafu.articulation.articulated_object import Link
+from grafu.articulation.build_material import DEFAULT_MASS_CONFIG, MassConfig, builds_of
 from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.components import Patches, patches_of
-from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.transform import rotation_matrix
-from grafu.visible import ShortRepr
-from grafu.vocabulary import PartLabel
 
-_BY_WORD: Mapping[str, float] = MappingProxyType(
-    {"glass": 2500.0, "mirror": 2500.0, "brass": 8500.0, "alumin": 2700.0, "steel": 7800.0, "iron": 7800.0}
-    | {"chrome": 7800.0, "metal": 7800.0, "marble": 2700.0, "granite": 2700.0, "stone": 2600.0, "ceramic": 2400.0}
-    | {"plastic": 1100.0, "leather": 900.0, "fabric": 300.0, "rattan": 400.0, "wicker": 400.0}
-)
-
-
-@final
-@dataclass(frozen=True)
-class MassConfig(ShortRepr):
-    """Densities, and the least that counts as a body.
-
-    Raises:
-        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
-    """
-
-    default_density: float = 650.0
-    """Particle board and softwood plywood weigh 600 to 700 (kg/m3)."""
-    hardware_density: float = 7800.0
-    """Steel (kg/m3)."""
-    handle_density: float = 2700.0
-    """Handles are hollow zinc, aluminium or wood: aluminium's density lies between (kg/m3)."""
-    glass_density: float = 2500.0
-    """Of what can be seen through (kg/m3)."""
-    see_through: float = 0.7
-    """What is less opaque than this is glass (alpha)."""
-    density_by_word: Mapping[str, float] = field(default_factory=lambda: _BY_WORD)
-    """By a word in a material's name; the first that fits counts (kg/m3)."""
-    board_thickness: float = 0.015
-    """Of shells drawn without thickness: furniture boards come in 15 to 19 mm (metres)."""
-    flat: float = 0.001
-    """A box thinner than this was drawn as a sheet: its thickness is not meant (metres)."""
-    least_mass: float = 0.01
-    """What keeps solvers stable (kg) ..."""
-    least_size: float = 0.1
-    """... as a cube with this side, where a link has no volume (metres)."""
-    needle: float = 0.001
-    """A body is as wide as this at least, so that no solver meets one without inertia (metres)."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"density_by_word"}))
-        require_ratios(self, "see_through")
-
-
-DEFAULT_MASS_CONFIG = MassConfig()
 _TETRAHEDRON = (np.ones((4, 4)) + np.eye(4)) / 20.0  # second moments of a unit tetrahedron in its corners
 _TRIANGLE = (np.ones((3, 3)) + np.eye(3)) / 12.0
 
@@ -103,8 +55,13 @@ def moments_of(
     mesh: TriangleMesh,
     thickness: float = DEFAULT_MASS_CONFIG.board_thickness,
     flat: float = DEFAULT_MASS_CONFIG.flat,
+    wall: float = inf,
 ) -> Moments:
-    """Returns the moments of a mesh; `thickness` is that of open shells and of sheets, thinner than `flat` (metres)."""
+    """Returns the moments of a mesh.
+
+    `thickness` is that of open shells and of sheets, thinner than `flat`; `wall` is how deep below its surface a closed
+    part is filled (metres).
+    """
     patches = patches_of(mesh)
     if not len(patches.faces):
         return NO_MOMENTS
@@ -116,6 +73,10 @@ def moments_of(
     sheet = _shell_moments(triangles, patches, shell)
     # closed, but as thin as a sheet: front and back of one sheet, cut into triangles differently
     real = patches.closed & (solid[:, 0] > 0.5 * flat * 0.5 * sheet[:, 0] / shell)
+    filled = np.minimum(sheet[:, 0] / shell * wall, solid[:, 0])
+    solid = np.where(
+        (filled < solid[:, 0])[:, None], sheet * (filled / np.maximum(sheet[:, 0], 1e-300))[:, None], solid
+    )
     sheet[patches.closed] *= 0.5
     chosen = np.where(real[:, None], solid, sheet)
     chosen *= np.minimum(1.0, boxes / np.maximum(chosen[:, 0], 1e-300))[:, None]
@@ -129,15 +90,17 @@ def moments_of_box(
     mesh: TriangleMesh,
     thickness: float = DEFAULT_MASS_CONFIG.board_thickness,
     flat: float = DEFAULT_MASS_CONFIG.flat,
+    wall: float = inf,
 ) -> Moments:
     """Returns the moments of as much as the faces of a mesh are boards of `thickness`, all over the box around it.
 
-    It is what a mesh counts for where there is no time to look at its shape; at most the box's volume.
+    It is what a mesh counts for where there is no time to look at its shape; at most the box's volume, and what its
+    faces are if each is a `wall`.
     """
     if not len(mesh.faces):
         return NO_MOMENTS
     size, center = mesh.box.size, mesh.box.center
-    volume = min(mesh.area / 2.0 * thickness, float(_box_volumes(size[None], thickness, flat)[0]))
+    volume = min(mesh.area / 2.0 * thickness, mesh.area * wall, float(_box_volumes(size[None], thickness, flat)[0]))
     second = np.diag(size**2 / 12.0) + np.outer(center, center)
     return Moments(volume, volume * center, volume * second)
 
@@ -217,44 +180,23 @@ class MassProperties(ArrayValue):
 def mass_of_link(
     link: Link,
     config: MassConfig = DEFAULT_MASS_CONFIG,
-    measured: Callable[[TriangleMesh, float, float], Moments] = moments_of,
+    measured: Callable[[TriangleMesh, float, float, float], Moments] = moments_of,
 ) -> MassProperties:
     """Returns the mass properties of a link in the object frame at rest.
 
-    `measured` finds the moments of a mesh, given the thickness of boards and that of sheets.
+    `measured` finds the moments of a mesh, given the thickness of shells, what counts as flat, and that of walls.
     A link without any volume is a small cube of the least mass in its middle (without faces: at the origin).
     """
     total = NO_MOMENTS
     for visual in link.visuals:
-        total = total.plus(
-            measured(visual.mesh, config.board_thickness, config.flat).scaled(density_of(visual, config))
-        )
+        for build, ratio in builds_of(visual, config).items():  # as if each went evenly over the whole part
+            made = measured(visual.mesh, build.sheet, config.flat, build.wall)
+            total = total.plus(made.scaled(ratio * build.density))
     if total.volume <= 0:
         center = link.mesh.box.center if len(link.mesh.faces) else np.zeros(3)
         return MassProperties(config.least_mass, center, np.eye(3) * config.least_mass * config.least_size**2 / 6.0)
     extent = link.mesh.box.diagonal
     return _mass_properties(total.scaled(max(1.0, config.least_mass / total.volume)), extent, config.needle)
-
-
-def density_of(visual: Visual, config: MassConfig = DEFAULT_MASS_CONFIG) -> float:
-    """Returns the density of a visual in kg/m3: that of its materials, weighted by area."""
-    areas = np.array([surface.mesh.area for surface in visual.surfaces])
-    if areas.sum() <= 0:
-        return config.default_density
-    densities = [_density(surface.material, visual, config) for surface in visual.surfaces]
-    return float(areas @ densities / areas.sum())
-
-
-def _density(material: Material, visual: Visual, config: MassConfig) -> float:
-    if visual.role is VisualRole.HARDWARE:
-        return config.default_density if visual.name.startswith("support_") else config.hardware_density
-    name = material.name.lower()
-    for word, density in config.density_by_word.items():
-        if word in name:
-            return density
-    if material.alpha_mode == "BLEND" and material.base_color[3] < config.see_through:
-        return config.glass_density
-    return config.handle_density if visual.label is PartLabel.HANDLE else config.default_density
 
 
 def _mass_properties(moments: Moments, extent: float, needle: float) -> MassProperties:

@@ -74,8 +74,12 @@ def values_before(articulated: ArticulatedObject, joint_id: str) -> JointValues:
     return with_coupled(articulated, values)
 
 
-def rest_to_full(articulated: ArticulatedObject, joint_id: str, count: int = 50) -> list[JointValues]:
-    """Returns `count` frames of all joint values in which one moving joint goes from rest to full, evenly spaced.
+def rest_to_full(
+    articulated: ArticulatedObject, joint_id: str, count: int = 50, crowding: float = 1.0
+) -> list[JointValues]:
+    """Returns `count` frames of all joint values in which one moving joint goes from rest to full.
+
+    They are evenly spaced, or closer to one another near rest where `crowding` is above 1 (see `ratios_of_range`).
 
     Joints that it waits for (`after`) are fully open throughout; all others rest. What is coupled moves together: where
     the joint follows another, that one goes from rest to full. The default is the paper's number of poses.
@@ -83,8 +87,13 @@ def rest_to_full(articulated: ArticulatedObject, joint_id: str, count: int = 50)
     leader = articulated.leader_of(_moving_joint(articulated, joint_id))
     before = values_before(articulated, joint_id)
     start = {joint.id: before[joint.id] for joint in articulated.free_joints}
-    steps = np.linspace(leader.limits.lower, leader.limits.upper, count)
+    steps = leader.limits.lower + leader.limits.range * ratios_of_range(count, crowding)
     return [with_coupled(articulated, {**start, leader.id: float(value)}) for value in steps]
+
+
+def ratios_of_range(count: int, crowding: float = 1.0) -> Scalars:
+    """Returns `count` ratios (0 to 1) of the range, from rest to full: even steps to the power of `crowding`."""
+    return np.linspace(0.0, 1.0, count) ** crowding
 
 
 def all_open(articulated: ArticulatedObject) -> JointValues:

@@ -140,14 +140,13 @@ class _MjcfWriter:
             return
         self._moving.append(joint)
         dynamics = self._physics.dynamics[joint.id]
-        inertia = dynamics.damping * self._config.physics.dynamics.settling
         attributes = {
             "name": self._joints[joint.id],
             "type": joint.kind.word("mjcf"),
             "axis": numbers(joint.axis.direction),
             "damping": number(dynamics.damping),
             "frictionloss": number(dynamics.friction_with_spring),
-            "armature": number(self._config.armature * inertia),
+            "armature": number(self._config.armature * dynamics.inertia),
             "actuatorfrcrange": numbers([-dynamics.effort, dynamics.effort]),
         }
         limits = {"range": numbers([joint.limits.lower, joint.limits.upper])} if joint.kind.limited else {}

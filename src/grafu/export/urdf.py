@@ -10,8 +10,9 @@ from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
 from grafu.articulation.collision_shapes import CollisionShape
+from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
-from grafu.articulation.physics import JointDynamics, PhysicsConfig, physics_of
+from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.export.files import ExportFiles
 from grafu.export.names import number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set

@@ -270,7 +270,8 @@ class Report(ReportRecord):
     added: tuple[AddedRecord, ...] = Field(description="parts that were added")
     skipped: tuple[SkippedRecord, ...] = Field(description="what was asked for and not built")
     notes: tuple[str, ...] = Field(
-        default=(), description="what was simplified or left out because the budget was too small"
+        default=(),
+        description="what was simplified or left out: the budget was too small, or collision shapes are too many",
     )
     guesses: tuple[GuessRecord, ...] = Field(default=(), description="decisions that motions rest on")
     moves: dict[str, tuple[str, ...]] = Field(

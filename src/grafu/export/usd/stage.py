@@ -11,9 +11,10 @@ import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics
 
 from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint, Link, Visual
+from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.motion_kind import MotionKind
-from grafu.articulation.physics import JointDynamics, physics_of
+from grafu.articulation.physics import physics_of
 from grafu.export.usd.config import UsdConfig
 from grafu.export.usd.surfaces import Siblings, UsdMaterialWriter, add_collision, add_surface, identifier, quaternion
 from grafu.geometry.arrays import Mat3, Vec3
@@ -172,12 +173,11 @@ class _StageBuilder:
         if not self._config.physx:
             return
         prim.AddAppliedSchema(f"PhysxJointAxisAPI:{instance}")
-        inertia = dynamics.damping * self._config.physics.dynamics.settling
         values = {
             "staticFrictionEffort": friction,
             "dynamicFrictionEffort": friction,
             "maxJointVelocity": kind.in_degrees(dynamics.velocity),
-            "armature": self._config.armature * inertia,
+            "armature": self._config.armature * dynamics.inertia,
         }
         for name, value in values.items():
             prim.CreateAttribute(f"physxJointAxis:{instance}:{name}", Sdf.ValueTypeNames.Float, False).Set(value)
