@@ -1,11 +1,11 @@
-"""Tells made furniture from real: how well a classifier does it, and by what (a two-sample test).
+"""Tells synthetic furniture from real: how well a classifier does it, and by what (a two-sample test).
 
     python scripts/two_sample.py MODELS... [--weights FILE] [--count 240] [--seed 990002]
 
 MODELS are folders of real models, as `grafu evaluate --data` takes them. Each model, labels hidden, is what the
 network's encoder makes of it (mean and maximum over its parts); a logistic regression on the first principal components
-tells made ones from real ones, in five parts that it was not fitted on. AUC 0.5: they look alike to the network; 1:
-they are always told apart. The same is done by simple measures of graphs, of which those that tell most are printed.
+tells synthetic ones from real ones, in five parts that it was not fitted on. AUC 0.5: they look alike to the network;
+1: they are always told apart. The same is done by simple measures of graphs, of which those that tell most are printed.
 Needs torch.
 """
 
@@ -48,7 +48,7 @@ def main() -> int:
     parser.add_argument(
         "--weights", type=Path, default=SHIPPED_WEIGHTS, help="whose features (default: those that ship)"
     )
-    parser.add_argument("--count", type=int, default=240, help="made models (default: 240)")
+    parser.add_argument("--count", type=int, default=240, help="synthetic models (default: 240)")
     parser.add_argument("--seed", type=int, default=TEST_SEED)
     options = parser.parse_args()
     session = open_network(options.weights)
@@ -58,7 +58,7 @@ def main() -> int:
     made = [hidden(make_specimen(options.seed, k, session.features.points).given) for k in range(options.count)]
     is_real = np.arange(len(real) + len(made)) < len(real)
     seen = [encoded(graph_features(graph, session.features), network) for graph in (*real, *made)]
-    print(f"{len(real)} real models, {len(made)} made with seed {options.seed}")
+    print(f"{len(real)} real models, {len(made)} synthetic with seed {options.seed}")
     print(f"by the network's features: AUC {cross_validated(np.array(seen), is_real):.3f}")
     plain = np.array([[measure(graph) for measure in MEASURES.values()] for graph in (*real, *made)])
     print(f"by {len(MEASURES)} simple measures: AUC {cross_validated(plain, is_real):.3f}; the most telling:")
@@ -113,11 +113,11 @@ def cross_validated(table: Table, is_real: Bool[np.ndarray, " models"]) -> float
 def regression(table: Table, is_real: Bool[np.ndarray, " models"]) -> Float[np.ndarray, " numbers"]:
     """Returns the weights of a logistic regression with a penalty on large ones; both kinds count alike."""
     weights = np.zeros(table.shape[1])
-    share = np.where(is_real, 0.5 / is_real.mean(), 0.5 / (~is_real).mean())
+    weight = np.where(is_real, 0.5 / is_real.mean(), 0.5 / (~is_real).mean())
     for _ in range(STEPS):
         odds = 1.0 / (1.0 + np.exp(-np.clip(table @ weights, -30, 30)))
-        slope = table.T @ (share * (odds - is_real)) + RIDGE * weights
-        bend = (table * (share * odds * (1 - odds))[:, None]).T @ table + RIDGE * np.eye(len(weights))
+        slope = table.T @ (weight * (odds - is_real)) + RIDGE * weights
+        bend = (table * (weight * odds * (1 - odds))[:, None]).T @ table + RIDGE * np.eye(len(weights))
         weights -= np.linalg.solve(bend, slope)
     return weights
 

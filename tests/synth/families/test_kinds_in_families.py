@@ -28,7 +28,7 @@ KINDS = {
     "slim pull-out": ("base cabinet", "PullOut(load='trays'", Slide, PartLabel.DOOR),
     "pantry": ("tall cabinet", "PullOut(", Slide, PartLabel.DOOR),
     "bins on a front": ("base cabinet", "PullOut(load='bins'", Slide, PartLabel.DOOR),
-    "bins behind a door": ("base cabinet", "Bins(", Slide, PartLabel.MISC),
+    "bins behind a door": ("base cabinet", "WasteBins(", Slide, PartLabel.MISC),
     "fold-up flap": ("wall cabinet", "Folding(side='top'", Hinge, PartLabel.DOOR),
     "folding corner": ("corner cabinet", "FoldingCorner(", Hinge, PartLabel.DOOR),
     "keyboard tray": ("writing desk", "box='tray'", Rail, PartLabel.DRAWER),

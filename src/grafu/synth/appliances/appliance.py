@@ -112,7 +112,7 @@ def _within(spec: Appliance, body: Span, leaf: Span) -> Iterator[PieceDraft]:
         x1 = leaf[1][0] - wall
         center, radius = ((x0 + x1) / 2, (y0 + y1) / 2, z0), 0.42 * min(x1 - x0, y1 - y0)
         up = Axis(vec3(*center), vec3(0.0, 0.0, 1.0))
-        yield replace(disc(spec.finish.glass, "turntable", center, radius, 0.008), motion=_turn(up))
+        yield replace(disc(spec.finish.glass, "turntable", center, radius, 0.008), motion=turn_of(up))
     for k in range(spec.racks):
         low, is_basket = z0 + (k + 0.3) * (z1 - z0) / spec.racks, spec.kind == "dishwasher"
         high = low + (0.1 if is_basket else 0.006)
@@ -133,12 +133,13 @@ def _on_panel(spec: Appliance, panel: Span) -> Iterator[PieceDraft]:
         x, z = (x0 + ratio * (x1 - x0), (z0 + z1) / 2) if wide else ((x0 + x1) / 2, z0 + ratio * (z1 - z0))
         inwards = Axis(vec3(x, y0, z), vec3(0.0, 1.0, 0.0))
         if k < spec.knobs:
-            yield replace(dial(metal, x, y0, z, radius, 0.02), motion=_turn(Axis(inwards.point, -inwards.direction)))
+            yield replace(dial(metal, x, y0, z, radius, 0.02), motion=turn_of(Axis(inwards.point, -inwards.direction)))
         else:
             pressed = PieceMotion(Slide.joint_type, inwards, _PRESS, small=True)
             square = ((x - radius, y0 - 0.01, z - radius), (x + radius, y0, z + radius))
             yield replace(plank(PartLabel.MISC, "button", metal, square), motion=pressed)
 
 
-def _turn(axis: Axis) -> PieceMotion:
+def turn_of(axis: Axis) -> PieceMotion:
+    """Returns the motion of a knob or a turntable: about an axis, without end."""
     return PieceMotion(JointType.CONTINUOUS, axis, 2 * pi, small=True)

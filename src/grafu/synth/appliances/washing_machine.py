@@ -13,11 +13,12 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.graph.edges import Hinge, Rail
+from grafu.synth.appliances.appliance import turn_of
 from grafu.synth.appliances.body import dial, hollow
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, assemble, plank, solid
 from grafu.synth.pieces.finish import PLAIN, Finish, surface_of
 from grafu.synth.sampling.chance import between, chance
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 Outline = Float[np.ndarray, "n 2"]  # in X and Z, metres
 _SIDES = 32  # of what is round
@@ -110,7 +111,7 @@ def _panel(spec: WashingMachine) -> Iterator[PieceDraft]:
         yield _powder_drawer(spec, left)
     radius, level = 0.28 * spec.panel, low + spec.panel / 2
     out = Axis(vec3((left + x) / 2, front, level), vec3(0.0, -1.0, 0.0))
-    turn = PieceMotion(JointType.CONTINUOUS, out, 2 * pi, small=True)
+    turn = turn_of(out)
     yield replace(dial(spec.finish.metal, float(out.point[0]), front, level, radius, 0.025), motion=turn)
     for k in range(spec.buttons):
         at, half = x - 0.04 - 0.03 * k, 0.008
@@ -152,10 +153,10 @@ def _plate(span: Span, middle: float, radius: float) -> TriangleMesh:
     corner = float(np.arctan2(half[1], half[0]))
     corners = np.array([corner, pi - corner, pi + corner, 2 * pi - corner])
     angles = np.unique(np.concatenate([np.linspace(0.0, 2 * pi, _SIDES, endpoint=False), corners]))
-    ways = np.column_stack([np.cos(angles), np.sin(angles)])
-    reach = np.min(half / np.maximum(np.abs(ways), 1e-12), axis=1)
+    directions = np.column_stack([np.cos(angles), np.sin(angles)])
+    reach = np.min(half / np.maximum(np.abs(directions), 1e-12), axis=1)
     center = np.array([(x0 + x1) / 2, middle])
-    return _ring(center + ways * reach[:, None], center + radius * ways, y0, y1)
+    return _ring(center + directions * reach[:, None], center + radius * directions, y0, y1)
 
 
 def _circle(radius: float, z: float) -> Outline:

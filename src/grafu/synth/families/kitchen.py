@@ -16,7 +16,7 @@ from grafu.synth.cabinets.folding import FoldingCorner
 from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.fronts.gliding import Bins, Folding, PullOut
+from grafu.synth.fronts.gliding import Folding, PullOut, WasteBins
 from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack
 from grafu.synth.sampling.carpentry import FREE, PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
@@ -106,7 +106,7 @@ def _waste(rng: np.random.Generator, style: MakerStyle, width: float) -> Layout:
         drawn: Layout = PullOut("bins", count(rng, 1, 3))
         return drawn if chance(rng, 0.6) else Stack((drawn, Drawer()), (between(rng, (3.0, 5.0)), 1.0), style.between)
     room = between(rng, (0.45, 0.9)), between(rng, (0.6, 0.95))
-    bins = Bins(1 if width < 0.45 else count(rng, 1, 2), *room, chance(rng, 0.5), between(rng, (0.55, 0.75)))
+    bins = WasteBins(1 if width < 0.45 else count(rng, 1, 2), *room, chance(rng, 0.5), between(rng, (0.55, 0.75)))
     return Door(behind=bins) if width < 0.6 else Pair(behind=bins)
 
 

@@ -11,7 +11,7 @@ from math import pi
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.synth.fronts.drawer_box import drawer_box, tray_level, tray_meshes
-from grafu.synth.fronts.gliding import Bins, Folding, PullOut, Sliding
+from grafu.synth.fronts.gliding import Folding, PullOut, Sliding, WasteBins
 from grafu.synth.fronts.gliding_front import folding_pieces, sliding_pieces
 from grafu.synth.fronts.handles import gripped_side, handle_pieces, held_along, opposite
 from grafu.synth.fronts.interior import RUNNER, interior_pieces, runner_pieces
@@ -168,7 +168,7 @@ _MAKERS: dict[type, Callable[[Cell, Setting], Iterator[PieceDraft]]] = {
     Sliding: sliding_pieces,
     Folding: folding_pieces,
     PullOut: pull_out_pieces,
-    Bins: bin_pieces,
+    WasteBins: bin_pieces,
 }
 
 
@@ -223,7 +223,7 @@ def _muntin(rect: Rect, setting: Setting) -> PieceDraft:
 
 def _behind(layout: Layout, cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     """Yields inset fronts inside an opening, between two fillers that keep them clear of the door; or bins, without."""
-    if isinstance(layout, Bins):
+    if isinstance(layout, WasteBins):
         yield from bin_pieces(replace(cell, leaf=layout), setting)
         return
     o, plane = cell.opening, setting.inner + BEHIND_ROOM

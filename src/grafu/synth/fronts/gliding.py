@@ -96,7 +96,7 @@ class PullOut:
 
 @final
 @dataclass(frozen=True, slots=True)
-class Bins:
+class WasteBins:
     """Bins beside each other that slide out of an opening: `tall` and `deep` over its room, on `runners` or not.
 
     Raises:
@@ -111,4 +111,4 @@ class Bins:
 
     def __post_init__(self) -> None:
         if self.number < 1 or not all(0 < ratio < 1 for ratio in (self.tall, self.deep, self.travel)):
-            raise ValueError(f"`Bins` needs bins and fractions between 0 and 1: got {self}")
+            raise ValueError(f"`WasteBins` needs bins and fractions between 0 and 1: got {self}")

@@ -7,6 +7,7 @@ from typing import Literal
 
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.axis import Axis
+from grafu.graph.edges import Hinge, Slide
 from grafu.synth.fronts.gliding import Folding, Sliding
 from grafu.synth.fronts.handles import gripped_side, handle_pieces, held_along, opposite
 from grafu.synth.fronts.interior import interior_pieces
@@ -15,7 +16,7 @@ from grafu.synth.fronts.leaf_relief import LeafShape
 from grafu.synth.fronts.leaves import leaf_surfaces
 from grafu.synth.fronts.setting import Setting, front_rect
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, plank
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 PANE = 0.006  # metres: how thick a pane without a frame is
 BEHIND = 0.01  # metres from the last leaf to what is behind it
@@ -98,7 +99,7 @@ def _with_slide(draft: PieceDraft, rect: Rect, sense: int, travel: float) -> Pie
     x, z = rect.center
     y = float(draft.surfaces[0].mesh.box.center[1])
     return replace(
-        draft, motion=PieceMotion(JointType.PRISMATIC, Axis(vec3(x, y, z), vec3(float(sense), 0.0, 0.0)), travel)
+        draft, motion=PieceMotion(Slide.joint_type, Axis(vec3(x, y, z), vec3(float(sense), 0.0, 0.0)), travel)
     )
 
 
@@ -157,9 +158,9 @@ def folding_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     inner_shape, plain = _shape(front, inner, y, t, towards), replace(front, grip="none")
     handle = handle_pieces(front.handle, front.hold, inner_shape, towards, setting.finish.metal)
     turn = {"left": vec3(0.0, 0.0, -1.0), "right": vec3(0.0, 0.0, 1.0), "top": vec3(-1.0, 0.0, 0.0)}[front.side]
-    on_case = PieceMotion(JointType.REVOLUTE, Axis(_edge(front.side, outer, y), turn), front.opening)
+    on_case = PieceMotion(Hinge.joint_type, Axis(_edge(front.side, outer, y), turn), front.opening)
     behind = Axis(_edge(front.side, inner, y + t), -turn)
-    follows = PieceMotion(JointType.REVOLUTE, behind, 2 * front.opening, follows=2.0)
+    follows = PieceMotion(Hinge.joint_type, behind, 2 * front.opening, follows=2.0)
     leaf = PieceDraft(PartLabel.DOOR, "door", leaf_surfaces(inner_shape, setting.finish), follows, handle)
     outer_shape = _shape(plain, outer, y, t, front.side)
     surfaces = leaf_surfaces(outer_shape, setting.finish)

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.synth.fronts.gliding import Bins, PullOut
+from grafu.graph.edges import Slide
+from grafu.synth.fronts.gliding import PullOut, WasteBins
 from grafu.synth.fronts.handles import gripped_side, handle_pieces, held_along
 from grafu.synth.fronts.interior import RUNNER
 from grafu.synth.fronts.layout import Cell, Rect
@@ -12,7 +13,7 @@ from grafu.synth.fronts.leaf_relief import LeafShape
 from grafu.synth.fronts.leaves import leaf_surfaces
 from grafu.synth.fronts.setting import Setting, front_rect
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, plank
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 WIRE = 0.006  # metres: how thick what a rack is made of is
 RIM = 0.05  # metres: how high a tray's sides are
@@ -43,7 +44,7 @@ def pull_out_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     ends = setting.behind, setting.behind + 0.95 * depth
     load = _rack(front, inner, ends, setting) if front.load == "trays" else _bins_behind(front, inner, ends, setting)
     x, z = rect.center
-    out = PieceMotion(JointType.PRISMATIC, Axis(vec3(x, setting.front, z), vec3(0.0, -1.0, 0.0)), front.travel * depth)
+    out = PieceMotion(Slide.joint_type, Axis(vec3(x, setting.front, z), vec3(0.0, -1.0, 0.0)), front.travel * depth)
     surfaces = leaf_surfaces(shape, setting.finish)
     yield PieceDraft(PartLabel.DOOR, "door", surfaces, out, (*handle, *load))
     if front.runner:
@@ -99,7 +100,7 @@ def bin_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
         ValueError: if they have no room.
     """
     bins, o, beside = cell.leaf, cell.opening, BESIDE[setting.mount]
-    assert isinstance(bins, Bins)
+    assert isinstance(bins, WasteBins)
     near = setting.inner + AHEAD
     far, low = near + bins.deep * (setting.back - near), o.z0 + PLAY
     x0, x1 = o.x0 + beside, o.x1 - beside
@@ -110,7 +111,7 @@ def bin_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
         at = x0 + k * pitch
         boards = _bin((at + PLAY, near, low), (at + pitch - PLAY, far, high))
         axis = Axis(vec3(at + pitch / 2, near, low), vec3(0.0, -1.0, 0.0))
-        motion = PieceMotion(JointType.PRISMATIC, axis, bins.travel * (far - near))
+        motion = PieceMotion(Slide.joint_type, axis, bins.travel * (far - near))
         piece = plank(PartLabel.MISC, "bin", setting.finish.metal, *boards)
         yield PieceDraft(piece.label, piece.stem, piece.surfaces, motion)
     if bins.runners:

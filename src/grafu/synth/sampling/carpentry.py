@@ -12,7 +12,7 @@ from typing import Literal, final
 
 import numpy as np
 
-from grafu.synth.fronts.gliding import Bins, Folding, PullOut, Sliding
+from grafu.synth.fronts.gliding import Folding, PullOut, Sliding, WasteBins
 from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack, Tilt
 from grafu.synth.sampling.chance import between, chance, pick
 from grafu.synth.sampling.fit_gliding import fit_folding, fit_pull_out, fit_sliding
@@ -161,7 +161,7 @@ def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: CellPlace) -> Layou
             return fit_folding(rng, layout, room, style)
         case PullOut():
             return fit_pull_out(rng, layout, room, style)
-        case Bins():
+        case WasteBins():
             return layout
         case Blank():
             return fit_blank(layout, room, style)

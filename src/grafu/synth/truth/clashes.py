@@ -21,7 +21,7 @@ from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box_stack import overlapping, penetrations
 from grafu.synth.pieces.riding import bodies_of, carriers_of, led_by, poses_at
-from grafu.synth.truth.swept_pieces import DEPTH, Pieces, SweptPath, near_path
+from grafu.synth.truth.swept_pieces import DEPTH, SweptPath, SweptPieces, near_path
 
 
 def clashes_of(asset: Asset) -> "Clashes":
@@ -41,7 +41,7 @@ class Clashes:
         self._joints = {joint.part: joint for joint in asset.joints}
         self._carriers = carriers_of(asset)
         self._followers = {part: led_by(asset.joints, part) for part in self._joints}
-        self._pieces = Pieces(asset)
+        self._pieces = SweptPieces(asset)
         self._swept: dict[tuple[str, frozenset[str]], frozenset[str]] = {}
 
     def hits(self, part: str, opened: Collection[str] = ()) -> frozenset[str]:

@@ -29,7 +29,7 @@ def near_path(boxes: BoxStack, rows: np.ndarray, path: "SweptPath") -> np.ndarra
 
 
 @final
-class Pieces:
+class SweptPieces:
     """All surfaces of an asset: the box of each, whether it is that box, the part it belongs to; not a value."""
 
     def __init__(self, asset: Asset) -> None:
