@@ -10,6 +10,8 @@ import numpy as np
 from grafu.completion.features import GraphFeatures, Scores, graph_features
 from grafu.geometry.box import Box
 from grafu.graph.arrays import EDGE_CODES, KIND_CODES, LABELS, NULL
+from grafu.graph.edges import Contact, ends_of
+from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import EdgeKind, PartLabel
 
@@ -121,3 +123,9 @@ class _Blank:
 def silent(graph: FunctionalGraph) -> Scores:
     """Returns the scores of a network that states nothing at all about a graph."""
     return Answers().about(graph)(graph_features(graph))
+
+
+def of_doors_and_drawers(truth: FunctionalGraph) -> FunctionalGraph:
+    """The truth as a completion may state it: what knobs and turntables do, shape decides (`grafu.joints`)."""
+    others = (e for e in truth.motions if not truth.node(e.child).label.is_movable)
+    return with_edges(truth, [Contact(*ends_of(edge)) for edge in others])

@@ -8,12 +8,12 @@ from grafu.completion.features import FeatureConfig, GraphFeatures, Scores
 from grafu.completion.network import complete_by_network
 from grafu.completion.session import GraphNetwork
 from grafu.graph.arrays import EDGE_CODES, graph_arrays
-from grafu.graph.edges import Contact, ends_of
-from grafu.graph.edit import relabelled, with_edges
+from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.metrics.graph_accuracy import Ratio, graph_accuracy, total_accuracy
 from grafu.synth.generate import make_specimen
 from grafu.vocabulary import PartLabel
+from network_answers import of_doors_and_drawers
 
 FEW = FeatureConfig(points=16, anchors=2, neighbours=2)
 FREE, SURE = 4, np.float32(6.0)
@@ -53,12 +53,6 @@ def oracle(truth: FunctionalGraph) -> GraphNetwork:
         )
 
     return answer
-
-
-def of_doors_and_drawers(truth: FunctionalGraph) -> FunctionalGraph:
-    """The truth as a completion may state it: what knobs and turntables do, shape decides (`grafu.joints`)."""
-    others = (e for e in truth.motions if not truth.node(e.child).label.is_movable)
-    return with_edges(truth, [Contact(*ends_of(edge)) for edge in others])
 
 
 @pytest.mark.parametrize("masked", [False, True])
