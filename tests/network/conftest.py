@@ -11,9 +11,9 @@ def _alone(one_thread: None) -> None: ...
 def files() -> dict[bool, bytes]:
     """ONNX files of `tiny_network()` by whether their weights have 16 bits: tracing it takes seconds."""
     import torch
-    from random_graphs import ANCHORS, NEIGHBOURS, POINTS, tiny_network
 
     from grafu.network.export import onnx_bytes, with_half_weights
+    from random_graphs import ANCHORS, NEIGHBOURS, POINTS, tiny_network
 
     network = tiny_network().train()  # the file is of the network at work, whatever it does now
     before = torch.get_rng_state()

@@ -2,10 +2,10 @@
 
 import pytest
 import torch
-from random_graphs import arrays
 
 from grafu.network.config import PointsFrame
 from grafu.network.encoder import PointEncoder, corners, face_scale, margins
+from random_graphs import arrays
 
 # A wall at the left, a plate 10 mm below the top, and padding that is farther out than both
 BOXES = torch.tensor(

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 import torch
-from random_graphs import TINY, arrays, differences, graph, tiny_network
 
 from grafu.network.batch import Predictions, one_graph
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
 from joined_batches import join_batches
+from random_graphs import TINY, arrays, differences, graph, tiny_network
 
 OPTIONS = [
     TINY,

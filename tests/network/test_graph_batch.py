@@ -2,10 +2,10 @@
 
 import pytest
 import torch
-from random_graphs import differences, graph, tiny_network
 
 from grafu.network.batch import GraphBatch
 from joined_batches import join_batches
+from random_graphs import differences, graph, tiny_network
 
 
 def test_joined_graphs_keep_their_points() -> None:

@@ -7,12 +7,12 @@ import numpy as np
 import onnx
 import pytest
 import torch
-from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, arrays, tiny_network
 
 from grafu.completion.session import onnx_runtime
 from grafu.network.batch import one_graph
 from grafu.network.config import GraFuConfig
 from grafu.network.export import OUTPUTS, PAIR_OUTPUTS
+from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, arrays, tiny_network
 
 pytestmark = pytest.mark.slow  # for the export in `files`, once per process
 

@@ -7,7 +7,6 @@ import numpy as np
 import onnx
 import pytest
 import torch
-from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, tiny_network
 
 from grafu.completion.features import FeatureConfig, graph_features
 from grafu.completion.network import complete_by_network
@@ -17,6 +16,7 @@ from grafu.errors import WeightsError
 from grafu.graph.edit import as_contacts
 from grafu.network.batch import one_graph
 from grafu.network.grafu import GraFu
+from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, tiny_network
 from small_graphs import cabinet
 
 pytestmark = pytest.mark.slow  # for the export in `files`, as in test_onnx

@@ -5,13 +5,13 @@ from dataclasses import replace
 import onnx
 import pytest
 import torch
-from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, graph, tiny_network
 
 from grafu.errors import WeightsError
 from grafu.graph.arrays import NULL, SLIDE
 from grafu.network.export import onnx_bytes, with_half_weights
 from grafu.network.grafu import GraFu
 from grafu.network.stored import start_from, stored_weights
+from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, graph, tiny_network
 
 
 def learnt() -> GraFu:
