@@ -59,20 +59,20 @@ _FEW = "--config tiny --steps 2 --jobs 2"
 MEASURES = (
     Measure(
         "synthetic",
-        "python scripts/judge_network.py --count 150 --jobs {jobs}",
+        "python scripts/judge_network.py --count 600 --jobs {jobs}",
         "python scripts/judge_network.py --count 4 --jobs {jobs}",
         "the network on synthetic furniture that was not used in training",
         ("network.md",),
-        13,
+        25,
         weights=True,
     ),
     Measure(
         "synthetic by rules",
-        "python scripts/judge_network.py --rule --count 150 --jobs {jobs}",
+        "python scripts/judge_network.py --rule --count 600 --jobs {jobs}",
         "python scripts/judge_network.py --rule --count 4 --jobs {jobs}",
         "the rules on the same furniture",
         ("network.md",),
-        3,
+        5,
     ),
     Measure(
         "motions",
