@@ -8,7 +8,7 @@ import torch
 from perfect_answers import perfect, place, targets_of, truth_of
 
 from grafu.graph.arrays import NULL
-from grafu.training.criterion import choice_loss, edge_loss, hinge_target_loss, pair_losses, parent_loss
+from grafu.training.criterion import Choices, choice_loss, edge_loss, hinge_targets, pair_losses, parents
 from grafu.training.loss_config import LossConfig
 from grafu.training.targets import stack_targets
 from small_graphs import cabinet
@@ -47,19 +47,19 @@ def test_pairs_with_itself_or_with_a_slot_that_is_no_node_do_not_count() -> None
 
 def test_handles_choose_among_doors_and_drawers_and_abstaining() -> None:
     zeros = torch.zeros_like(ANSWERS.parent)
-    assert parent_loss(zeros, torch.zeros(()), TRUTH).item() == pytest.approx(log(4 + 1))
-    assert parent_loss(zeros, torch.tensor(log(3.0)), TRUTH).item() == pytest.approx(log(4 + 3))
+    assert choice_loss(zeros, torch.zeros(()), parents(TRUTH)).item() == pytest.approx(log(4 + 1))
+    assert choice_loss(zeros, torch.tensor(log(3.0)), parents(TRUTH)).item() == pytest.approx(log(4 + 3))
 
 
 def test_doors_choose_among_static_parts_and_abstaining() -> None:
     zeros = torch.zeros_like(ANSWERS.hinge_target)
-    assert hinge_target_loss(zeros, torch.zeros(()), TRUTH, nested=False).item() == pytest.approx(log(10 + 1))
+    assert choice_loss(zeros, torch.zeros(()), hinge_targets(TRUTH, nested=False)).item() == pytest.approx(log(10 + 1))
 
 
 def test_only_the_rows_of_those_who_choose_count() -> None:
     scores = ANSWERS.parent.clone()
     scores[0, place("left")] = torch.randn(scores.shape[-1])
-    assert parent_loss(scores, ANSWERS.parent_abstain, TRUTH).item() == pytest.approx(0.0, abs=1e-5)
+    assert choice_loss(scores, ANSWERS.parent_abstain, parents(TRUTH)).item() == pytest.approx(0.0, abs=1e-5)
 
 
 def test_a_handle_whose_parent_is_no_slot_should_abstain() -> None:
@@ -68,9 +68,9 @@ def test_a_handle_whose_parent_is_no_slot_should_abstain() -> None:
     truth = replace(TRUTH, child=rows)
     scores = ANSWERS.parent.clone()
     scores[0, place("knob_1")] = -20.0
-    assert parent_loss(scores, torch.zeros(()), truth).item() == pytest.approx(0.0, abs=1e-5)
+    assert choice_loss(scores, torch.zeros(()), parents(truth)).item() == pytest.approx(0.0, abs=1e-5)
     scores[0, place("knob_1")] = 0.0
-    assert parent_loss(scores, torch.zeros(()), truth).item() == pytest.approx(log(5) / 4, rel=1e-4)
+    assert choice_loss(scores, torch.zeros(()), parents(truth)).item() == pytest.approx(log(5) / 4, rel=1e-4)
 
 
 def test_a_door_on_two_parts_may_choose_either() -> None:
@@ -80,7 +80,7 @@ def test_a_door_on_two_parts_may_choose_either() -> None:
     candidates = torch.ones(1, 4, 4, dtype=torch.bool)
     candidates[0, 0, 0] = False
     chooses = torch.tensor([[True, False, False, False]])
-    loss = choice_loss(scores, torch.zeros(()), chooses, candidates, right)
+    loss = choice_loss(scores, torch.zeros(()), Choices(chooses, candidates, right))
     assert loss.item() == pytest.approx(-log((2 + 3) / (2 + 3 + 4 + 1)))
 
 
@@ -88,9 +88,9 @@ def test_nobody_chooses_and_there_is_nothing_to_choose() -> None:
     scores = torch.zeros(1, 2, 2, requires_grad=True)
     nothing = torch.zeros(1, 2, 2, dtype=torch.bool)
     no_one = torch.zeros(1, 2, dtype=torch.bool)
-    loss = choice_loss(scores, torch.zeros(()), no_one, nothing, nothing) + choice_loss(
-        scores, torch.zeros(()), ~no_one, nothing, nothing
-    )
+    zero = torch.zeros(())
+    some, none = Choices(~no_one, nothing, nothing), Choices(no_one, nothing, nothing)
+    loss = choice_loss(scores, zero, none) + choice_loss(scores, zero, some)
     loss.backward()
     assert loss.item() == 0.0
     assert scores.grad is not None
@@ -100,7 +100,7 @@ def test_nobody_chooses_and_there_is_nothing_to_choose() -> None:
 def test_gradients_push_the_right_candidate_up_and_the_others_down() -> None:
     scores = torch.zeros_like(ANSWERS.parent).requires_grad_()
     abstain = torch.zeros((), requires_grad=True)
-    parent_loss(scores, abstain, TRUTH).backward()
+    choice_loss(scores, abstain, parents(TRUTH)).backward()
     assert scores.grad is not None
     assert abstain.grad is not None
     row = scores.grad[0, place("knob_1")]

@@ -22,6 +22,7 @@ KindSet = Literal["paper", "all"]
 """The kinds of edges that a network knows: the paper's four, or `slide` and `turn` and motions on moving parts, too."""
 
 CONTACT, HINGE, RAIL, ATTACHED, NULL, SLIDE, TURN = range(7)
+ALONG = (RAIL, SLIDE, TURN)  # the kinds whose motion is a signed axis
 KIND_CODES: Mapping[EdgeKind, int] = MappingProxyType(
     {
         EdgeKind.CONTACT: CONTACT,

@@ -9,14 +9,15 @@ from copy import deepcopy
 from typing import NamedTuple
 
 import torch
-from jaxtyping import Float, Int64
+from jaxtyping import Bool, Float, Int64
 from torch import Tensor, nn
 from torch.nn import functional
 
-from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, RAIL, SLIDE, TURN, UNKNOWN
+from grafu.graph.arrays import ALONG, HINGE, NONE, UNKNOWN
 from grafu.network.batch import Predictions
 from grafu.network.grafu import GraFu
 from grafu.training.batching import TrainingBatch
+from grafu.training.criterion import Choices, hinge_targets, nests, parents
 from grafu.training.loss_config import LossConfig
 from grafu.training.matcher import SlotTruth, match_slots, slot_truth
 
@@ -67,17 +68,13 @@ def head_answers(predictions: Predictions, truth: SlotTruth, given: Int64[Tensor
     hidden = functional.pad(given, (0, truth.labels.shape[1] - given.shape[1]), value=0) == UNKNOWN
     asked = truth.anchored & hidden & (truth.labels != UNKNOWN)
     hinges = truth.child & (truth.edges == HINGE) & seen
-    along = truth.child & torch.isin(truth.edges, torch.tensor([RAIL, SLIDE, TURN], device=truth.edges.device)) & seen
-    movable = (truth.labels == DOOR) | (truth.labels == DRAWER)
-    held = seen & (truth.labels == HANDLE)[:, :, None] & movable[:, None, :]
-    unheld = torch.tensor([DOOR, DRAWER, HANDLE], device=truth.labels.device)
-    hung = seen & (truth.labels == DOOR)[:, :, None] & ~torch.isin(truth.labels, unheld)[:, None, :]
-    attached = truth.child & (truth.edges == ATTACHED) & seen
+    along = truth.child & torch.isin(truth.edges, torch.tensor(ALONG, device=truth.edges.device)) & seen
+    hung = hinge_targets(truth, nests(predictions))
     return {
         "category": Answers(predictions.category[asked], truth.labels[asked]),
         "edge": Answers(predictions.edge[seen], truth.edges[seen]),
-        "parent": _choices(predictions.parent, predictions.parent_abstain, held, attached),
-        "hinge_target": _choices(predictions.hinge_target, predictions.hinge_abstain, hung, hinges),
+        "parent": _choices(predictions.parent, predictions.parent_abstain, parents(truth), seen),
+        "hinge_target": _choices(predictions.hinge_target, predictions.hinge_abstain, hung, seen),
         "border": _codes(predictions.border, truth.border, hinges),
         "sign": _codes(predictions.sign, truth.sign, hinges),
         "slide": _codes(predictions.slide, truth.slide, along),
@@ -85,15 +82,13 @@ def head_answers(predictions: Predictions, truth: SlotTruth, given: Int64[Tensor
 
 
 def _choices(
-    scores: Float[Tensor, "b s s"],
-    abstain: Float[Tensor, ""],
-    among: Tensor,
-    right: Tensor,
+    scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], choices: Choices, seen: Bool[Tensor, "b s s"]
 ) -> Answers:
-    """Returns the choice of one slot among others, or of none; where several are right, the likeliest of them is."""
-    graph, slot = among.any(dim=2).nonzero(as_tuple=True)
-    among, right, scores = among[graph, slot], right[graph, slot] & among[graph, slot], scores[graph, slot]
-    logits = torch.cat([scores.masked_fill(~among, -torch.inf), abstain.expand(len(scores), 1)], dim=1)
+    """Returns the choice of one slot among those seen, or of none; of several right ones the likeliest counts."""
+    among, right = choices.among & seen, choices.right & seen
+    graph, slot = (choices.chooses & among.any(dim=2)).nonzero(as_tuple=True)
+    among, right, scores = among[graph, slot], right[graph, slot], scores[graph, slot]
+    logits = torch.cat([scores.masked_fill(~(among | right), -torch.inf), abstain.expand(len(scores), 1)], dim=1)
     best = scores.masked_fill(~right, -torch.inf).argmax(dim=1)
     return Answers(logits, torch.where(right.any(dim=1), best, logits.shape[1] - 1))
 

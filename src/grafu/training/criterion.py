@@ -6,14 +6,14 @@ over marked entries, so that padding and what is unknown never count.
 """
 
 from dataclasses import dataclass
-from typing import final
+from typing import NamedTuple, final
 
 import torch
 from jaxtyping import Bool, Float, Int64
 from torch import Tensor
 from torch.nn import functional
 
-from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, NULL, RAIL, SLIDE, TURN, UNKNOWN
+from grafu.graph.arrays import ALONG, ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, NULL, UNKNOWN
 from grafu.network.batch import Predictions
 from grafu.training.loss_config import BoxError, LossConfig
 from grafu.training.matcher import SlotTruth, match_slots, slot_truth
@@ -33,7 +33,7 @@ class MotionLosses:
 def motion_losses(predictions: Predictions, truth: SlotTruth) -> MotionLosses:
     """Returns the cross-entropies of border, sign and slide, read at (moving part, what carries it)."""
     hinges = truth.child & (truth.edges == HINGE)
-    along = truth.child & torch.isin(truth.edges, torch.tensor([RAIL, SLIDE, TURN], device=truth.edges.device))
+    along = truth.child & torch.isin(truth.edges, torch.tensor(ALONG, device=truth.edges.device))
     return MotionLosses(
         border=code_loss(predictions.border.float(), truth.border, hinges),
         sign=code_loss(predictions.sign.float(), truth.sign, hinges),
@@ -158,12 +158,11 @@ def pair_losses(predictions: Predictions, truth: SlotTruth, edge_kinds: tuple[fl
     """Returns the per-pair losses, the kinds of edges weighted by `edge_kinds`."""
     return PairLosses(
         edge=edge_loss(predictions.edge.float(), truth, edge_kinds),
-        parent=parent_loss(predictions.parent.float(), predictions.parent_abstain.float(), truth),
-        hinge_target=hinge_target_loss(
+        parent=choice_loss(predictions.parent.float(), predictions.parent_abstain.float(), parents(truth)),
+        hinge_target=choice_loss(
             predictions.hinge_target.float(),
             predictions.hinge_abstain.float(),
-            truth,
-            predictions.edge.shape[-1] > NULL + 1,
+            hinge_targets(truth, nests(predictions)),
         ),
     )
 
@@ -175,43 +174,48 @@ def edge_loss(logits: Float[Tensor, "b s s k"], truth: SlotTruth, edge_kinds: tu
     return weighted_mean(-right, weights)
 
 
-def parent_loss(scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], truth: SlotTruth) -> Float[Tensor, ""]:
-    """Returns how badly handles choose their one door or drawer; one whose parent is no slot should abstain."""
+class Choices(NamedTuple):
+    """Which slots choose one other slot each, among which, and which of them are right."""
+
+    chooses: Bool[Tensor, "b s"]
+    among: Bool[Tensor, "b s s"]
+    right: Bool[Tensor, "b s s"]
+
+
+def parents(truth: SlotTruth) -> Choices:
+    """Returns how handles choose their one door or drawer."""
     movable = (truth.labels == DOOR) | (truth.labels == DRAWER)
-    right = truth.child & (truth.edges == ATTACHED)
-    return choice_loss(scores, abstain, truth.labels == HANDLE, movable[:, None, :] & truth.real_pairs, right)
+    among = movable[:, None, :] & truth.real_pairs
+    return Choices(truth.labels == HANDLE, among, truth.child & (truth.edges == ATTACHED))
 
 
-def hinge_target_loss(
-    scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], truth: SlotTruth, nested: bool
-) -> Float[Tensor, ""]:
-    """Returns how badly doors choose what they hang on, among all that is neither drawer nor handle.
+def hinge_targets(truth: SlotTruth, nested: bool) -> Choices:
+    """Returns how doors choose what they hang on, among all that is neither drawer nor handle.
 
-    With the paper's kinds of edges no door is asked, either. A door that truly hangs on several parts may choose any of
-    them; one whose mount is no slot, or that does not hang, should abstain.
+    Without `nested`, as with the paper's kinds of edges, no door is asked, either.
     """
     others = [DRAWER, HANDLE] if nested else [DOOR, DRAWER, HANDLE]
-    support = ~torch.isin(truth.labels, torch.tensor(others, device=scores.device))
-    right = truth.child & (truth.edges == HINGE)
-    return choice_loss(scores, abstain, truth.labels == DOOR, support[:, None, :] & truth.real_pairs, right)
+    support = ~torch.isin(truth.labels, torch.tensor(others, device=truth.labels.device))
+    among = support[:, None, :] & truth.real_pairs
+    return Choices(truth.labels == DOOR, among, truth.child & (truth.edges == HINGE))
 
 
-def choice_loss(
-    scores: Float[Tensor, "b s s"],
-    abstain: Float[Tensor, ""],
-    chooses: Bool[Tensor, "b s"],
-    candidates: Bool[Tensor, "b s s"],
-    right: Bool[Tensor, "b s s"],
-) -> Float[Tensor, ""]:
+def nests(predictions: Predictions) -> bool:
+    """Whether a network's kinds of edges are all kinds, so that doors may hang on doors."""
+    return predictions.edge.shape[-1] > NULL + 1
+
+
+def choice_loss(scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], choices: Choices) -> Float[Tensor, ""]:
     """Returns minus the log of the fraction that right candidates, or else abstaining, have in the softmax over all.
 
+    Of several right ones any may be chosen; a slot for which none is right should abstain.
     It is the mean over the slots that choose.
     """
-    graph, slot = chooses.nonzero(as_tuple=True)
-    scores, right = scores[graph, slot], right[graph, slot]
+    graph, slot = choices.chooses.nonzero(as_tuple=True)
+    scores, among, right = scores[graph, slot], choices.among[graph, slot], choices.right[graph, slot]
     nowhere = torch.full_like(scores[:, :1], -torch.inf)
     abstains = abstain.expand(nowhere.shape)
-    others = scores.masked_fill(~(candidates[graph, slot] | right), -torch.inf)
+    others = scores.masked_fill(~(among | right), -torch.inf)
     right_abstains = torch.where(right.any(dim=-1, keepdim=True), nowhere, abstains)
     right_scores = torch.cat([scores.masked_fill(~right, -torch.inf), right_abstains], dim=-1)
     all_scores = torch.cat([others, abstains], dim=-1)

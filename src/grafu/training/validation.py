@@ -14,6 +14,7 @@ from torch import Tensor, nn
 
 from grafu.data.corruption.corrupt import VARIANTS, asked_pairs
 from grafu.graph.arrays import (
+    ALONG,
     ATTACHED,
     DOOR,
     DRAWER,
@@ -37,7 +38,6 @@ from grafu.training.source import RESERVED_SEEDS, VALIDATION_SEED, FurFunSource,
 from grafu.training.targets import TargetBatch
 
 _CHILD_OF = {HINGE: DOOR, RAIL: DRAWER, ATTACHED: HANDLE}
-_ALONG = (RAIL, SLIDE, TURN)  # the kinds of edges whose motion is a signed axis
 
 
 def batch_accuracy(predictions: Predictions, targets: TargetBatch) -> list[GraphAccuracy]:
@@ -82,10 +82,10 @@ def _found(scores: dict[str, np.ndarray], width: int) -> tuple[GraphArrays, np.n
         rather = target > target.T if kind == HINGE else smaller  # which of two doors hangs on the other
         child |= (edges == kind) & (labels == label)[:, None] & (rather | (labels != label)[None, :])
     child |= np.isin(edges, (SLIDE, TURN)) & smaller
-    hinged, along = child & (edges == HINGE), child & np.isin(edges, _ALONG)
+    hinged, along = child & (edges == HINGE), child & np.isin(edges, ALONG)
     mount = _best(target, hinged)
     chances = scores["edge"][pairs]
-    runner = _best(chances[..., [k for k in _ALONG if k < chances.shape[-1]]].max(axis=-1), along)
+    runner = _best(chances[..., [k for k in ALONG if k < chances.shape[-1]]].max(axis=-1), along)
     motions = (
         _at(scores["border"][pairs], mount),
         _at(scores["sign"][pairs], mount),
