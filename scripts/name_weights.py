@@ -22,9 +22,10 @@ from grafu.completion.features import FeatureConfig
 from grafu.completion.session import onnx_runtime
 from grafu.export.whole_file import whole_file
 from grafu.graph.arrays import LABELS, NULL
-from grafu.network.config import GraFuConfig
+from grafu.network.config import OLDER, GraFuConfig
+from grafu.network.encoder import VISIBILITY_NUMBERS
 from grafu.network.grafu import GraFu
-from grafu.network.stored import HALF, TRANSPOSED, stored_weights
+from grafu.network.stored import HALF, TRANSPOSED, stored_config, stored_weights
 
 NEAR = 1e-3  # of answers: 16-bit weights, summed in another order
 PARTS = 9
@@ -62,8 +63,7 @@ def main() -> int:
 def facts_of(content: bytes) -> tuple[GraFuConfig, FeatureConfig]:
     """Returns what the file states about its network and what it sees."""
     facts = {p.key: json.loads(p.value) for p in onnx.load_from_string(content).metadata_props}
-    paper = {"kinds": "paper"}
-    return GraFuConfig(**(paper | facts["config"])), FeatureConfig(**(paper | facts["features"]))
+    return stored_config(content), FeatureConfig(**({"kinds": OLDER["kinds"]} | facts["features"]))
 
 
 def paired(content: bytes, fresh: bytes, wanted: set[str]) -> dict[str, np.ndarray]:
@@ -101,8 +101,10 @@ def farthest(first: bytes, second: bytes, features: FeatureConfig) -> float:
         "anchors": rng.random((PARTS, anchors, 3)).astype(np.float32),
         "groups": (0.05 * rng.random((PARTS, anchors, neighbours, 3))).astype(np.float32),
         "edges": np.full((PARTS, PARTS), NULL),
+        "visibility": rng.random((PARTS, VISIBILITY_NUMBERS)).astype(np.float32),
     }
-    answers = [onnx_runtime().InferenceSession(one).run(None, given) for one in (first, second)]
+    sessions = [onnx_runtime().InferenceSession(one) for one in (first, second)]
+    answers = [s.run(None, {item.name: given[item.name] for item in s.get_inputs()}) for s in sessions]
     return max(float(np.abs(a - b).max()) for a, b in zip(*answers, strict=True))
 
 

@@ -26,9 +26,8 @@ from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.network.batch import one_graph
-from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
-from grafu.network.stored import start_from, stored_weights
+from grafu.network.stored import start_from, stored_config, stored_weights
 from grafu.synth.generate import make_specimen
 from grafu.training.source import TEST_SEED
 from grafu.vocabulary import PartLabel
@@ -52,8 +51,9 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=TEST_SEED)
     options = parser.parse_args()
     session = open_network(options.weights)
-    network = GraFu(GraFuConfig(kinds=session.features.kinds)).eval()
-    start_from(network, stored_weights(options.weights.read_bytes()))
+    file = options.weights.read_bytes()
+    network = GraFu(stored_config(file)).eval()
+    start_from(network, stored_weights(file))
     real = [graph for folder in options.models for graph in real_graphs(folder, session.features.points)]
     made = [hidden(make_specimen(options.seed, k, session.features.points).given) for k in range(options.count)]
     is_real = np.arange(len(real) + len(made)) < len(real)
@@ -89,7 +89,7 @@ def hidden(graph: FunctionalGraph) -> FunctionalGraph:
 @torch.inference_mode()
 def encoded(features: GraphFeatures, network: GraFu) -> Float[np.ndarray, " numbers"]:
     """Returns the mean and the maximum of the encoded nodes."""
-    names = ("labels", "boxes", "anchors", "groups", "edges")
+    names = ("labels", "boxes", "anchors", "groups", "edges", "visibility")
     arrays = {name: torch.from_numpy(np.array(getattr(features, name))) for name in names}
     nodes = network.encoder(one_graph(**arrays))[0][0].double().numpy()
     return np.concatenate([nodes.mean(axis=0), nodes.max(axis=0)])

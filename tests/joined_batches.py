@@ -25,6 +25,7 @@ def join_batches(batches: Sequence[GraphBatch]) -> GraphBatch:
         point_index=torch.cat(index),
         anchors=torch.cat([b.anchors for b in batches]),
         groups=torch.cat([b.groups for b in batches]),
+        visibility=torch.cat([pad(b.visibility, (0, 0, 0, n - b.visibility.shape[1])) for b in batches]),
     )
 
 

@@ -6,6 +6,7 @@ from torch import Tensor  # noqa: TID251
 from grafu.graph.arrays import EDGE_CODES, NULL
 from grafu.network.batch import GraphBatch, Predictions, one_graph
 from grafu.network.config import LABEL_COUNT, GraFuConfig
+from grafu.network.encoder import VISIBILITY_NUMBERS
 from grafu.network.grafu import GraFu
 
 TINY = GraFuConfig(
@@ -27,6 +28,7 @@ def arrays(n: int, seed: int = 0) -> dict[str, Tensor]:
         "anchors": torch.rand(n, ANCHORS, 3, generator=draw),
         "groups": torch.rand(n, ANCHORS, NEIGHBOURS, 3, generator=draw) * 0.1,
         "edges": edges.fill_diagonal_(NULL),
+        "visibility": torch.rand(n, VISIBILITY_NUMBERS, generator=draw),
     }
 
 

@@ -26,6 +26,7 @@ def test_copies_share_the_rows_of_their_points() -> None:
         point_index=torch.tensor([[0, 1, 2, 3], [0, 1, 2, 0]]),
         anchors=one.anchors,
         groups=one.groups,
+        visibility=one.visibility.repeat(2, 1, 1),
     )
     network = tiny_network()
     answers = network(join_batches([graph(2, seed=5), copies]))
@@ -48,6 +49,7 @@ def test_what_padding_holds_is_never_seen() -> None:
     spoilt = GraphBatch(**vars(plain) | {
         "labels": plain.labels.masked_fill(~plain.mask, 3),
         "boxes": plain.boxes.masked_fill(~plain.mask[..., None], 7.0),
+        "visibility": plain.visibility.masked_fill(~plain.mask[..., None], 5.0),
         "edges": plain.edges.masked_fill(~(plain.mask[:, :, None] & plain.mask[:, None, :]), 1),
     })  # fmt: skip
     a, b = network(plain), network(spoilt)

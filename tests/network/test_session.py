@@ -15,6 +15,7 @@ from grafu.completion.session import NetworkSession, open_network
 from grafu.errors import WeightsError
 from grafu.graph.edit import as_contacts
 from grafu.network.batch import one_graph
+from grafu.network.export import INPUTS
 from grafu.network.grafu import GraFu
 from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, tiny_network
 from small_graphs import cabinet
@@ -39,7 +40,7 @@ def weights(files: dict[bool, bytes], tmp_path_factory: pytest.TempPathFactory) 
 def test_the_session_says_what_the_network_says(model: GraFu, weights: Path) -> None:
     session = NetworkSession(weights)
     features = graph_features(cabinet(512), session.features)
-    arrays = (features.labels, features.boxes, features.anchors, features.groups, features.edges)
+    arrays = (getattr(features, name) for name in INPUTS)
     with torch.no_grad():
         expected = model(one_graph(*(torch.from_numpy(array.copy()) for array in arrays)))
     scores = session(features)

@@ -17,6 +17,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int64
 
+from grafu.completion.visibility import visibility_of
 from grafu.geometry.arrays import ArrayValue, Points, freeze_arrays
 from grafu.graph.arrays import KindSet, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
@@ -172,6 +173,11 @@ class GraphFeatures(ArrayValue):
         freeze_arrays(self, "labels", "edges", dtype=np.int64)
         freeze_arrays(self, "boxes", "anchors", "groups", dtype=np.float32)
         freeze_arrays(self, "origin", dtype=np.float64)
+
+    @property
+    def visibility(self) -> Float32[np.ndarray, "n 18"]:
+        """How much of each part is visible from each side, and what lies behind it (`visibility_of`)."""
+        return visibility_of(self.anchors, self.groups)
 
 
 def graph_features(graph: FunctionalGraph, config: FeatureConfig = FeatureConfig()) -> GraphFeatures:

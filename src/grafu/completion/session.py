@@ -36,7 +36,8 @@ def onnx_runtime() -> ModuleType:
 GraphNetwork = Callable[[GraphFeatures], Scores]
 
 SHIPPED_WEIGHTS = Path(__file__).parent / "weights" / "grafu.onnx"
-_INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
+_INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility")
+_SINCE = frozenset({"visibility"})  # inputs that older files do not read
 
 
 @final
@@ -63,10 +64,13 @@ class NetworkSession:
         except Exception as error:  # the runtime raises a class of its own for each kind of damage
             raise WeightsError(f"`{path}` must be a network in ONNX form: {error}") from error
         self.features = self._checked(path)
+        self._inputs = tuple(item.name for item in self._session.get_inputs())
 
     def __call__(self, features: GraphFeatures) -> Scores:
         """Returns what the network states about a graph of at least one node."""
-        found: list[Any] = self._session.run(list(SCORE_NAMES), {name: getattr(features, name) for name in _INPUTS})
+        found: list[Any] = self._session.run(
+            list(SCORE_NAMES), {name: getattr(features, name) for name in self._inputs}
+        )
         arrays = {name: np.asarray(array) for name, array in zip(SCORE_NAMES, found, strict=True)}
         arrays["edge"] = with_all_kinds(arrays["edge"])
         values: dict[str, Any] = {name: array if array.ndim else float(array) for name, array in arrays.items()}
@@ -74,7 +78,7 @@ class NetworkSession:
 
     def _checked(self, path: Path) -> FeatureConfig:
         names = {item.name for item in self._session.get_inputs()}, {item.name for item in self._session.get_outputs()}
-        if names[0] != set(_INPUTS) or not set(SCORE_NAMES) <= names[1]:
+        if names[0] | _SINCE != set(_INPUTS) or not set(SCORE_NAMES) <= names[1]:
             raise WeightsError(f"`{path}` must read {_INPUTS} and say {SCORE_NAMES}: got {names[0]} and {names[1]}")
         facts: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
         if json.loads(facts.get("labels", "[]")) != [label.value for label in LABELS]:

@@ -45,6 +45,7 @@ class GraphBatch:
 
     `mask` marks true nodes; what padding holds is never seen. Row `point_index` of `anchors` and `groups` holds the
     points of a node: centres of groups in the normalised frame, and each group's points relative to its centre.
+    `visibility` is that of `grafu.completion.visibility`.
     """
 
     labels: Int64[Tensor, "b n"]
@@ -54,6 +55,7 @@ class GraphBatch:
     point_index: Int64[Tensor, "b n"]
     anchors: Float32[Tensor, "u g 3"]
     groups: Float32[Tensor, "u g k 3"]
+    visibility: Float32[Tensor, "b n v"]
 
     def to(self, device: torch.device | str) -> "GraphBatch":
         """Returns the same batch on a device."""
@@ -66,8 +68,11 @@ def one_graph(
     anchors: Float32[Tensor, "n g 3"],
     groups: Float32[Tensor, "n g k 3"],
     edges: Int64[Tensor, "n n"],
+    visibility: Float32[Tensor, "n v"],
 ) -> GraphBatch:
     """Returns a batch of one graph, each node with its own row of points."""
     index = torch.arange(labels.shape[0], device=labels.device)
     mask = torch.ones_like(labels, dtype=torch.bool)
-    return GraphBatch(labels[None], boxes[None], edges[None], mask[None], index[None], anchors, groups)
+    return GraphBatch(
+        labels[None], boxes[None], edges[None], mask[None], index[None], anchors, groups, visibility[None]
+    )

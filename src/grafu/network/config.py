@@ -1,7 +1,9 @@
 """The sizes and choices of the network: the paper's numbers by default, each departure named with its reason."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal, final
+from types import MappingProxyType
+from typing import Any, Literal, final
 
 from grafu.graph.arrays import EDGE_CODES, LABELS, KindSet
 
@@ -35,6 +37,8 @@ class GraFuConfig:
             them slots and boxes only, so that the kinds of edges in the input reach them through nodes alone.
         free_boxes: the paper has free slots say their boxes in the object's frame ("absolute"). "pointed" ones point at
             nodes and say theirs in units of those: a handle sits so far along its door, a top as wide as its case.
+        visibility: nodes also see how much of their part is visible from each side, and what lies behind it
+            (`grafu.completion.visibility`): a front and a shelf may have one shape.
         kinds: the paper has four kinds of edges. "all" has ours, too: a door that slides, what turns about no border of
             its box, and motions on what moves itself.
         geometry_dropout: in training, the fraction of graphs whose parts' points are hidden (authors: .3, of whole
@@ -61,6 +65,7 @@ class GraFuConfig:
     pair_boxes: PairBoxes = "input"
     pair_edges: bool = True
     free_boxes: FreeBoxes = "pointed"
+    visibility: bool = True
     kinds: KindSet = "all"
 
     @property
@@ -89,6 +94,10 @@ PAPER = GraFuConfig(
     pair_boxes="predicted",
     pair_edges=False,
     free_boxes="absolute",
+    visibility=False,
     kinds="paper",
 )
 """The network without our departures."""
+
+OLDER: Mapping[str, Any] = MappingProxyType({"kinds": "paper", "visibility": False})
+"""The fields that files of the first network do not state, and what it had."""

@@ -147,6 +147,7 @@ def _stage(*widths: int) -> nn.Sequential:
 
 BOX_NUMBERS = 9  # centroid and two corners
 MARGIN_NUMBERS = 9
+VISIBILITY_NUMBERS = 18  # those of `grafu.completion.visibility`
 BOX_HIDDEN = 64  # as in the authors' code
 
 
@@ -161,12 +162,13 @@ class NodeEncoder(nn.Module):
         numbers = BOX_NUMBERS + (MARGIN_NUMBERS if config.margins else 0)
         self.box = perceptron(numbers, BOX_HIDDEN, config.geometry)
         self.points = PointEncoder(config.points, config.points_frame)
+        self.visibility = perceptron(VISIBILITY_NUMBERS, BOX_HIDDEN, config.geometry) if config.visibility else None
         self.hidden_ratio = config.geometry_dropout
 
     @staticmethod
     def width(config: GraFuConfig) -> int:
-        """Returns how many numbers a latent has: the paper's 224."""
-        return config.category + config.points + config.geometry
+        """Returns how many numbers a latent has: the paper's 224, and those of visibility."""
+        return config.category + config.points + config.geometry * (2 if config.visibility else 1)
 
     def forward(self, batch: GraphBatch) -> Float[Tensor, "b n z"]:
         """Returns the latents; in training, some graphs' points are hidden."""
@@ -175,7 +177,10 @@ class NodeEncoder(nn.Module):
             points = points * (torch.rand(points.shape[0], 1, 1, device=points.device) >= self.hidden_ratio)
         seen = [corners(batch.boxes)] + ([margins(batch.boxes, batch.mask)] if self.sees_margins else [])
         box = self.box(torch.cat(seen, dim=-1))
-        return torch.cat([self.category(batch.labels), points, box], dim=-1)
+        latent = [self.category(batch.labels), points, box]
+        if self.visibility is not None:
+            latent.append(self.visibility(batch.visibility))
+        return torch.cat(latent, dim=-1)
 
 
 def corners(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n 9"]:

@@ -1,7 +1,8 @@
 """The network as one ONNX file, for any number of parts, so that it runs without torch. It writes no files.
 
 Inputs are the arrays of one graph's features, by their names, without a batch: labels [n], boxes [n,6],
-anchors [n,G,3], groups [n,G,S,3], edges [n,n]. Outputs are the fields of `Predictions` but `mask`, without a batch.
+anchors [n,G,3], groups [n,G,S,3], edges [n,n], visibility [n,18]. Outputs are the fields of `Predictions` but `mask`,
+without a batch.
 """
 
 import json
@@ -20,11 +21,12 @@ from torch.nn.functional import pad
 from grafu.graph.arrays import LABELS, KindSet
 from grafu.network.batch import Predictions, one_graph
 from grafu.network.config import LABEL_COUNT
+from grafu.network.encoder import VISIBILITY_NUMBERS
 from grafu.network.grafu import GraFu
 from grafu.network.stored import HALF, name_weights
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
-INPUTS = ("labels", "boxes", "anchors", "groups", "edges")
+INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility")
 OUTPUTS = tuple(field.name for field in fields(Predictions) if field.name != "mask")
 PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
 _SMALLEST = 64  # numbers; a weight with fewer is left as it is: nothing is saved
@@ -90,12 +92,14 @@ class _OneGraph(nn.Module):
         anchors: Float32[Tensor, "n g 3"],
         groups: Float32[Tensor, "n g k 3"],
         edges: Int64[Tensor, "n n"],
+        visibility: Float32[Tensor, "n v"],
     ) -> tuple[Tensor, ...]:
         n = labels.shape[0]
         labels, boxes, edges = pad(labels, (0, 1)), pad(boxes, (0, 0, 0, 1)), pad(edges, (0, 1, 0, 1))
         anchors, groups = pad(anchors, (0, 0, 0, 0, 0, 1)), pad(groups, (0, 0, 0, 0, 0, 0, 0, 1))
+        visibility = pad(visibility, (0, 0, 0, 1))
         mask = torch.arange(n + 1)[None] < n
-        answers = self.model(replace(one_graph(labels, boxes, anchors, groups, edges), mask=mask))
+        answers = self.model(replace(one_graph(labels, boxes, anchors, groups, edges, visibility), mask=mask))
         slots = torch.arange(n + self.model.config.free_slots)
         kept = slots + (slots >= n)
         scores = {name: getattr(answers, name) for name in OUTPUTS}
@@ -116,9 +120,10 @@ def _exported(model: GraFu, anchors: int, neighbours: int) -> onnx.ModelProto:
         torch.zeros(parts, anchors, 3),
         torch.zeros(parts, anchors, neighbours, 3),
         torch.zeros(parts, parts, dtype=torch.int64),
+        torch.zeros(parts, VISIBILITY_NUMBERS),
     )
     n = torch.export.Dim("parts", min=1, max=4096)
-    shapes = ({0: n}, {0: n}, {0: n}, {0: n}, {0: n, 1: n})
+    shapes = ({0: n}, {0: n}, {0: n}, {0: n}, {0: n, 1: n}, {0: n})
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the exporter's own, about itself
         program = torch.onnx.export(

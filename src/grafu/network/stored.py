@@ -4,6 +4,7 @@ An exporter names what it multiplies by itself, transposed. Here such weights ge
 behind where they are stored transposed.
 """
 
+import json
 from collections.abc import Mapping
 
 import numpy as np
@@ -12,6 +13,7 @@ import torch
 from torch import Tensor, nn
 
 from grafu.errors import WeightsError
+from grafu.network.config import OLDER, GraFuConfig
 
 TRANSPOSED = ".T"
 HALF = ".half"
@@ -62,6 +64,19 @@ def stored_weights(file: bytes) -> dict[str, Tensor]:
         name = _HEADS + name if weight.name in outputs else name
         found[name.removesuffix(TRANSPOSED)] = torch.tensor(values.T.copy() if name.endswith(TRANSPOSED) else values)
     return found
+
+
+def stored_config(file: bytes) -> GraFuConfig:
+    """Returns the config of the network in an exported file, of an earlier version or of this one.
+
+    Raises:
+        WeightsError: if the file states none that this version knows.
+    """
+    facts = {entry.key: entry.value for entry in onnx.load_from_string(file).metadata_props}
+    try:
+        return GraFuConfig(**(dict(OLDER) | json.loads(facts["config"])))
+    except (KeyError, TypeError, ValueError) as error:
+        raise WeightsError(f"the weights must state the config of their network: {error!r}") from error
 
 
 def start_from(network: nn.Module, weights: Mapping[str, Tensor]) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from typing import final
 import numpy as np
 import torch
 
+from grafu.completion.visibility import VISIBILITY_NUMBERS, visibility_of
 from grafu.graph.arrays import NULL
 from grafu.network.batch import GraphBatch
 from grafu.training.config import TrainingConfig
@@ -69,6 +70,7 @@ def stack_showings(showings: Sequence[Showing], shares_shifted: bool) -> Trainin
         point_index=padded(index, (n,), 0),
         anchors=padded([anchors], (rows, *anchors.shape[1:]), 0)[0],
         groups=padded([groups], (rows, *groups.shape[1:]), 0)[0],
+        visibility=padded([visibility_of(anchors[k], groups[k]) for k in index], (n, VISIBILITY_NUMBERS), 0),
     )
     return TrainingBatch(graphs, stack_targets([v.targets for v in views], SLOT_STEP), tuple(v.strategy for v in views))
 

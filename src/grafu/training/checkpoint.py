@@ -19,6 +19,7 @@ from grafu.asset.json_files import read_own_json
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.graph.arrays import EDGE_CODES
+from grafu.network.config import OLDER
 from grafu.network.grafu import GraFu
 from grafu.training.config import TrainingConfig
 from grafu.training.loss_config import LossConfig
@@ -206,13 +207,16 @@ def read_config(stated: Any, path: Path) -> TrainingConfig:
         raise UnreadableAsset(f"`{path}` was written by another version: {problem}; train again") from error
 
 
+_OLDER = {"network": dict(OLDER), "features": {"kinds": OLDER["kinds"]}}
+
+
 def _renamed(stated: Any) -> Any:
     """Returns a config with today's names: earlier versions called one field otherwise, and knew the paper's edges."""
     if not isinstance(stated, dict):
         return stated
     if "deal" in stated and "sampling" not in stated:
         stated = {"sampling" if name == "deal" else name: value for name, value in stated.items()}
-    knows = {name: {"kinds": "paper"} | stated[name] for name in ("network", "features") if _is_dict(stated, name)}
+    knows = {name: older | stated[name] for name, older in _OLDER.items() if _is_dict(stated, name)}
     weights = stated["loss"].get("edge_kinds") if _is_dict(stated, "loss") else None
     if isinstance(weights, list | tuple) and len(weights) == EDGE_CODES["paper"]:
         knows["loss"] = stated["loss"] | {"edge_kinds": (*weights, *LossConfig().edge_kinds[len(weights) :])}

@@ -140,12 +140,12 @@ BASE = TrainingConfig(
     sampling=SamplerConfig(),
 )
 
-TUNE = replace(BASE, optimiser=replace(BASE.optimiser, matrices="adam", rate=4e-4, warmup=200))
-"""To go on from weights that exist (`--start`): AdamW at a third of the rate. On a processor that does not multiply
+TUNE = replace(BASE, optimiser=replace(BASE.optimiser, matrices="adam", rate=3e-4, warmup=200), steps=3_000)
+"""To go on from weights that exist (`--start`): AdamW at a quarter of the rate. On a processor that does not multiply
 bfloat16, a step of Muon takes as long as the forward and the backward pass."""
 
 PAPER = TrainingConfig(
-    network=GraFuConfig(kinds="paper"),
+    network=GraFuConfig(kinds="paper", visibility=False),
     loss=PAPER_LOSS,
     mix=CopyMix(natural=1 / 18, masked=0.0, corruption=_UNMIRRORED, folds=17),
     sampling=SamplerConfig(models=16, copies=1, reuse=1, spread=16),
