@@ -5,7 +5,8 @@
 MODELS are folders as `grafu evaluate --data` takes it. Of each model the network (with --rule the rule-based baseline)
 gets the parts alone (as the annotation groups them), no joints, in seven variants: as they are, without labels, and
 with parts removed. Random variants are drawn --copies times. A motion is right by the definition of `grafu evaluate`:
-`aligned` (docs/evaluation.md). Prints a table in Markdown, and of the first two variants each part that is wrong.
+`aligned` (docs/evaluation.md). Prints a table in Markdown, one of the causes of what is wrong, and of the first two
+variants each part that is wrong.
 
 The last column is the expected calibration error: the confidence of a motion is the product of the scores of its
 decisions (what the part is, how it moves); in ten bins of confidence, how far the mean confidence is from the fraction
@@ -32,12 +33,13 @@ from grafu.evaluation.moving_parts import MovingPart, counted_parts
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.parse import parse_graph
 from grafu.joints.make_plan import plan_from_completion
-from grafu.metrics.motion import Motion, compare_motions
+from grafu.metrics.motion import Motion, MotionAgreement, compare_motions
 from grafu.pipeline.complete import complete_by_weights
 from grafu.vocabulary import PartLabel
 
 GONE = 0.25  # of the parts that are static
 BINS = 10
+CAUSES = ("does not move", "another type", "another direction", "another border")
 OF_MOTION = ("label", "border", "sign", "slide")
 Change = Callable[[Asset, Asset, int], Asset]
 Complete = Callable[[Asset], GraphCompletion]
@@ -63,6 +65,7 @@ class Found:
     parts: int
     wrong: tuple[str, ...]
     sure: tuple[tuple[float, bool], ...] = ()
+    causes: tuple[str, ...] = ()
 
 
 def main() -> int:
@@ -98,23 +101,50 @@ def judge(complete: Complete, copies: int, ref: ModelRef) -> list[Found]:
     for variant in VARIANTS:
         draws = range(copies if variant.drawn else 1)
         answers = [one for draw in draws for one in answered(complete, variant.change(asset, bare, draw), truth)]
-        wrong = tuple(part for part, _, right in answers if not right)
-        sure = tuple((confidence, right) for _, confidence, right in answers if confidence is not None)
-        found.append(Found(variant.name, len(answers) - len(wrong), len(answers), wrong, sure))
+        wrong = tuple(answer.part for answer in answers if not answer.is_right)
+        sure = tuple((a.confidence, a.is_right) for a in answers if a.confidence is not None)
+        causes = tuple(answer.cause for answer in answers if not answer.is_right)
+        found.append(Found(variant.name, len(answers) - len(wrong), len(answers), wrong, sure, causes))
     return [replace(one, wrong=tuple(f"{ref.id}/{part}" for part in one.wrong)) for one in found]
 
 
-def answered(
-    complete: Complete, asset: Asset, truth: tuple[MovingPart, ...]
-) -> Iterator[tuple[str, float | None, bool]]:
-    """Yields each moving part, the confidence of its motion (None: it has none), and whether it is as annotated."""
+@final
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What was said of a moving part: the confidence of its motion (None: it has none), and how that agrees."""
+
+    confidence: float | None
+    agreement: MotionAgreement
+
+    @property
+    def part(self) -> str:
+        """The part's id."""
+        return self.agreement.part
+
+    @property
+    def is_right(self) -> bool:
+        """Whether the motion is as annotated."""
+        return self.agreement.whole
+
+    @property
+    def cause(self) -> str:
+        """Why a wrong motion is wrong: one of `CAUSES`."""
+        if self.confidence is None:
+            return "does not move"
+        if not self.agreement.type:
+            return "another type"
+        return "another direction" if not self.agreement.direction else "another border"
+
+
+def answered(complete: Complete, asset: Asset, truth: tuple[MovingPart, ...]) -> Iterator[Answer]:
+    """Yields for each moving part what was said of it."""
     completion = complete(asset)
     stated = plan_from_completion(completion, asset)
     true = {part.id: part.motion for part in truth}
     motions = {r.moving: Motion(r.type, r.axis, true[r.moving].center) for r in stated.joints if r.moving in true}
     for one in compare_motions(motions, true):
         scores = [d.score for d in completion.decisions if d.part == one.part and d.question in OF_MOTION]
-        yield one.part, float(np.prod(scores)) if scores and one.part in motions else None, one.whole
+        yield Answer(float(np.prod(scores)) if one.part in motions else None, one)
 
 
 def complete_by_rules(asset: Asset) -> GraphCompletion:
@@ -180,6 +210,7 @@ def counts(found: list[Found]) -> dict[str, dict[str, object]]:
             "right": sum(one.right for one in ones),
             "parts": sum(one.parts for one in ones),
             "wrong": [part for one in ones for part in one.wrong],
+            "causes": {cause: sum(one.causes.count(cause) for one in ones) for cause in CAUSES},
             "calibration error": calibration_error([pair for one in ones for pair in one.sure]),
         }
         for name, ones in of.items()
@@ -195,6 +226,10 @@ def table(found: list[Found]) -> str:
             ratio = one["right"] / one["parts"]  # type: ignore[operator]
             error = one["calibration error"]
             lines.append(f"| {name} | {one['parts']} | {one['right']} | {ratio:.3f} | {error:.3f} |")
+    lines += ["", f"| wrong | {' | '.join(CAUSES)} |", "|---" * (1 + len(CAUSES)) + "|"]
+    for name, one in counted.items():
+        if one["parts"]:
+            lines.append(f"| {name} | {' | '.join(str(count) for count in one['causes'].values())} |")  # type: ignore[attr-defined]
     wrong = [f"wrong, {name}: {', '.join(counted[name]['wrong'])}" for name in ("labels given", "no labels")]  # type: ignore[arg-type]
     return "\n".join([*lines, "", *wrong])
 
