@@ -38,9 +38,16 @@ def graph(n: int, seed: int = 0) -> GraphBatch:
 
 
 def tiny_network(config: GraFuConfig = TINY) -> GraFu:
-    """Returns a network with random weights, the same at each call, that drops nothing."""
+    """Returns a network with random weights, the same at each call, that drops nothing.
+
+    No two weights are alike: an exporter stores equal ones once, such as those of fresh norms.
+    """
     torch.manual_seed(1)
-    return GraFu(config).eval()
+    network = GraFu(config).eval()
+    with torch.no_grad():
+        for weight in network.parameters():
+            weight += 0.01 * torch.randn(weight.shape)
+    return network
 
 
 def differences(found: Predictions, wanted: Predictions, slots: Tensor) -> dict[str, float]:

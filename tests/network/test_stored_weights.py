@@ -8,31 +8,14 @@ import torch
 
 from grafu.errors import WeightsError
 from grafu.graph.arrays import NULL, SLIDE
-from grafu.network.export import onnx_bytes, with_half_weights
 from grafu.network.grafu import GraFu
 from grafu.network.stored import start_from, stored_weights
-from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, graph, tiny_network
-
-
-def learnt() -> GraFu:
-    """A network no two weights of which are alike: an exporter stores equal ones once, such as those of fresh norms."""
-    network = tiny_network()
-    torch.manual_seed(5)
-    with torch.no_grad():
-        for weight in network.parameters():
-            weight += 0.01 * torch.randn(weight.shape)
-    return network
-
-
-@pytest.fixture(scope="module")
-def files() -> dict[bool, bytes]:
-    file = onnx_bytes(learnt(), points=POINTS, anchors=ANCHORS, neighbours=NEIGHBOURS, half_weights=False)
-    return {False: file, True: with_half_weights(file)}
+from random_graphs import TINY, graph, tiny_network
 
 
 @pytest.mark.parametrize(("half", "precision"), [(False, 0.0), (True, 2e-3)])
 def test_every_weight_is_found_by_its_name(files: dict[bool, bytes], half: bool, precision: float) -> None:
-    stored, own = stored_weights(files[half]), learnt().state_dict()
+    stored, own = stored_weights(files[half]), tiny_network().state_dict()
     assert own.keys() <= stored.keys()
     assert all(torch.allclose(stored[name], value, atol=precision) for name, value in own.items())
 
@@ -40,7 +23,7 @@ def test_every_weight_is_found_by_its_name(files: dict[bool, bytes], half: bool,
 def test_a_network_that_starts_from_a_file_answers_as_it_does(files: dict[bool, bytes]) -> None:
     network = GraFu(TINY).eval()
     assert start_from(network, stored_weights(files[False])) == ()
-    assert torch.allclose(network(graph(7)).edge, learnt()(graph(7)).edge, atol=1e-6)
+    assert torch.allclose(network(graph(7)).edge, tiny_network()(graph(7)).edge, atol=1e-6)
 
 
 def test_kinds_of_edges_that_the_file_does_not_know_start_unlikely(files: dict[bool, bytes]) -> None:

@@ -11,7 +11,6 @@ from grafu.graph.annotated import carrying_part
 from grafu.graph.edges import Hinge, Rail, Slide, Turn
 from grafu.graph.motion import axis_to_hinge, direction_to_code
 from grafu.synth.families.table import FAMILIES, MAKERS, draw_blueprint
-from grafu.synth.generate import make_specimen
 from grafu.synth.truth.check import faults_of
 from grafu.synth.truth.true_graph import true_graph
 from grafu.vocabulary import PartLabel
@@ -114,13 +113,3 @@ def test_all_storage_and_tables_stay_most_of_what_is_made() -> None:
     whole = sum(weight for weight, _ in FAMILIES.values())
     others = ("fridge", "oven", "appliance", "building door", "window")
     assert sum(FAMILIES[name][0] for name in others) <= 0.15 * whole
-
-
-@pytest.mark.slow
-def test_every_joint_of_a_specimen_has_an_edge() -> None:
-    for index in range(300):
-        specimen = make_specimen(9, index, 0)
-        joints = (*specimen.whole.joints, *specimen.whole.small_joints)
-        attached = {edge.child for edge in specimen.truth.attachments}
-        bare = [j.part for j in joints if not specimen.truth.motions_of(j.part) and j.part not in attached]
-        assert not bare, specimen.id
