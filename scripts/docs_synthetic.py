@@ -9,7 +9,7 @@ from dataclasses import fields
 from grafu.data.corruption.config import OFFICIAL, PAPER, STRATEGY_NAMES
 from grafu.data.corruption.strategies import STRATEGIES, probabilities
 from grafu.synth.families.table import FAMILIES
-from grafu.synth.noise import cutting, modelling_styles, naming
+from grafu.synth.noise import cutting, distortion, housing, modelling_styles, naming
 from grafu.synth.noise.modelling_styles import STYLES
 from grafu.synth.sampling import carpentry, style
 from grafu.synth.sampling.traditions import TRADITIONS, Tradition
@@ -207,11 +207,12 @@ def wording_tables() -> str:
         "every face double-sided": modelling_styles.BOTH_SIDES,
         "the same, where edges are finely rounded": modelling_styles.FINE_BOTH_SIDES,
         "parts in random order": modelling_styles.SHUFFLED,
+        "boards let into one another": housing.HOUSED,
         "stretched by up to a tenth": modelling_styles.STRETCHED * (1 - modelling_styles.WIDELY),
         "stretched by up to a quarter": modelling_styles.STRETCHED * modelling_styles.WIDELY,
         "scaled wrongly": modelling_styles.MIS_SCALED,
-        "rotated by quarter turns": modelling_styles.TURNED,
-        "rotated by up to four degrees": modelling_styles.YAWED,
+        "rotated by quarter turns": distortion.TURNED,
+        "rotated by up to four degrees": distortion.YAWED,
         "one front ajar": modelling_styles.AJAR,
         "one label wrong": modelling_styles.MISLABELLED,
         "of face frames: modelled as bars": cutting.FRAME_IN_BARS,

@@ -8,6 +8,7 @@ import pytest
 
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import CellRow, Door, Drawer, Stack
+from grafu.synth.noise.distortion import TURNED
 from grafu.synth.noise.modelling_noise import ModellingNoise
 from grafu.synth.noise.modelling_styles import (
     AJAR,
@@ -19,7 +20,6 @@ from grafu.synth.noise.modelling_styles import (
     NO_HANDLES,
     NO_TOP,
     STYLES,
-    TURNED,
     draw_noise,
     is_storage,
 )

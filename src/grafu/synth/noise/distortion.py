@@ -16,7 +16,9 @@ from grafu.geometry.arrays import Mat4, Points, Vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation
 from grafu.synth.pieces.riding import bodies_of, carriers_of, led_by, poses_at
+from grafu.synth.sampling.chance import between, chance, count
 
+YAWED, TURNED = 0.015, 0.03  # of models: askew by up to four degrees; front mistaken by quarter turns
 STRAIGHT = 0.93  # mean largest component of a face normal: 1 for boards along the axes, 0.87 for a door at 30 degrees
 
 
@@ -120,3 +122,10 @@ def _is_straight(part: Part) -> bool:
     largest = np.abs(part.mesh.face_normals).max(axis=1)
     areas = part.mesh.face_areas
     return float((largest * areas).sum()) >= STRAIGHT * float(areas.sum())
+
+
+def draw_yaw(rng: np.random.Generator) -> float:
+    """Returns by how much a model is turned about the vertical, radians: mostly not at all."""
+    if chance(rng, TURNED):
+        return float(np.pi / 2) * count(rng, 1, 3)
+    return float(np.radians(between(rng, (-4.0, 4.0)))) if chance(rng, YAWED) else 0.0

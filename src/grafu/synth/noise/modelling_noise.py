@@ -16,6 +16,7 @@ from grafu.geometry.arrays import vec3
 from grafu.synth.noise import edits
 from grafu.synth.noise.distortion import ajar, bent, stretched
 from grafu.synth.noise.edits import with_anchored_sheets
+from grafu.synth.noise.housing import with_boards_let_in
 from grafu.synth.noise.loose_objects import with_loose_objects
 from grafu.synth.noise.naming import MISTAKES, mistaken, with_labels_masked, worded
 from grafu.synth.noise.segmentation import (
@@ -84,6 +85,7 @@ class Misfit:
 class ModellingNoise:
     """All that is noisy about one model; the parts named are those of the tidy one.
 
+    `housed` is how deep boards are let into one another (`with_boards_let_in`).
     `factors` scale along the axes (a negative x mirrors); `bend` is in metres, `yaw` in radians; `ajar` opens fronts by
     fractions of their range; `masked` is the fraction of parts whose label is lost. `density`, `edge` (metres) and
     `both_sides` say how faces are drawn, `grafu.synth.noise.tessellation`. What is left to chance in applying
@@ -92,6 +94,7 @@ class ModellingNoise:
 
     style: str
     seed: int = 0
+    housed: float = 0.0
     loose_objects: tuple[str, ...] = ()
     joined: tuple[Joined, ...] = ()
     cuts: tuple[PartCut, ...] = ()
@@ -120,6 +123,7 @@ def apply_noise(tidy: Asset, noise: ModellingNoise) -> tuple[Asset, tuple[Defect
     asset = tidy
     for kind in noise.loose_objects:
         asset = with_loose_objects(asset, kind, rng)
+    asset = with_boards_let_in(asset, noise.housed) if noise.housed else asset
     asset = _recut(asset, noise)
     asset = worded(asset, noise.wording)
     defects = []

@@ -13,6 +13,8 @@ import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.synth.noise.cutting import draw_cuts, draw_joined
+from grafu.synth.noise.distortion import draw_yaw
+from grafu.synth.noise.housing import draw_housing
 from grafu.synth.noise.loose_objects import LOOSE_OBJECTS
 from grafu.synth.noise.modelling_noise import Faces, Misfit, ModellingNoise
 from grafu.synth.noise.naming import draw_wording
@@ -139,7 +141,6 @@ GROWN = (0.0003, 0.003)
 SEEN, NEARLY = 0.004, 0.85  # of the largest side: so little is not seen in the whole, and most stay below it
 MISLABELLED = 0.01
 BEND = (0.0005, 0.003)  # metres: what scanning leaves on furniture
-YAWED, TURNED = 0.015, 0.03  # of models: askew by up to four degrees; front mistaken by quarter turns
 SHUFFLED = 0.6  # part order: exporters sort by name, material or not at all
 STRETCHED, WIDELY = 0.6, 0.15  # of models whose proportions are off a little, and by up to a quarter
 MIS_SCALED = 0.35  # of models: normalised data gets its size from an estimate
@@ -173,7 +174,7 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         ajar=_ajar(rng, tidy) if chance(rng, AJAR) else (),
         factors=_factors(rng),
         bend=between(rng, BEND) if chance(rng, style.bend) else 0.0,
-        yaw=_yaw(rng),
+        yaw=draw_yaw(rng),
         wording=draw_wording(rng),
         missing=missing,
         masked=between(rng, LOST[int(rng.choice(4, p=style.masking))]),
@@ -182,6 +183,7 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         density=density,
         edge=min(between(rng, EDGE), WIDEST_EDGE * tidy.extent),
         both_sides=chance(rng, FINE_BOTH_SIDES if density == "finely rounded" else BOTH_SIDES),
+        housed=draw_housing(rng),
     )
 
 
@@ -292,9 +294,3 @@ def _factors(rng: np.random.Generator) -> tuple[float, float, float]:
         factors *= float(np.exp(np.clip(rng.normal(0.0, 0.22), -0.45, 0.45)))
     factors[0] *= -1.0 if chance(rng, 0.5) else 1.0
     return float(factors[0]), float(factors[1]), float(factors[2])
-
-
-def _yaw(rng: np.random.Generator) -> float:
-    if chance(rng, TURNED):
-        return float(np.pi / 2) * count(rng, 1, 3)
-    return float(np.radians(between(rng, (-4.0, 4.0)))) if chance(rng, YAWED) else 0.0
