@@ -18,7 +18,18 @@ A part that cannot be realized is not an exception: it is an outcome with a reas
 Messages are one line: what was given, what was expected, how to fix it.
 """
 
+from collections.abc import Iterable
+
 _LONGEST = 2000  # characters of a message
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """Returns `; did you mean X?` with the known word that looks most like the given one; empty where none does."""
+    from difflib import get_close_matches  # late: only where something is wrong
+
+    by_case = {one.casefold(): one for one in known}
+    near = get_close_matches(word[:100].casefold(), by_case, 1)
+    return f"; did you mean `{by_case[near[0]]}`?" if near else ""
 
 
 class FunctionalizationError(Exception):

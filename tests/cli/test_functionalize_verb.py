@@ -124,8 +124,17 @@ def test_without_an_annotation_nothing_moves_and_the_report_says_so(tmp_path: Pa
     assert {skip.request: skip.reason for skip in report.skipped} == {"door": "no motion", "drawer": "no motion"}
 
 
-def test_two_inputs_of_one_name_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_inputs_of_one_name_get_the_names_of_their_folders(tmp_path: Path) -> None:
     inputs = [str(write_cabinet(tmp_path / folder)) for folder in ("a", "b")]
+    out = tmp_path / "out"
+    assert main(["functionalize", *inputs, "--out", str(out), "--no-page", "--formats", "urdf"]) == 0
+    assert sorted(path.name for path in out.iterdir()) == ["a", "b"]
+
+
+def test_inputs_of_one_name_in_folders_of_one_name_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    inputs = [str(write_cabinet(tmp_path / folder / "same")) for folder in ("a", "b")]
 
     assert main(["functionalize", *inputs, "--out", str(tmp_path / "out")]) == 2
     assert "different names" in capsys.readouterr().err

@@ -1,11 +1,33 @@
 import pytest
 
-from grafu.cli.main import main
+from grafu.cli.main import build_parser, main
 from grafu.export.files import write_files
 from grafu.export.particulate import export_particulate
 from grafu.synth.truth.clashes import articulated_of
 from predictions import cabinet
 from small_assets import write_glb
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [
+        ("0.72", 0.72),
+        ("72cm", 0.72),
+        ("720 mm", 0.72),
+        ("1e-1M", 0.1),
+        ("10in", 0.254),
+        ("-2ft", -0.6096),
+    ],
+)
+def test_a_height_may_have_a_unit(text, metres):
+    assert build_parser().parse_args(["inspect", "a.glb", f"--height={text}"]).height == pytest.approx(metres)
+
+
+@pytest.mark.parametrize("text", ["72 furlongs", "cm", "", "7 2cm", "0.7e"])
+def test_what_is_no_length_is_refused(text, capsys):
+    with pytest.raises(SystemExit):
+        build_parser().parse_args(["inspect", "a.glb", f"--height={text}"])
+    assert "one with a unit of mm, cm, m, in, ft: got" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("verb", ["inspect", "functionalize"])

@@ -9,6 +9,8 @@ from grafu.cli.input_options import join_directions
 from grafu.cli.main import build_parser, main
 from grafu.version import __version__
 
+VERBS = ("functionalize", "inspect", "show", "templates", "doctor", "synth", "train", "ablate", "evaluate")
+
 
 def test_version(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
@@ -17,7 +19,7 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out == f"grafu {__version__}\n"
 
 
-@pytest.mark.parametrize("verb", ["functionalize", "inspect", "templates", "synth", "train", "ablate", "evaluate"])
+@pytest.mark.parametrize("verb", VERBS)
 def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main([verb, "--help"])
@@ -29,7 +31,6 @@ def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.Ca
 @pytest.mark.parametrize(
     "arguments",
     [
-        [],
         ["fly"],
         ["functionalize", "a.glb"],
         ["functionalize", "--out", "x"],
@@ -51,11 +52,45 @@ def test_every_verb_explains_itself_with_an_example(verb: str, capsys: pytest.Ca
         ["ablate", "losses", "--out", "x", "--steps", "0"],
     ],
 )
-def test_wrong_arguments_exit_with_2(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_arguments_are_one_line(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as end:
         main(arguments)
     assert end.value.code == 2
-    assert "usage: grafu" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert said.startswith("grafu")
+    assert "usage" not in said
+
+
+def test_the_bare_command_shows_its_help(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 0
+    said = capsys.readouterr().out
+    assert all(f"  {verb} " in said or f"  {verb}\n" in said for verb in VERBS)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "near"),
+    [
+        (["functionlize", "a.glb"], "`functionalize`"),
+        (["functionalize", "a.glb", "--out", "x", "--formatz", "glb"], "`--formats`"),
+        (["inspect", "a.glb", "--labels=nome"], "`none`"),
+        (["inspect", "a.glb", "--hieght=0.7"], "`--height`"),
+        (["train", "--out", "x", "--config", "tiney"], "`tiny`"),
+    ],
+)
+def test_what_looks_alike_is_offered(arguments: list[str], near: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+    assert f"did you mean {near}?" in capsys.readouterr().err
+
+
+def test_what_looks_like_nothing_gets_no_offer(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["inspect", "a.glb", "--\x1b[31mzzzz"])
+    said = capsys.readouterr().err
+    assert "did you mean" not in said
+    assert "\x1b" not in said
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.errors import AssetError
-from grafu.export.output_names import MOST_BYTES, file_safe, output_name, same_place, why_not_apart
+from grafu.export.output_names import MOST_BYTES, file_safe, output_name, same_place, told_apart, why_not_apart
 from grafu.export.whole_file import hidden_name
 from grafu.visible import visible
 
@@ -163,3 +163,19 @@ def test_every_name_of_a_file_within_results_is_one_on_every_system(name: str) -
 def test_long_names_within_results_stay_apart() -> None:
     assert file_safe("x" * 300 + "a") != file_safe("x" * 300 + "b")
     assert file_safe("console") == "console"
+
+
+@pytest.mark.parametrize(
+    ("paths", "names"),
+    [
+        (["d1/model.glb", "d2/model.glb", "e/other.glb"], ("d1", "d2", "other")),
+        (["x/d/model.glb", "y/d/model.glb"], ("model", "model")),  # their folders are called alike, too
+        (["d1/model.glb", "d2/MODEL.obj"], ("d1", "d2")),
+        (["d1/model.glb", "d2/model.glb", "e/d1.glb"], ("model", "model", "d1")),  # a folder has another's name
+        (["con/model.glb", "d2/model.glb"], ("model", "model")),  # no folder may be called so
+        ([], ()),
+    ],
+)
+def test_names_that_are_shared_give_way_to_folders(paths: list[str], names: tuple[str, ...]) -> None:
+    given = [Path(path) for path in paths]
+    assert told_apart(given, [output_name(path) for path in given]) == names

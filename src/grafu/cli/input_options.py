@@ -4,6 +4,7 @@ The option `--limit NAME=NUMBER`: how large an input may be.
 """
 
 import argparse
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -75,7 +76,10 @@ def add_input_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--front", metavar="AXIS", help="the input's axis that points out of the front, say -Y")
     group.add_argument("--scale", type=_number, metavar="S", help="metres per unit of the input, say 0.01")
     group.add_argument(
-        "--height", type=_number, metavar="M", help="the real height in metres, say 0.72 (wins over --scale)"
+        "--height",
+        type=_length,
+        metavar="M",
+        help="the real height in metres, or with its unit: 0.72, 72cm, 720mm, 28.3in, 2.4ft (wins over --scale)",
     )
 
 
@@ -118,6 +122,20 @@ def _number(text: str) -> float:
         return float(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f"must be a number: got {text!r}") from None
+
+
+_METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+
+
+def _length(text: str) -> float:
+    """Returns a length in metres: a number of metres, or one with a unit behind it."""
+    parts = re.fullmatch(r"\s*([-+0-9.e]+|[-+]?nan|[-+]?inf)\s*([a-z]*)\s*", text, re.I)
+    unit = parts[2].lower() or "m" if parts else ""
+    try:
+        return float(parts[1] if parts else "") * _METRES[unit]
+    except (KeyError, ValueError):
+        units = ", ".join(_METRES)
+        raise argparse.ArgumentTypeError(f"must be a number, or one with a unit of {units}: got {text!r}") from None
 
 
 def positive_count(text: str) -> int:

@@ -15,7 +15,7 @@ from grafu.cli.limit_options import too_large
 from grafu.cli.verb import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
 from grafu.export.formats import DEFAULT_FORMATS
-from grafu.export.output_names import output_name, same_place, why_not_apart, with_ending
+from grafu.export.output_names import output_name, same_place, told_apart, why_not_apart, with_ending
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import ProcessLimits
 
@@ -275,7 +275,8 @@ def jobs_of(inputs: Sequence[Path], shared: JobOptions) -> tuple[list[Job], list
             jobs.append(Job(path, output_name(path), shared))
         except AssetError as error:
             refused.append(Failed(Job(path, path.name, shared), one_line(str(error)), users_fault=True))
-    kept, more = with_places_apart(jobs, inputs)
+    names = told_apart([job.input for job in jobs], [job.name for job in jobs])
+    kept, more = with_places_apart([replace(j, name=n) for j, n in zip(jobs, names, strict=True)], inputs)
     return kept, refused + more
 
 
@@ -291,8 +292,8 @@ def with_places_apart(jobs: Sequence[Job], inputs: Sequence[Path]) -> tuple[list
     for alike in named.values():
         if len(alike) > 1:
             raise AssetError(
-                f"inputs must have different names, for results go to DIR/<name>: got {alike[0].input} and "
-                f"{alike[1].input}; give their folders where these differ, or run them into different --out"
+                f"inputs, or their folders, must have different names, for results go to DIR/<name>: got "
+                f"{alike[0].input} and {alike[1].input}; run them into different --out"
             )
     judged = [(job, why_not_apart(job.folder, inputs)) for job in jobs]
     refused = [Failed(job, why, users_fault=True) for job, why in judged if why]

@@ -5,14 +5,16 @@ one line on stderr and exit code 2, never in a traceback.
 """
 
 import argparse
+import re
 import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn, final
 
-from grafu.cli import ablate, evaluate, functionalize, inspect, synth, templates, train
+from grafu.cli import ablate, doctor, evaluate, functionalize, inspect, show, synth, templates, train
 from grafu.cli.input_options import join_directions
 from grafu.cli.pool import run_supervised
-from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb
+from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, one_line, prepare_verb
+from grafu.errors import did_you_mean
 from grafu.processes.lifetime import end_requests_heard, keep_private
 from grafu.version import __version__
 from grafu.visible import visible
@@ -21,6 +23,8 @@ _EPILOG = """\
 examples:
   grafu functionalize cabinet.glb --out results
   grafu inspect cabinet.glb
+  grafu show results
+  grafu doctor
   grafu templates --out gallery
   grafu synth --count 10000 --out data
   grafu train --out runs/base
@@ -38,7 +42,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     `arguments` are those of the process (None), or given by a caller, without the program's name: then a single model
     stays in the caller's process, where nothing can stop it, while of several each has a process and limits.
     """
-    options = build_parser().parse_args(join_directions(sys.argv[1:] if arguments is None else arguments))
+    words = join_directions(sys.argv[1:] if arguments is None else arguments)
+    parser = build_parser()
+    if not words:
+        parser.print_help()
+        return 0
+    options = _parsed(parser, words)
     keep_private()
     with end_requests_heard() as requests:
         code = exit_code(options, _supervised_or_here if arguments is None else _here)
@@ -56,16 +65,36 @@ def _here(options: argparse.Namespace) -> int:
     return int(options.run(options))
 
 
+_CHOICE = re.compile(r"invalid choice: '(?P<given>.*)' \(choose from (?P<known>.*)\)", re.S)
+
+
 @final
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong with the arguments with nothing in them that steers a terminal."""
+    """States what is wrong with the arguments in one line, with nothing in it that steers a terminal."""
 
     def error(self, message: str) -> NoReturn:
-        """Prints the usage and the message, and ends with exit code 2."""
-        super().error(visible(message))
+        """Prints the message and where all options are listed, and ends with exit code 2."""
+        wrong = _CHOICE.search(message)
+        near = did_you_mean(wrong["given"], wrong["known"].replace("'", "").split(", ")) if wrong else ""
+        self.exit(2, f"{self.prog}: {visible(one_line(message))}{near or f' (`{self.prog} --help` lists all)'}\n")
+
+    def refuse(self, unknown: Sequence[str]) -> NoReturn:
+        """Ends as `error`, because of arguments that no option and no input takes."""
+        option = next((word for word in unknown if word.startswith("-")), unknown[0])
+        near = did_you_mean(option.partition("=")[0], self._option_string_actions)
+        self.error(f"unknown argument: {option}{near}")
 
 
-def build_parser() -> argparse.ArgumentParser:
+def _parsed(parser: "_Parser", words: Sequence[str]) -> argparse.Namespace:
+    """Returns the options; what none takes is refused by the parser of the verb, which knows its options."""
+    options, unknown = parser.parse_known_args(words)
+    verb: _Parser = vars(options).pop("parser")
+    if unknown:
+        verb.refuse(unknown)
+    return options
+
+
+def build_parser() -> _Parser:
     """Returns the parser of all verbs."""
     parser = _Parser(
         prog="grafu",
@@ -75,9 +104,10 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"grafu {__version__}")
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
-    for verb in (functionalize, inspect, templates, synth, train, ablate, evaluate):
+    for verb in (functionalize, inspect, show, templates, doctor, synth, train, ablate, evaluate):
         subparser = verb.add_parser(verbs)
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter
+        subparser.set_defaults(parser=subparser)
         subparser.add_argument("--debug", action="store_true", help="print the traceback of an internal error")
     return parser
 

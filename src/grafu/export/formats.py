@@ -9,7 +9,7 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias, final
 
-from grafu.errors import ExportError
+from grafu.errors import ExportError, did_you_mean
 from grafu.geometry.budget import has_time
 from grafu.processes.limits import give_back_unused
 
@@ -121,7 +121,7 @@ def exporter_for(name: str) -> Exporter:
         ExportError: if the format is not in the table, or what it needs is not installed.
     """
     if name.lower() not in FORMATS:
-        raise ExportError(f"unknown format `{name}`: known formats are {known_formats()}")
+        raise ExportError(f"unknown format `{name}`: known formats are {known_formats()}{did_you_mean(name, FORMATS)}")
     found = FORMATS[name.lower()]
     if found.requirement:
         _found(found.requirement)()

@@ -8,7 +8,8 @@ Results and inputs stay apart, too: a folder that is replaced as a whole never i
 import os
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
 from hashlib import blake2b
 from pathlib import Path
 from typing import Final
@@ -76,6 +77,25 @@ def output_name(path: Path) -> str:
             f"the results of `{visible(str(path))}` would go to `{visible(name)}`, {why}: rename the input"
         )
     return _mended(name)
+
+
+def told_apart(paths: Sequence[Path], names: Sequence[str]) -> tuple[str, ...]:
+    """Returns the names of inputs' results: what several share gives way to the names of the folders that hold them.
+
+    Where these folders have one name, too, or the name of another input, nothing is changed.
+    """
+    alike: dict[str, list[int]] = defaultdict(list)
+    for k, name in enumerate(names):
+        alike[same_place(name)].append(k)
+    found = list(names)
+    for places in (p for p in alike.values() if len(p) > 1):
+        folders = [Path(os.path.realpath(paths[k])).parent for k in places]
+        fresh = {same_place(folder.name) for folder in folders}
+        if len(fresh) < len(places) or fresh & alike.keys() or any(_why_refused(folder.name) for folder in folders):
+            continue
+        for k, folder in zip(places, folders, strict=True):
+            found[k] = _mended(folder.name)
+    return tuple(found)
 
 
 def with_ending(name: str, ending: str) -> str:

@@ -10,7 +10,7 @@ from grafu.additions.grip.config import GripConfig, GripKind
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.interior.request import InteriorRequest, parse_interior
 from grafu.additions.top.config import TopConfig
-from grafu.errors import OptionError
+from grafu.errors import OptionError, did_you_mean
 
 TOP_SHAPES = ("rectangle", "rounded", "chamfered")
 GRIPS = ("grip", "groove", "edge", "hole")
@@ -67,7 +67,9 @@ def _top(wanted: bool | str, before: TopConfig | None) -> TopConfig | None:
     if wanted is True:
         return top
     if wanted not in TOP_SHAPES:
-        raise OptionError(f"`top` must be one of {', '.join(TOP_SHAPES)}: got {wanted!r}")
+        raise OptionError(
+            f"`top` must be one of {', '.join(TOP_SHAPES)}: got {wanted!r}{did_you_mean(wanted, TOP_SHAPES)}"
+        )
     return replace(top, shape=wanted)  # type: ignore[arg-type]  # it is one of them
 
 
@@ -82,6 +84,7 @@ def _with_handles(config: AdditionConfig, wanted: bool | str, known: Collection[
         kind = GripConfig() if wanted == "grip" else GripConfig(GripKind(wanted))
         return replace(config, handles=None, grips=kind)
     if wanted not in known:
-        raise OptionError(f"`handle` must be one of {', '.join((*known, *GRIPS))}: got {wanted!r}")
+        every = (*known, *GRIPS)
+        raise OptionError(f"`handle` must be one of {', '.join(every)}: got {wanted!r}{did_you_mean(wanted, every)}")
     handles, grips = config.handles or HandleConfig(), config.grips or GripConfig()
     return replace(config, handles=replace(handles, style=wanted), grips=grips)

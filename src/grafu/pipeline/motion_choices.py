@@ -10,7 +10,7 @@ from math import pi
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.completion.handles import attach_handles
-from grafu.errors import GraphError, OptionError
+from grafu.errors import GraphError, OptionError, did_you_mean
 from grafu.geometry.box import Box
 from grafu.graph.annotated import joint_edges
 from grafu.graph.completion import GraphCompletion, decision_of
@@ -69,6 +69,11 @@ def _folded(joint: Joint, made: ArticulatedObject, choices: Motions) -> Iterator
         yield from ((leaf, MotionChoice(Moves.FOLDS, outer.side)) for leaf in (joint.parent, joint.child))
 
 
+def _unknown_parts(asset: Asset, unknown: Sequence[str]) -> str:
+    near = did_you_mean(unknown[0], (part.id for part in asset.parts))
+    return f"{asset.name} has no {', '.join(unknown)}{near or '; `grafu inspect` lists its parts'}"
+
+
 def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:
     """Returns the asset with the user's categories.
 
@@ -77,7 +82,7 @@ def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:
     """
     unknown = sorted(set(labels) - {part.id for part in asset.parts})
     if unknown:
-        raise OptionError(f"categories must be of parts: {asset.name} has no {', '.join(unknown)}")
+        raise OptionError(f"categories must be of parts: {_unknown_parts(asset, unknown)}")
     parts = (replace(p, label=labels[p.id], labelled_by="user") if p.id in labels else p for p in asset.parts)
     return replace(asset, parts=tuple(parts)) if labels else asset
 
@@ -94,7 +99,7 @@ def with_moving(
     """
     known = {part.id for part in asset.parts}
     if unknown := sorted(set(motions) - known):
-        raise OptionError(f"motions must be of parts: {asset.name} has no {', '.join(unknown)}")
+        raise OptionError(f"motions must be of parts: {_unknown_parts(asset, unknown)}")
     if not motions:
         return asset
     return replace(asset, parts=tuple(_moved(p, motions.get(p.id), labels, drawers) for p in asset.parts))

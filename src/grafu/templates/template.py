@@ -25,7 +25,7 @@ from typing import ClassVar, Literal, final
 
 import numpy as np
 
-from grafu.errors import OptionError, TemplateError
+from grafu.errors import OptionError, TemplateError, did_you_mean
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -281,7 +281,9 @@ class Gallery:
             return self
         known = [model.id for model in self.hinges] + [model.id for model in self.concealed]
         if hinge not in known:
-            raise OptionError(f"the preferred hinge must be one of {', '.join(known)}: got {hinge!r}")
+            raise OptionError(
+                f"the preferred hinge must be one of {', '.join(known)}: got {hinge!r}{did_you_mean(hinge, known)}"
+            )
         return replace(self, hinges=tuple(sorted(self.hinges, key=lambda model: model.id != hinge)))
 
     def at_scale(self, metre: float) -> "Gallery":

@@ -6,7 +6,7 @@ import pytest
 from grafu.asset.part import Asset
 from grafu.geometry.touching import touching_pairs
 from grafu.synth.families.table import draw_made
-from grafu.synth.noise.housing import DEEPEST, HOUSED, draw_housing, with_boards_let_in
+from grafu.synth.noise.housing import DEEPEST, HOUSED, draw_housing, with_housed_boards
 from grafu.synth.pieces.riding import busy_in
 
 
@@ -22,7 +22,7 @@ def overlaps(asset: Asset) -> int:
 @pytest.mark.parametrize("index", range(6))
 def test_only_still_boards_grow_and_only_into_what_is_there(index: int) -> None:
     tidy = made(index)
-    noisy, busy = with_boards_let_in(tidy, 0.5), busy_in(tidy)
+    noisy, busy = with_housed_boards(tidy, 0.5), busy_in(tidy)
     whole = [(p.box.low, p.box.high) for p in tidy.parts]
     for before, after in zip(tidy.parts, noisy.parts, strict=True):
         grown = np.maximum(before.box.low - after.box.low, after.box.high - before.box.high)
@@ -41,7 +41,7 @@ def test_only_still_boards_grow_and_only_into_what_is_there(index: int) -> None:
 
 def test_furniture_of_exact_boards_overlaps_afterwards() -> None:
     pieces = [made(index) for index in range(6)]
-    before, after = (sum(map(overlaps, found)) for found in (pieces, [with_boards_let_in(p, 0.5) for p in pieces]))
+    before, after = (sum(map(overlaps, found)) for found in (pieces, [with_housed_boards(p, 0.5) for p in pieces]))
     assert after > 1.5 * before
 
 
@@ -49,7 +49,7 @@ def test_what_touched_still_touches() -> None:
     tidy = made(1)
     meshes = [part.mesh for part in tidy.parts]
     pairs = [(i, j) for i in range(len(meshes)) for j in range(i)]
-    noisy = [part.mesh for part in with_boards_let_in(tidy, 1.0).parts]
+    noisy = [part.mesh for part in with_housed_boards(tidy, 1.0).parts]
     assert set(touching_pairs(meshes, pairs, 1e-4)) <= set(touching_pairs(noisy, pairs, 1e-4))
 
 

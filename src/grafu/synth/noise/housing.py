@@ -32,7 +32,7 @@ def draw_housing(rng: np.random.Generator) -> float:
     return between(rng, RATIO) if chance(rng, HOUSED) else 0.0
 
 
-def with_boards_let_in(asset: Asset, ratio: float) -> Asset:
+def with_housed_boards(asset: Asset, ratio: float) -> Asset:
     """Returns the asset with each still board grown, at ends that abut another, into that by `ratio` of its thickness.
 
     Nothing new is visible: what is grown lies within the other board, leg or bar.

@@ -16,7 +16,7 @@ from grafu.geometry.arrays import vec3
 from grafu.synth.noise import edits
 from grafu.synth.noise.distortion import ajar, bent, stretched
 from grafu.synth.noise.edits import with_anchored_sheets
-from grafu.synth.noise.housing import with_boards_let_in
+from grafu.synth.noise.housing import with_housed_boards
 from grafu.synth.noise.loose_objects import with_loose_objects
 from grafu.synth.noise.naming import MISTAKES, mistaken, with_labels_masked, worded
 from grafu.synth.noise.segmentation import (
@@ -85,7 +85,7 @@ class Misfit:
 class ModellingNoise:
     """All that is noisy about one model; the parts named are those of the tidy one.
 
-    `housed` is how deep boards are let into one another (`with_boards_let_in`).
+    `housed` is how deep boards are let into one another (`with_housed_boards`).
     `factors` scale along the axes (a negative x mirrors); `bend` is in metres, `yaw` in radians; `ajar` opens fronts by
     fractions of their range; `masked` is the fraction of parts whose label is lost. `density`, `edge` (metres) and
     `both_sides` say how faces are drawn, `grafu.synth.noise.tessellation`. What is left to chance in applying
@@ -123,7 +123,7 @@ def apply_noise(tidy: Asset, noise: ModellingNoise) -> tuple[Asset, tuple[Defect
     asset = tidy
     for kind in noise.loose_objects:
         asset = with_loose_objects(asset, kind, rng)
-    asset = with_boards_let_in(asset, noise.housed) if noise.housed else asset
+    asset = with_housed_boards(asset, noise.housed) if noise.housed else asset
     asset = _recut(asset, noise)
     asset = worded(asset, noise.wording)
     defects = []
