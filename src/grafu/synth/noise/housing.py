@@ -28,7 +28,7 @@ BoxRows = Float[np.ndarray, "n 3"]
 
 
 def draw_housing(rng: np.random.Generator) -> float:
-    """Returns how deep the boards of a model are let in, as a fraction of a thickness; 0 for most models."""
+    """Returns how deep the boards of a model run into one another, as a fraction of a thickness; 0 for most models."""
     return between(rng, RATIO) if chance(rng, HOUSED) else 0.0
 
 
