@@ -1,6 +1,6 @@
 """Boards let into what they end at: a rail's end within its leg, a back within the sides, as real models draw them.
 
-A modeller who starts from boxes lets them run into one another: nobody sees the joint. In the development models 0.73
+A modeller who starts from boxes lets them run into one another: the joint is hidden. In the development models 0.73
 pairs of boxes for each part cut into one another, in furniture of exact boards 0.35: legs and side panels, bars and
 bars, backs and bottoms and sides.
 """
