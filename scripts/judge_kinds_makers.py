@@ -114,6 +114,7 @@ KINDS: Mapping[str, Maker] = {
     "two-leaf-window": lambda rng, name: make_window(drawn_window(rng, name, "pair")),
     "lid": _of_families(("chest",), _is_flap),
     "lift-up": _of_families(("wall cabinet",), _is_flap),
+    "lift-parallel": _of_families(("wall cabinet",), lambda _, joint: joint.part == "lift_arms"),
     "drop-front": _of_families(("bureau",), _is_flap),
     "keyboard-tray": _of_families(("desk", "writing desk"), _is_tray),
     "refrigerator": _of_families(("fridge",), lambda _, joint: motion_kind(joint.type).turns),

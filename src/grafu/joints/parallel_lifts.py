@@ -5,10 +5,11 @@ and the flap's joint turns it back by as much as the arms turn, so that it stays
 """
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, VisualRole
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.asset.names import spoken
 from grafu.asset.part import Asset, Part, PartSource
 from grafu.geometry.box import Box
@@ -17,16 +18,19 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.config import RealizationConfig
+from grafu.joints.drawn_lifts import DrawnLift
 from grafu.joints.leaves import Leaf, leaf_of
 from grafu.joints.lift_arm_config import DEFAULT_LIFT_ARM_CONFIG, LiftArmConfig
 from grafu.joints.lift_arms import ArmPlace, Arms, arm_places, arms_of, furthest, walls_beside
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
+from grafu.joints.no_hardware import DRAWN
 from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import LIFT_ARMS, Installed, Outcome, RealizationReport
 from grafu.scene.scene import Obstacle, metre_on
 from grafu.vocabulary import MechanismClass
 
+NONE_DRAWN: Mapping[str, DrawnLift] = MappingProxyType({})
 NO_ARMS = "it turns about its upper edge: lift arms find no room, or would hardly lift it"
 _NEAR = 0.001  # metres: what a plate rests on is nearer
 _ENDS = ("left", "right")
@@ -60,12 +64,32 @@ def with_parallel_lifts(
     flaps: Collection[str],
     config: RealizationConfig,
     arms: LiftArmConfig = DEFAULT_LIFT_ARM_CONFIG,
+    drawn: Mapping[str, DrawnLift] = NONE_DRAWN,
 ) -> Realized:
-    """Returns what was realized with arms instead of hinges on flaps that are to rise upright, where they find room."""
+    """Returns what was realized with arms instead of hinges on flaps that are to rise upright, where they find room.
+
+    Arms that are `drawn` for a flap are tried first.
+    """
     for flap in flaps:
-        if flap in realized.object.joint_of:
-            realized = _with_arms(realized, flap, config, arms)
+        if flap not in realized.object.joint_of:
+            continue
+        on_drawn = _on_drawn(realized, drawn[flap], config) if flap in drawn else None
+        realized = on_drawn or _with_arms(realized, flap, config, arms)
     return realized
+
+
+def _on_drawn(realized: Realized, drawn: DrawnLift, config: RealizationConfig) -> Realized | None:
+    """Returns what was realized with a flap on the arms that are drawn; None where these do not lift it far enough."""
+    made, flap = realized.object, drawn.flap
+    extent = float(Box.enclosing(link.mesh.box for link in made.links if len(link.mesh.faces)).size.max())
+    around = tuple(v for _, v in _around(made, flap))
+    joints = drawn.joints(made, around, at_scale(config, metre_on(extent)))
+    if joints is None:
+        return None
+    lead, follow = joints
+    mount = _nearest_part(made, drawn.visuals[0].mesh, extent)
+    own = tuple(v for v in made.link(flap).visuals if v.role is not VisualRole.HARDWARE)
+    return _lifted(realized, (lead, follow), {flap: own, lead.child: drawn.visuals}, (mount, DRAWN, 0))
 
 
 def _with_arms(realized: Realized, flap: str, config: RealizationConfig, arms_config: LiftArmConfig) -> Realized:
@@ -79,7 +103,7 @@ def _with_arms(realized: Realized, flap: str, config: RealizationConfig, arms_co
     if found is None:
         return _noted(realized, flap)
     place, arms, upper = found
-    return _lifted(realized, place, arms, upper)
+    return _on_built(realized, place, arms, upper)
 
 
 def _noted(realized: Realized, flap: str) -> Realized:
@@ -97,13 +121,7 @@ def _best(
     flap = leaf.part
     joint, own = made.joint_of[flap], made.link(flap)
     body: tuple[TriangleMesh, ...] = tuple(v.mesh for v in own.rigid_visuals if v.role is not VisualRole.HARDWARE)
-    around = [
-        (link.id, v)
-        for link in made.links
-        if link.id != flap
-        for v in link.rigid_visuals
-        if len(v.mesh.faces) and not _is_hinge_of(v.name, flap)
-    ]
+    around = _around(made, flap)
     still = [v.mesh for link, v in around if link == joint.parent]
     walls = walls_beside(leaf, RayCaster(merge_meshes(still)), lift) if still else None
     if walls is None or joint.parent != made.root or joint.coupling is not None:
@@ -121,13 +139,19 @@ def _best(
     return best
 
 
+def _around(made: ArticulatedObject, flap: str) -> list[tuple[str, Visual]]:
+    """Returns all that neither belongs to a flap nor to its hinges, each with its link."""
+    others = ((link.id, v) for link in made.links if link.id != flap for v in link.rigid_visuals)
+    return [(link, v) for link, v in others if len(v.mesh.faces) and not _is_hinge_of(v.name, flap)]
+
+
 def _is_hinge_of(name: str, flap: str) -> bool:
     """Whether a piece of hardware belongs to one of the hinges of a flap, by its name."""
     return re.fullmatch(rf"(hinge|support)_{re.escape(flap)}_\d+_[a-z]+(_[a-z]+)*", name) is not None
 
 
-def _lifted(realized: Realized, place: ArmPlace, arms: Arms, upper: float) -> Realized:
-    """Returns what was realized with the flap on its arms, instead of its hinges."""
+def _on_built(realized: Realized, place: ArmPlace, arms: Arms, upper: float) -> Realized:
+    """Returns what was realized with the flap on arms that are built, instead of its hinges."""
     made, flap = realized.object, place.leaf.part
     before, name = made.joint_of[flap], f"{flap}_arms"
     lead = Joint(
@@ -136,34 +160,52 @@ def _lifted(realized: Realized, place: ArmPlace, arms: Arms, upper: float) -> Re
     axis = place.axis(place.on_flap).reversed()
     follow = replace(before, parent=name, axis=axis, limits=JointLimits(0.0, upper), slip=None).following(lead)
     own = [v for v in made.link(flap).visuals if v.role is not VisualRole.HARDWARE]
+    root = [v for v in made.link(made.root).visuals if not _is_hinge_of(v.name, flap)]
+    links = {
+        flap: (*own, *arms.dynamic),
+        made.root: (*root, *arms.static, *arms.swinging),
+        name: arms.moving,
+    }
+    mount = _nearest_part(made, arms.static[0].mesh, _NEAR)
+    return _lifted(realized, (lead, follow), links, (mount, LIFT_ARMS, len(_ENDS)))
+
+
+def _lifted(
+    realized: Realized,
+    joints: tuple[Joint, Joint],
+    changed: Mapping[str, tuple[Visual, ...]],
+    hardware: tuple[str, str, int],
+) -> Realized:
+    """Returns what was realized with a flap on its arms; `changed` is what the links hold that are new or change.
+
+    `hardware` is the mount, the template and the count that the report states.
+    """
+    made, (lead, follow) = realized.object, joints
     links = []
     for link in made.links:
-        left = tuple(v for v in link.visuals if not _is_hinge_of(v.name, flap))
-        if link.id == flap:
-            links.append(Link(flap, (*own, *arms.dynamic)))
-        elif link.id == made.root:
-            links.append(Link(link.id, (*left, *arms.static, *arms.swinging)))
-        else:
-            links.append(link)
+        visuals = changed.get(link.id, link.visuals)
+        links.append(Link(link.id, tuple(v for v in visuals if not _is_hinge_of(v.name, follow.child))))
     others = (
-        replace(j, after=tuple(lead.id if a == before.id else a for a in j.after))
+        replace(j, after=tuple(lead.id if a == follow.id else a for a in j.after))
         for j in made.joints
-        if j.id != before.id
+        if j.id != follow.id
     )
-    changed = replace(made, links=(*links, Link(name, arms.moving)), joints=(*others, lead, follow))
-    return replace(realized, object=changed, report=_reported(realized, lead, follow, _mount(made, arms)))
+    arms = Link(lead.child, changed[lead.child])
+    turning = replace(made, links=(*links, arms), joints=(*others, lead, follow))
+    return replace(realized, object=turning, report=_reported(realized, lead, follow, hardware))
 
 
-def _mount(made: ArticulatedObject, arms: Arms) -> str:
-    """Returns the part of the case that a plate rests on; the root where none does."""
-    plate = MeshCollider(arms.static[0].mesh)
+def _nearest_part(made: ArticulatedObject, mesh: TriangleMesh, near: float) -> str:
+    """Returns the part of the case that something is nearest to, within a distance, metres; the root where none is."""
+    body = MeshCollider(mesh)
     parts = (v for v in made.link(made.root).visuals if v.role is not VisualRole.HARDWARE and len(v.mesh.faces))
-    near = {v.name: MeshCollider(v.mesh).distance(plate) for v in parts if v.mesh.box.overlaps(plate.box, _NEAR)}
-    return min(near, key=lambda name: near[name], default=made.root)
+    found = {v.name: MeshCollider(v.mesh).distance(body) for v in parts if v.mesh.box.overlaps(mesh.box, near)}
+    return min(found, key=lambda name: found[name], default=made.root)
 
 
-def _reported(realized: Realized, lead: Joint, follow: Joint, mount: str) -> RealizationReport:
+def _reported(realized: Realized, lead: Joint, follow: Joint, hardware: tuple[str, str, int]) -> RealizationReport:
     """Returns the report with the arms' joint, and the flap's as it is on them."""
+    mount, template, count = hardware
     outcomes: list[Outcome] = []
     for outcome in realized.report.outcomes:
         if not (isinstance(outcome, Installed) and outcome.moving == follow.child):
@@ -173,8 +215,8 @@ def _reported(realized: Realized, lead: Joint, follow: Joint, mount: str) -> Rea
             outcome,
             mount=mount,
             mechanism=MechanismClass.NONE,
-            template=LIFT_ARMS,
-            count=len(_ENDS),
+            template=template,
+            count=count,
             restricted=False,
             collision_share=0.0,
             largest_gap=0.0,

@@ -190,11 +190,36 @@ class JointRequest:
 
 @final
 @dataclass(frozen=True)
+class DrawnArms:
+    """Parts of the input that lift the `flap` or hold it open, arms or stays: they move as it does, and block nothing.
+
+    Arms that lift it upright turn about `on_case` and carry it at `on_flap` (object frame, positive opens; None: they
+    do not), by up to `upper` radians.
+    """
+
+    flap: str
+    parts: tuple[str, ...]
+    on_case: Axis | None = None
+    on_flap: Axis | None = None
+    upper: float = 0.0
+
+
+@final
+@dataclass(frozen=True)
 class RealizationPlan:
-    """Everything to build on one asset; `refused` are the movable parts for which no joint is requested."""
+    """Everything to build on one asset; `refused` are the movable parts for which no joint is requested.
+
+    The parts of `arms` are of the mechanisms of lids and flaps, and are left out while these are built.
+    """
 
     joints: tuple[JointRequest, ...] = ()
     refused: tuple[Refusal, ...] = ()
+    arms: tuple[DrawnArms, ...] = ()
+
+    @property
+    def left_out(self) -> frozenset[str]:
+        """The parts of the input that are no obstacles: drawn arms and stays."""
+        return frozenset(part for drawn in self.arms for part in drawn.parts)
 
     def with_attached(self, pairs: Iterable[tuple[str, str]]) -> "RealizationPlan":
         """Returns the plan in which more parts move with moving parts: of each pair the moving part, then the other."""

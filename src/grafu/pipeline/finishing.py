@@ -1,4 +1,4 @@
-"""What is done to the built object last: joints of small parts, lift arms, stays. It decides nothing else."""
+"""What joints are built on, and what is done to the object last: small parts, lift arms, stays."""
 
 from dataclasses import replace
 from functools import partial
@@ -11,6 +11,15 @@ from grafu.joints.realize import Realized
 from grafu.pipeline.additions import fitted_object
 from grafu.pipeline.shown_by_shape import WantedSmallParts
 from grafu.pipeline.stages import Stages
+
+
+def to_build(asset: Asset, body: StepResult, plan: RealizationPlan) -> Asset:
+    """Returns the asset with what was added before joints, without the drawn arms and stays that a plan leaves out."""
+    parts, gone = tuple(body.scene.parts.values()), plan.left_out
+    if not gone:  # as in most runs
+        return replace(asset, parts=parts)
+    loose = (replace(p, carried_by=None) if p.carried_by in gone else p for p in parts if p.id not in gone)
+    return replace(asset, parts=tuple(loose), joints=(), small_joints=())
 
 
 def with_small_joints_of(
@@ -32,14 +41,31 @@ def with_small_joints_of(
     )
 
 
-def with_lifts_of(realized: Realized, plan: RealizationPlan, joints: RealizationConfig, stages: Stages) -> Realized:
+def with_lifts_of(
+    realized: Realized, plan: RealizationPlan, asset: Asset, joints: RealizationConfig, stages: Stages
+) -> Realized:
     """Returns what was realized with arms on the flaps of a plan that they lift upright, where there is room."""
     flaps = [request.moving for request in plan.joints if request.role is MotionRole.LIFTED]
     if not flaps:  # as in most runs
         return realized
+    from grafu.joints.drawn_lifts import drawn_lifts
     from grafu.joints.parallel_lifts import with_parallel_lifts
 
-    return stages.timed("lift arms", partial(with_parallel_lifts, realized, flaps, joints), lambda _: realized)
+    build = partial(with_parallel_lifts, realized, flaps, joints, drawn=drawn_lifts(plan, asset))
+    return stages.timed("lift arms", build, lambda _: realized)
+
+
+def with_drawn_arms_of(
+    realized: Realized, fittings: StepResult, plan: RealizationPlan, asset: Asset, joints: RealizationConfig
+) -> tuple[Realized, StepResult]:
+    """Returns what was realized with drawn arms and stays in place, and those that were replaced among the removed."""
+    if not plan.arms:  # as in most runs
+        return realized, fittings
+    from grafu.joints.drawn_lifts import with_drawn_left
+
+    realized, gone = with_drawn_left(realized, plan, asset, joints)
+    changes = replace(fittings.changes, removed=fittings.changes.removed | gone)
+    return realized, replace(fittings, changes=changes)
 
 
 def with_stays_of(realized: Realized, joints: RealizationConfig, stages: Stages) -> Realized:

@@ -31,7 +31,7 @@ from grafu.joints.windows import with_window_labels
 from grafu.pipeline.additions import add_after_joints, add_before_joints, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
-from grafu.pipeline.finishing import with_lifts_of, with_small_joints_of, with_stays_of
+from grafu.pipeline.finishing import to_build, with_drawn_arms_of, with_lifts_of, with_small_joints_of, with_stays_of
 from grafu.pipeline.mechanisms import with_mechanisms
 from grafu.pipeline.motion_choices import corrected, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
@@ -210,7 +210,7 @@ def functionalize(
     plan = stages.timed("close", close, lambda _: plan)
     add = partial(cache.value, "body", add_before_joints, asset, completion, plan, settings.additions.of_body, drawers)
     body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
-    plan, grown = plan.with_attached(body.attached), replace(asset, parts=tuple(body.scene.parts.values()))
+    plan, grown = plan.with_attached(body.attached), to_build(asset, body, plan)
     build = partial(realize, plan, grown, gallery.preferring(settings.hinge), joints, cache)
     realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
@@ -219,8 +219,9 @@ def functionalize(
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     small = small_parts_wanted(asset, motion.reads_annotation, settings.small_parts, turning)
     realized = with_small_joints_of(realized, fittings, asset, joints, stages, small)
-    realized = with_lifts_of(realized, plan, joints, stages)
+    realized = with_lifts_of(realized, plan, asset, joints, stages)
     realized = with_stays_of(realized, joints, stages) if settings.stays else realized
+    realized, fittings = with_drawn_arms_of(realized, fittings, plan, asset, joints)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from grafu.asset.part import Asset
 from grafu.graph.completion import GraphCompletion
 from grafu.joints.config import RealizationConfig
+from grafu.joints.drawn_arms import with_drawn_arms
 from grafu.joints.drop_supports import with_stated_supports
 from grafu.joints.extension_leaves import with_extension_leaves
 from grafu.joints.folding import Fold, with_folds
@@ -31,7 +32,7 @@ def with_mechanisms(
     plan = with_folds(plan_with_motions(plan, motions, completion, asset), folds, joints.fold)
     plan = with_tilts(plan, asset, completion.completed, _stated(motions, Moves.TILTS))
     plan = with_stated_supports(with_extension_leaves(plan, asset), asset)
-    return with_lifted(plan, _stated(motions, Moves.LIFTS))
+    return with_drawn_arms(with_lifted(plan, _stated(motions, Moves.LIFTS)), asset)
 
 
 def _stated(motions: Mapping[str, MotionChoice], moves: Moves) -> frozenset[str]:

@@ -16,7 +16,7 @@ from grafu.synth.cabinets.folding import FoldingCorner
 from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.fronts.gliding import Folding, PullOut, WasteBins
+from grafu.synth.fronts.gliding import Folding, Lift, PullOut, WasteBins
 from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack
 from grafu.synth.sampling.carpentry import FREE, PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
@@ -70,7 +70,7 @@ ON_WALL = PieceSite(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
 SLIM, PULL_OUTS, PANTRIES = (0.15, 0.4), 0.25, 0.25
 LEAST_BINS, WASTE = 0.3, 0.045  # metres
 FOLDING_CORNERS, POST = 0.3, 0.004  # of L-shaped corner units; metres that the post is wider than its leaves are thick
-FOLD_UPS = 0.06  # of wall units with a flap: two leaves that fold up
+FLAPS = {"turns": 0.88, "folds": 0.06, "lifts": 0.06}  # of wall units with a flap: how it goes up
 BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
 
@@ -111,7 +111,7 @@ def _waste(rng: np.random.Generator, style: MakerStyle, width: float) -> Layout:
 
 
 def wall_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a wall unit: doors; a flap that lifts, or folds, up on four in five that are wide and low."""
+    """Returns a wall unit: doors; a flap that turns, folds or is lifted up on four in five that are wide and low."""
     style = chunky(rng, draw_style(rng, KITCHEN), 0.06)
     bridge = chance(rng, BRIDGES)
     size = draw_size(rng, (0.6, 1.25) if bridge else (0.2, 1.0), (0.28, 0.38), (0.28, 0.42) if bridge else (0.3, 0.95))
@@ -124,13 +124,21 @@ def wall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
     """Returns the fronts of a wall unit of this size."""
     width, _, height = size
     if width > 1.5 * height and chance(rng, 0.8):
-        return Folding("top") if chance(rng, FOLD_UPS) else Door("top")
+        return _flap(rng)
     if height > 0.6 and width > 0.5 and chance(rng, 0.08):
         return Stack((Door("top"), Door("top")), between=style.between)
     doors = doors_across(rng, width)
     if height > 0.6 and chance(rng, 0.08):
         return Stack((OpenCell(), doors), (1.0, between(rng, (1.5, 3.0))))
     return doors
+
+
+def _flap(rng: np.random.Generator) -> Layout:
+    """Returns a front that goes up: it turns, two leaves of it fold, or arms lift it."""
+    kind = pick(rng, FLAPS)
+    if kind == "turns":
+        return Door("top")
+    return Folding("top") if kind == "folds" else Lift()
 
 
 def tall_cabinet(rng: np.random.Generator) -> Cabinet:

@@ -11,7 +11,7 @@ from math import pi
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.synth.fronts.drawer_box import drawer_box, tray_level, tray_meshes
-from grafu.synth.fronts.gliding import Folding, PullOut, Sliding, WasteBins
+from grafu.synth.fronts.gliding import Folding, Lift, PullOut, Sliding, WasteBins
 from grafu.synth.fronts.gliding_front import folding_pieces, sliding_pieces
 from grafu.synth.fronts.handles import gripped_side, handle_pieces, held_along, opposite
 from grafu.synth.fronts.interior import RUNNER, interior_pieces, runner_pieces
@@ -34,6 +34,7 @@ from grafu.synth.fronts.layout import (
 )
 from grafu.synth.fronts.leaf_relief import LeafShape, bend_at_hinge
 from grafu.synth.fronts.leaves import leaf_surfaces
+from grafu.synth.fronts.lift_front import lift_pieces
 from grafu.synth.fronts.pull_out_front import bin_pieces, pull_out_pieces
 from grafu.synth.fronts.setting import Setting, front_rect, inner_span
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, plank
@@ -167,6 +168,7 @@ _MAKERS: dict[type, Callable[[Cell, Setting], Iterator[PieceDraft]]] = {
     OpenCell: _bay_pieces,
     Sliding: sliding_pieces,
     Folding: folding_pieces,
+    Lift: lift_pieces,
     PullOut: pull_out_pieces,
     WasteBins: bin_pieces,
 }

@@ -1,4 +1,4 @@
-"""Fronts that slide, fold or pull out, and bins: what fills an opening, as values. They build no geometry."""
+"""Fronts that slide, fold, rise or pull out, and bins: what fills an opening, as values. They build no geometry."""
 
 from dataclasses import dataclass
 from math import radians
@@ -65,6 +65,36 @@ class Folding:
     def __post_init__(self) -> None:
         if self.side == "bottom" or self.leaf in CURVED:
             raise ValueError(f"`Folding` has flat leaves that fold to a side or up: got {self.leaf}, {self.side}")
+        check_grip(self.grip, self.leaf)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Lift:
+    """A flap that arms beside the walls lift upright, as parallel lifts do: it follows them.
+
+    The arms point `angle` radians below the horizontal at rest, and end no further above it, where they clear the top.
+    They are as long as lifts the flap by up to `rise`, from pivots so far (`start`) above the opening's floor, both as
+    fractions of its height. A `rod` may join them.
+
+    Raises:
+        ValueError: if a leaf is curved, one that is not a slab has a grip, or the arms do not end within the opening.
+    """
+
+    leaf: LeafStyle = "slab"
+    handle: HandleStyle = "bar-round"
+    angle: float = radians(75)
+    rise: float = 0.85
+    start: float = 0.12
+    rod: bool = True
+    hold: Hold = USUAL
+    grip: Grip = "none"
+
+    def __post_init__(self) -> None:
+        if self.leaf in CURVED:
+            raise ValueError(f"`Lift` has a flat leaf: got {self.leaf}")
+        if not (self.start > 0 and self.rise > 0 and self.start + self.rise / 2 < 0.9):
+            raise ValueError(f"the arms of a `Lift` must end within its opening: got {self.start}, {self.rise}")
         check_grip(self.grip, self.leaf)
 
 

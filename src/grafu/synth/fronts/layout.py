@@ -10,7 +10,7 @@ from enum import Enum
 from math import radians
 from typing import Literal, final
 
-from grafu.synth.fronts.gliding import Folding, PullOut, Sliding, WasteBins
+from grafu.synth.fronts.gliding import Folding, Lift, PullOut, Sliding, WasteBins
 from grafu.synth.fronts.hold import EMPTY, USUAL, Grip, HandleStyle, Hold, Inside
 from grafu.synth.fronts.leaf_style import CURVED as CURVED
 from grafu.synth.fronts.leaf_style import LeafStyle as LeafStyle
@@ -160,7 +160,7 @@ class Stack:
         _check_weights("Stack", self.cells, self.weights)
 
 
-Leaf = Door | Pair | Drawer | Tilt | Blank | OpenCell | Sliding | Folding | PullOut | WasteBins
+Leaf = Door | Pair | Drawer | Tilt | Blank | OpenCell | Sliding | Folding | Lift | PullOut | WasteBins
 Layout = Leaf | CellRow | Stack
 
 

@@ -12,10 +12,10 @@ from typing import Literal, final
 
 import numpy as np
 
-from grafu.synth.fronts.gliding import Folding, PullOut, Sliding, WasteBins
+from grafu.synth.fronts.gliding import Folding, Lift, PullOut, Sliding, WasteBins
 from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack, Tilt
 from grafu.synth.sampling.chance import between, chance, pick
-from grafu.synth.sampling.fit_gliding import fit_folding, fit_pull_out, fit_sliding
+from grafu.synth.sampling.fit_gliding import fit_folding, fit_lift, fit_pull_out, fit_sliding
 from grafu.synth.sampling.fittings import fit_bay, fit_blank, fit_door, fit_drawer, fit_pair, fit_tilt
 from grafu.synth.sampling.style import MakerStyle
 
@@ -28,6 +28,7 @@ ROW_HABITS: dict[Habit, float] = {"outer": 0.86, "left": 0.07, "right": 0.07}  #
 LIKE_BELOW = 0.95  # a door above another one hangs on its side
 WALL_SIDE = 0.85  # beside a wall or a tall unit a door hangs there, so that it opens to the room
 SQUARE = pi / 2  # doors that hang beside another front open no further: their handles would strike
+ARMS = 0.35  # of the rise of a lifted flap: its arms have half of it, and do not set off quite straight out
 SMALLEST = 0.03  # metres: a lower or narrower opening has no front
 NEAR = 0.02  # metres: openings whose sides agree to this stand above each other
 
@@ -100,13 +101,18 @@ def needed_gap(layout: Layout, room: Rect, front: float) -> float:
 
     It holds for leaves `front` metres thick that turn about their front edge.
     """
-    swings = (
-        min(cell.width, cell.height) / (2 if isinstance(leaf, Pair | Folding) else 1)
-        for leaf, cell in _leaves(layout, room)
-        if isinstance(leaf, Door | Pair | Tilt | Folding)
-    )
+    swings = (swing for leaf, cell in _leaves(layout, room) if (swing := _swing(leaf, cell)))
     narrow = min(swings, default=1.0)
     return front**2 / (2 * narrow) + 0.0001
+
+
+def _swing(leaf: Layout, cell: Rect) -> float:
+    """Returns how far from its pin a leaf ends, metres; of a lifted flap the arms count. 0: it does not turn."""
+    if isinstance(leaf, Lift):
+        return ARMS * leaf.rise * cell.height
+    if not isinstance(leaf, Door | Pair | Tilt | Folding):
+        return 0.0
+    return min(cell.width, cell.height) / (2 if isinstance(leaf, Pair | Folding) else 1)
 
 
 def _leaves(layout: Layout, room: Rect) -> Iterator[tuple[Layout, Rect]]:
@@ -159,6 +165,8 @@ def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: CellPlace) -> Layou
             return fit_sliding(rng, layout, room, style)
         case Folding():
             return fit_folding(rng, layout, room, style)
+        case Lift():
+            return fit_lift(rng, layout, room, style)
         case PullOut():
             return fit_pull_out(rng, layout, room, style)
         case WasteBins():

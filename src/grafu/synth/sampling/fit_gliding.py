@@ -1,11 +1,12 @@
-"""Fronts that slide, fold or pull out, one at a time in the style of their piece: leaf, handle, hold, grip, shelves."""
+"""Fronts that slide, fold, rise or pull out, one at a time in the style of their piece: leaf, hold, grip, shelves."""
 
 from collections.abc import Mapping
 from dataclasses import replace
+from math import radians
 
 import numpy as np
 
-from grafu.synth.fronts.gliding import Folding, PullOut, Sliding
+from grafu.synth.fronts.gliding import Folding, Lift, PullOut, Sliding
 from grafu.synth.fronts.hold import Grip, HandleStyle, Hold
 from grafu.synth.fronts.layout import LeafStyle, Rect
 from grafu.synth.sampling.chance import Span, between, chance, pick
@@ -26,6 +27,8 @@ CUT_IN = 0.6  # of sliding slabs
 SMALL_HELD: Mapping[HandleStyle, float] = {"knob-round": 0.3, "knob-flat": 0.4, "bar-slim": 0.3}
 TRACKS: Mapping[Span, float] = {(0.0, 0.0): 0.45, (0.003, 0.008): 0.3, (0.012, 0.04): 0.25}  # metres: rails, if drawn
 RUNNERS = 0.3  # of pull-outs: the runner below is drawn
+STEEP: Mapping[bool, Span] = {True: (88.5, 89.5), False: (65.0, 85.0)}  # degrees: arms of inset and overlay flaps
+RODS = 0.6  # of parallel lifts: a rod joins their arms
 
 
 def fit_sliding(rng: np.random.Generator, sliding: Sliding, room: Rect, style: MakerStyle) -> Sliding:
@@ -65,6 +68,24 @@ def fit_folding(rng: np.random.Generator, folding: Folding, room: Rect, style: M
         grip=grip,
         shelves=draw_shelves(rng, folding.shelves, room, False, style),
         inside=draw_inside(rng, folding.inside, leaf, style),
+    )
+
+
+def fit_lift(rng: np.random.Generator, lift: Lift, room: Rect, style: MakerStyle) -> Lift:
+    """Returns the lifted flap with leaf, handle or grip near its lower edge, and its arms."""
+    leaf = _flat(rng, lift.leaf, style, room)
+    grip: Grip = style.grip if leaf == "slab" and style.grip != "lip" else "none"
+    handle = handle_of(lift.handle, style.handle, grip)
+    return replace(
+        lift,
+        leaf=leaf,
+        handle=handle,
+        angle=radians(between(rng, STEEP[style.mount == "inset"])),
+        rise=between(rng, (0.6, 1.0)),
+        start=between(rng, (0.08, 0.2)),
+        rod=chance(rng, RODS),
+        hold=_short(plain_hold(style, handle)),
+        grip=grip,
     )
 
 

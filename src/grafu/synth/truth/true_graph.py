@@ -1,9 +1,10 @@
 """The true functional graph of synthetic furniture: what touches, and what carries each door, drawer and handle.
 
-Contacts are what `parse_graph` finds, as for any input. Motions come from the true joints. The mount of a door, and of
-whatever turns, is the still part nearest to its pin, those of a drawer the nearest ones beside its flanks, that of what
-else slides the nearest one along its lower or upper edge, by distances from real meshes; a part that touches nothing
-has its mount all the same. What rides on a moving part has that part as its mount.
+Contacts are what `parse_graph` finds, as for any input. Motions come from the true joints. The mount of a door is the
+still part nearest to its pin, that of what else turns the one nearest to an end of its axis, those of a drawer the
+nearest ones beside its flanks, that of what else slides the nearest one along its lower or upper edge, by distances
+from real meshes; a part that touches nothing has its mount all the same. What rides on a moving part has that part as
+its mount.
 """
 
 from collections.abc import Sequence
@@ -81,9 +82,10 @@ def _joint_edges(joint: AnnotatedJoint, part: Part, graph: FunctionalGraph, able
         return []
     touching = set(graph.neighbours[part.id])
     if motion_kind(joint.type).turns:
-        mount = _door_mount(joint, part, able, touching)
         if part.label is not PartLabel.DOOR:
-            return [Turn(mount, part.id, direction_to_code(joint.axis.direction), joint.coupling)]
+            bearing = _bearing(joint, part, able, touching)
+            return [Turn(bearing, part.id, direction_to_code(joint.axis.direction), joint.coupling)]
+        mount = _door_mount(joint, part, able, touching)
         return [Hinge(mount, part.id, *axis_to_hinge(part.box, joint.axis), joint.coupling)]
     code = axis_to_rail(joint.axis)
     if part.label is PartLabel.DRAWER:
@@ -115,6 +117,14 @@ def _door_mount(joint: AnnotatedJoint, door: Part, still: list[Part], touching: 
     near = [p for p in still if p.box.gap(door.box) <= HINGE_REACH] or still
     ratios = along.min() + PIN_SAMPLES * np.ptp(along)
     return _best(axis.point + ratios[:, None] * axis.direction, near, touching)[0]
+
+
+def _bearing(joint: AnnotatedJoint, part: Part, able: list[Part], touching: set[str]) -> str:
+    """Returns what holds a part that turns and is no door: what is nearest to one of the two ends of its axis."""
+    axis = joint.axis
+    along = (part.box.corners() - axis.point) @ axis.direction
+    ends = [axis.point + float(end) * axis.direction for end in (along.min(), along.max())]
+    return min((_best(end[None], able, touching) for end in ends), key=lambda found: found[1])[0]
 
 
 def _drawer_mounts(joint: AnnotatedJoint, drawer: Part, still: list[Part], touching: set[str]) -> list[str]:
