@@ -5,7 +5,8 @@ tolerance. Touching counts there, so a door that lies flush on its carcass colli
 definition. With a tolerance a frame counts only where the body cuts deeper than a fraction of the object's largest
 side. docs/metrics.md compares the two.
 
-Does a moving body stay connected: the largest gap between it and the static body over its whole motion.
+Does a moving body stay connected: the largest gap over its whole motion between it and the static body or, where a
+moving one carries it, the nearer of both.
 
 The paper counts a part as connected while its distance to the static parts never exceeds 5 mm in a unit cube. Hardware
 belongs to the body that it is anchored to; a hinge that floats beside its door connects nothing (docs/metrics.md).
@@ -55,9 +56,10 @@ DEFAULT = ConnectivityConfig()
 
 
 def largest_gaps(articulated: ArticulatedObject, config: ConnectivityConfig = DEFAULT) -> dict[str, float]:
-    """Returns for each moving joint the largest distance, metres, of its body from the static body over its motion.
+    """Returns for each moving joint the largest distance, metres, of its body from what carries it over its motion.
 
-    Where one of the two has no faces the gap is infinite.
+    That is the static body; where a moving one carries it, the nearer of both counts. Where it or the static body has
+    no faces the gap is infinite.
     """
     tolerance = config.allowed(articulated)
     static = anchored_mesh(rigid_body(articulated, articulated.root), tolerance)
@@ -68,7 +70,7 @@ def largest_gaps(articulated: ArticulatedObject, config: ConnectivityConfig = DE
 
 
 def connected_joints(articulated: ArticulatedObject, config: ConnectivityConfig = DEFAULT) -> dict[str, bool]:
-    """Returns for each moving joint whether its body stays within the tolerance of the static body."""
+    """Returns for each moving joint whether its body stays within the tolerance of what carries it."""
     allowed = config.allowed(articulated)
     return {joint: gap <= allowed for joint, gap in largest_gaps(articulated, config).items()}
 
@@ -86,10 +88,18 @@ def _largest_gap(
     mesh = anchored_mesh(rigid_body(articulated, joint.child), tolerance)
     if not len(mesh.faces):
         return float("inf")
-    body, largest = MeshCollider(mesh), 0.0
+    body, largest, carrier = MeshCollider(mesh), 0.0, None
+    if joint.parent != articulated.root:
+        on = anchored_mesh(rigid_body(articulated, joint.parent), tolerance)
+        carrier = MeshCollider(on) if len(on.faces) else None
     for frame in rest_to_full(articulated, joint.id, poses):
-        body.place(link_poses(articulated, frame)[joint.child])
-        largest = max(largest, body.distance(static))
+        at = link_poses(articulated, frame)
+        body.place(at[joint.child])
+        gap = body.distance(static)
+        if carrier is not None:
+            carrier.place(at[joint.parent])
+            gap = min(gap, body.distance(carrier))
+        largest = max(largest, gap)
     return largest
 
 
