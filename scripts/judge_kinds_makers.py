@@ -74,6 +74,18 @@ def _of_families(families: tuple[str, ...], wanted: Wanted) -> Maker:
     return make
 
 
+def _drawn(words: str, families: tuple[str, ...]) -> Maker:
+    """Returns a maker that draws pieces of families until the spec, or a part of one, is called so."""
+
+    def make(rng: np.random.Generator, name: str) -> Asset:
+        while True:
+            made, asset = draw_made(rng, families[int(rng.integers(len(families)))])
+            if words in repr(made.spec) or any(part.id == words for part in asset.parts):
+                return replace(asset, name=name)
+
+    return make
+
+
 def _is_flap(_: Asset, joint: AnnotatedJoint) -> bool:
     """Whether a front turns about a level line."""
     return motion_kind(joint.type).turns and abs(float(joint.axis.direction[2])) < LEVEL
@@ -112,6 +124,9 @@ KINDS: Mapping[str, Maker] = {
     "building-door": lambda rng, name: make_building_door(drawn_door(rng, name)),
     "casement": lambda rng, name: make_window(drawn_window(rng, name, "casement")),
     "two-leaf-window": lambda rng, name: make_window(drawn_window(rng, name, "pair")),
+    "pocket-door": _drawn("Sliding(kind='pocket'", ("sideboard", "TV stand", "lowboard")),
+    "shutter": _drawn("Sliding(kind='shutter'", ("wall cabinet", "filing cabinet")),
+    "carousel": _drawn("carousel", ("corner cabinet",)),
     "lid": _of_families(("chest",), _is_flap),
     "lift-up": _of_families(("wall cabinet",), _is_flap),
     "lift-parallel": _of_families(("wall cabinet",), lambda _, joint: joint.part == "lift_arms"),

@@ -24,7 +24,8 @@ from grafu.scene.border import part_axes
 from grafu.vocabulary import JointType, PartLabel
 
 _BUTTONS = frozenset({"button", "buttons", "pushbutton"})
-_TURNTABLES = frozenset({"turntable", "carousel"})
+_CAROUSELS = frozenset({"carousel", "susan"})
+_TURNTABLES = _CAROUSELS | {"turntable"}
 _UP = vec3(0.0, 0.0, 1.0)
 
 
@@ -52,6 +53,11 @@ def round_trays(asset: Asset, names: Collection[str], config: SmallPartConfig = 
     parts = [asset.part(name) for name in names]
     pieces = [Piece("", Visual(part.id, part.surfaces, label=part.label)) for part in parts]
     return frozenset(piece.name for piece in pieces if _turntable(piece, config) is not None)
+
+
+def carousels(asset: Asset) -> frozenset[str]:
+    """Returns the static parts of an asset that are called carousels: they turn whatever else of it does."""
+    return frozenset(p.id for p in asset.parts if p.carried_by is None and _CAROUSELS & set(words(p.source.name)))
 
 
 def small_parts(made: ArticulatedObject, config: SmallPartConfig = SmallPartConfig()) -> tuple[JointRequest, ...]:
@@ -146,10 +152,15 @@ def _turntables(still: Sequence[Piece], config: SmallPartConfig) -> Iterator[Joi
 
 
 def _turntable(piece: Piece, config: SmallPartConfig) -> Round | None:
-    """Returns a piece that is called a tray or a turntable, flat and round about the upright axis; else None."""
-    called = piece.visual.label is PartLabel.DRAWER or _TURNTABLES & set(words(piece.name))
+    """Returns a piece that is called a tray or a turntable, round about the upright axis; else None.
+
+    It is flat, unless it is called a carousel: that may have trays above each other.
+    """
+    names = set(words(piece.name))
+    called = piece.visual.label is PartLabel.DRAWER or _TURNTABLES & names
     table = round_about(piece, 2, config) if called and piece.is_part else None
-    return table if table is not None and table.length <= config.stout * table.diameter else None
+    is_flat = table is not None and table.length <= config.stout * table.diameter
+    return table if is_flat or _CAROUSELS & names else None
 
 
 def _buttons(pieces: Sequence[Piece], every: Sequence[Piece], config: SmallPartConfig) -> Iterator[JointRequest]:

@@ -79,9 +79,17 @@ def _without_turntables(
     return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in turning)), turning
 
 
+def _carousels(asset: Asset) -> frozenset[str]:
+    from grafu.joints.small_parts import carousels  # local: most runs do without the rest of it
+
+    return carousels(asset)
+
+
 def additions_wanted(asset: Asset, wanted: AdditionConfig) -> AdditionConfig:
-    """Returns what is added to an asset: a door or a window of a building has no inside for predicted shelves."""
-    if wanted.interior != PREDICTED or (building_door(asset) is None and window(asset) is None):
+    """Returns what is added to an asset: predicted shelves not in doors and windows, nor through a carousel's trays."""
+    if wanted.interior != PREDICTED:
+        return wanted
+    if building_door(asset) is None and window(asset) is None and not _carousels(asset):
         return wanted
     return replace(wanted, interior=NOTHING)
 
@@ -98,6 +106,6 @@ def small_parts_wanted(
     if asset.small_joints:
         return WantedSmallParts(reads_annotation)
     door = building_door(asset)
-    chosen = turning | swivel_mirrors(asset)
+    chosen = turning | swivel_mirrors(asset) | _carousels(asset)
     chosen |= {part.id for parts in door.on_leaf for part in parts} if door else set()
     return WantedSmallParts(bool(chosen) or any(part.source.link for part in asset.parts), chosen)

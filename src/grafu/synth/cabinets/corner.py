@@ -5,13 +5,14 @@ An angled door is turned about Z by any angle; L-shaped cabinets have a door in 
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import final
 
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.synth.cabinets.carousel import carousel_piece
 from grafu.synth.fronts.front import front_pieces
 from grafu.synth.fronts.layout import Blank, Cell, Door, Edge, Edges, Rect
 from grafu.synth.fronts.setting import Mount, Setting
@@ -21,6 +22,7 @@ from grafu.synth.pieces.shapes import framed_opening, prism
 from grafu.vocabulary import PartLabel
 
 RIGHT_DOOR = Door("right")
+CLEAR = 0.008  # metres between a carousel and what is around it
 
 
 @final
@@ -31,7 +33,8 @@ class InnerCorner:
     It fills the corner of two walls at y = 0 and x = 0. The front of the wing along x faces -Y and holds the `door`;
     the front of the other wing faces +X and holds the `second` door, or a blank board. Both hang at the far ends; a
     post `post` wide in the corner keeps them and their handles clear of each other. The case stands on a toe kick
-    `base` high (0: none), `recess` behind its fronts; its top may be missing.
+    `base` high (0: none), `recess` behind its fronts; its top may be missing. With `trays` a carousel of so many stands
+    in the corner; there are no shelves then.
 
     Raises:
         ValueError: if the wings are no longer than they are deep.
@@ -47,6 +50,7 @@ class InnerCorner:
     door: Door = RIGHT_DOOR
     second: Door | None = None
     shelves: int = 1
+    trays: int = 0
     base: float = 0.1
     recess: float = 0.05
     topped: bool = True
@@ -67,7 +71,16 @@ def make_inner_corner(spec: InnerCorner) -> Asset:
 
 def corner_case(spec: InnerCorner) -> list[PieceDraft]:
     """Returns the pieces of an L-shaped corner cabinet without its fronts."""
-    return [*_walls(spec), *_levels(spec), *_toe_kicks(spec)]
+    return [*_walls(spec), *_levels(spec), *_toe_kicks(spec), *_carousel(spec)]
+
+
+def _carousel(spec: InnerCorner) -> Iterator[PieceDraft]:
+    """Yields the carousel that fills the corner: it clears both backs, and the post in the inner corner."""
+    if spec.trays:
+        room = (sqrt(2) * (spec.depth - 2 * spec.panel) - CLEAR) / (1 + sqrt(2))
+        middle = spec.panel + CLEAR + room
+        floor, high = spec.base + spec.panel, spec.height - (spec.panel if spec.topped else 0.0)
+        yield carousel_piece((middle, -middle), room, (floor, high), spec.trays, spec.finish)
 
 
 def _walls(spec: InnerCorner) -> Iterator[PieceDraft]:
@@ -87,7 +100,7 @@ def _levels(spec: InnerCorner) -> Iterator[PieceDraft]:
     """Yields the L-shaped bottom, shelves and top."""
     t, low, high = spec.panel, spec.base, spec.height
     yield _level(spec, PartLabel.BOTTOM_PANEL, "bottom_panel", low, 0.0)
-    for k in range(spec.shelves):
+    for k in range(0 if spec.trays else spec.shelves):
         z = low + (high - low) * (k + 1) / (spec.shelves + 1) - t / 2
         yield _level(spec, PartLabel.SHELF, "shelf", z, t + 0.005)
     if spec.topped:
@@ -138,7 +151,8 @@ class CornerCabinet:
 
     The front runs between the ends, yawed by atan2(along_y - depth, along_x - depth): 45 degrees where both walls are
     alike. The door hangs in a face frame of width `frame`. The case stands on boards `base` high (0: none), the one
-    below the door `recess` behind the frame; its top may be missing. `height` is that of the whole.
+    below the door `recess` behind the frame; its top may be missing. `height` is that of the whole. With `trays` a
+    carousel of so many stands in it; there are no shelves then.
 
     Raises:
         ValueError: if the ends leave no room for a front.
@@ -158,6 +172,7 @@ class CornerCabinet:
     topped: bool = True
     base: float = 0.0
     recess: float = 0.05
+    trays: int = 0
 
     def __post_init__(self) -> None:
         if self.base < 0 or self.base > self.height / 2:
@@ -181,7 +196,22 @@ def make_corner_cabinet(spec: CornerCabinet) -> Asset:
     """Returns the corner cabinet with its door's true joint."""
     middle = vec3((spec.depth + spec.along_x) / 2, (spec.along_y - spec.depth) / 2, 0.0)
     T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), spec.yaw), middle)
-    return assemble(spec.name, [*_case(spec), *_base(spec), *(piece.transformed(T) for piece in _front(spec))])
+    front = (piece.transformed(T) for piece in _front(spec))
+    return assemble(spec.name, [*_case(spec), *_base(spec), *_trays(spec), *front])
+
+
+def _trays(spec: CornerCabinet) -> Iterator[PieceDraft]:
+    """Yields the carousel that stands before both backs and behind the shelves' front, as wide as has room."""
+    if not spec.trays:
+        return
+    x, y, t = spec.along_x, spec.along_y, spec.panel
+    inwards = -sin(spec.yaw), cos(spec.yaw)
+    middle = (spec.depth + x) / 2, (y - spec.depth) / 2
+    depth = (t + CLEAR - middle[0]) * inwards[0] + (y - t - CLEAR - middle[1]) * inwards[1] - t - SHELF_ROOM - CLEAR
+    radius = min(depth / (1 + inwards[1] - inwards[0]), (min(x, y) - 2 * t) / 2 - CLEAR)
+    at = t + CLEAR + radius, y - t - CLEAR - radius
+    floor, high = spec.base + t, spec.height - (t if spec.topped else 0.0)
+    yield carousel_piece(at, radius, (floor, high), spec.trays, spec.finish)
 
 
 def _front(spec: CornerCabinet) -> Iterator[PieceDraft]:
@@ -214,9 +244,10 @@ def _case(spec: CornerCabinet) -> Iterator[PieceDraft]:
     }
     for stem, (label, outline) in flat.items():
         yield solid(label, stem, spec.finish.case, [prism(outline, floor, h)])
-    pitch = (h - floor) / (spec.shelves + 1)
+    shelves = 0 if spec.trays else spec.shelves
+    pitch = (h - floor) / (shelves + 1)
     levels = [(PartLabel.BOTTOM_PANEL, "bottom_panel", floor)]
-    levels += [(PartLabel.SHELF, "shelf", floor + pitch * (k + 1) - t / 2) for k in range(spec.shelves)]
+    levels += [(PartLabel.SHELF, "shelf", floor + pitch * (k + 1) - t / 2) for k in range(shelves)]
     if spec.topped:
         levels.append((PartLabel.TOP_PANEL, "top_panel", h - t))
     for label, stem, z in levels:

@@ -16,7 +16,7 @@ from grafu.synth.cabinets.folding import FoldingCorner
 from grafu.synth.case.construction import Top
 from grafu.synth.families.built import Size, build_cabinet, cabinet_of, draw_size
 from grafu.synth.families.layouts import doors_across, doors_beside_drawers, doors_under_drawers, drawer_stack
-from grafu.synth.fronts.gliding import Folding, Lift, PullOut, WasteBins
+from grafu.synth.fronts.gliding import Folding, Lift, PullOut, Sliding, WasteBins
 from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack
 from grafu.synth.sampling.carpentry import FREE, PieceSite, fitted, needed_gap
 from grafu.synth.sampling.casework import WALL_HUNG, Build, draw_case
@@ -70,6 +70,8 @@ ON_WALL = PieceSite(hand=-0.3)  # a wall unit hangs 1.35 m above the floor
 SLIM, PULL_OUTS, PANTRIES = (0.15, 0.4), 0.25, 0.25
 LEAST_BINS, WASTE = 0.3, 0.045  # metres
 FOLDING_CORNERS, POST = 0.3, 0.004  # of L-shaped corner units; metres that the post is wider than its leaves are thick
+CAROUSELS = 0.3  # of corner units
+SHUTTERS, LEAST_SHUTTER = 0.03, 0.35  # of higher wall units: one panel that goes up behind a board; metres
 FLAPS = {"turns": 0.88, "folds": 0.06, "lifts": 0.06}  # of wall units with a flap: how it goes up
 BASE_FRONTS = {"doors": 0.33, "under drawers": 0.31, "drawers": 0.25, "beside": 0.05, "open": 0.06}
 
@@ -127,6 +129,8 @@ def wall_layout(rng: np.random.Generator, style: MakerStyle, size: Size) -> Layo
         return _flap(rng)
     if height > 0.6 and width > 0.5 and chance(rng, 0.08):
         return Stack((Door("top"), Door("top")), between=style.between)
+    if height > 0.6 and width > LEAST_SHUTTER and chance(rng, SHUTTERS):
+        return Sliding("shutter", 1, leaf="louvred" if chance(rng, 0.6) else "slab")
     doors = doors_across(rng, width)
     if height > 0.6 and chance(rng, 0.08):
         return Stack((OpenCell(), doors), (1.0, between(rng, (1.5, 3.0))))
@@ -221,6 +225,7 @@ def _angled(rng: np.random.Generator, style: MakerStyle) -> CornerCabinet:
         door=_door(rng, style),
         mount=style.mount,
         finish=style.finish,
+        trays=count(rng, 2, 3) if chance(rng, CAROUSELS) else 0,
     )
 
 
@@ -240,6 +245,7 @@ def _inner(rng: np.random.Generator, style: MakerStyle) -> InnerCorner | Folding
         door=_door(rng, style, "right"),
         second=_door(rng, style, "left") if chance(rng, 0.6) else None,
         shelves=1 if chance(rng, 0.6) else 0,
+        trays=count(rng, 2, 3) if chance(rng, CAROUSELS) else 0,
         base=base,
         recess=between(rng, (0.02, 0.07)),
         topped=chance(rng, 0.6),

@@ -19,6 +19,7 @@ from grafu.synth.sampling.style import MakerStyle
 WIDEST_DOOR = 0.62  # metres: wider single doors are rare, wider openings have a pair
 WIDEST_PAIR = 1.15
 WIDE, THREE_LEAVES = 1.7, 0.4  # metres; of sliding doors across more than that: three leaves
+LEAST_POCKET, POCKETS = 0.9, 0.1  # metres; of wider pieces with sliding doors: one goes into a pocket
 LEAST_BESIDE, ALONE = 1.2, 0.6  # metres; of wider pieces with sliding doors: nothing beside these
 BEHIND = 0.09  # doors of deep cases with drawers behind them: of 41 development models three
 INNER_TRAYS = 0.5  # of those: pull-out shelves, low trays far above each other
@@ -143,6 +144,8 @@ def sliding_or(rng: np.random.Generator, ratio: float, width: float, barn: float
         return None
     if kind == "barn":
         return Sliding("barn", 1)
+    if width > LEAST_POCKET and chance(rng, POCKETS):
+        return Sliding("pocket", 1)
     doors = sliding_across(rng, width)
     if width < LEAST_BESIDE or chance(rng, ALONE):
         return doors

@@ -12,6 +12,7 @@ from grafu.synth.cabinets.bureau import Bureau
 from grafu.synth.cabinets.cabinet import Cabinet
 from grafu.synth.families.built import build_cabinet, draw_size
 from grafu.synth.families.layouts import drawer_stack
+from grafu.synth.fronts.gliding import Sliding
 from grafu.synth.fronts.layout import Blank, Door, Drawer, Layout, Pair, Rect, Stack
 from grafu.synth.sampling.carpentry import PieceSite, fitted
 from grafu.synth.sampling.casework import Build
@@ -45,14 +46,19 @@ def bureau(rng: np.random.Generator) -> Bureau:
 OFFICE: Mapping[TraditionName, float] = {"office": 0.5, "minimal": 0.2, "flat-pack": 0.2, "shaker": 0.1}
 
 
+SHUTTERS = 0.12  # of filing cabinets without casters: a shutter instead of drawers
+
+
 def filing_cabinet(rng: np.random.Generator) -> Cabinet:
-    """Returns a filing cabinet: two to five like drawers, the lowest deeper on pedestals on casters."""
+    """Returns a filing cabinet: two to five like drawers, deeper below on those with casters; few have a shutter."""
     style = pushed(rng, replace(draw_style(rng, OFFICE), leaf="slab", drawer_leaf="slab", frame=0.0))
     mobile = chance(rng, 0.45)
     size = draw_size(rng, (0.35, 0.5), (0.42, 0.65), (0.5, 0.75) if mobile else (0.7, 1.4))
     number = count(rng, 2, 3) if mobile else count(rng, 2, 5)
     ratios = (2.0, *(1.0 for _ in range(number - 1))) if mobile and chance(rng, 0.6) else ()
-    layout = Stack((Drawer(),) * number, ratios, style.between)
+    layout: Layout = Stack((Drawer(),) * number, ratios, style.between)
+    if not mobile and chance(rng, SHUTTERS):
+        layout = Sliding("shutter", 1, leaf="louvred")
     build = Build(bases=("legs", "none", "plinth"), legs=(0.03, 0.08), moulded=False, framed=False)
     return build_cabinet(rng, "filing_cabinet", style, size, layout, build, STAND)
 

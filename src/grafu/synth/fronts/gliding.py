@@ -7,25 +7,27 @@ from typing import Literal, final
 from grafu.synth.fronts.hold import EMPTY, USUAL, Grip, HandleStyle, Hold, Inside
 from grafu.synth.fronts.leaf_style import CURVED, LeafStyle, Side, check_grip
 
-LEAVES = {"bypass": (2, 3), "barn": (1,)}
+LEAVES = {"bypass": (2, 3), "barn": (1,), "pocket": (1,), "shutter": (1,)}
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Sliding:
-    """Doors that slide along the front, metres.
+    """Doors that slide along the front or up, metres.
 
     "bypass" leaves stand in the opening, in two planes, and lap each other by `lap`; the left one is the front one if
     `left_first`. A "barn" door hangs on a rail before the case and closes its left half or, slid, its right one. A
-    `pane` is 6 mm of glass without a frame. `track` is the height of the rails above and below (0: none are drawn), of
-    a barn door that of its rail.
+    "pocket" door closes one half of the opening (the left one if `left_first`) and slides behind a board that closes
+    the other; a "shutter" closes the lower half and goes up behind the board above it. A `pane` is 6 mm of glass
+    without a frame. `track` is the height of the rails above and below (0: none are drawn), of a barn door that of its
+    rail.
 
     Raises:
-        ValueError: if there are not two or three leaves that pass one another, or one that hangs before the case, a
-            leaf is curved, or one that is not a slab has a grip.
+        ValueError: if there are not two or three leaves that pass one another, or one of another kind, a leaf is
+            curved, or one that is not a slab has a grip.
     """
 
-    kind: Literal["bypass", "barn"] = "bypass"
+    kind: Literal["bypass", "barn", "pocket", "shutter"] = "bypass"
     leaves: int = 2
     leaf: LeafStyle = "slab"
     handle: HandleStyle = "bar-round"
@@ -40,7 +42,9 @@ class Sliding:
 
     def __post_init__(self) -> None:
         if self.leaves not in LEAVES[self.kind] or self.leaf in CURVED:
-            raise ValueError(f"`Sliding` has two or three flat leaves, a barn door one: got {self.leaves} {self.leaf}")
+            raise ValueError(
+                f"`Sliding` has two or three flat leaves, of other kinds one: got {self.leaves} {self.leaf}"
+            )
         check_grip(self.grip, self.leaf)
 
 

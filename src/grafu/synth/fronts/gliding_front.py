@@ -14,6 +14,7 @@ from grafu.synth.fronts.interior import interior_pieces
 from grafu.synth.fronts.layout import Cell, Edge, Rect, Side
 from grafu.synth.fronts.leaf_relief import LeafShape
 from grafu.synth.fronts.leaves import leaf_surfaces
+from grafu.synth.fronts.pocket_front import pocket_pieces
 from grafu.synth.fronts.setting import Setting, front_rect
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, plank
 from grafu.vocabulary import PartLabel
@@ -36,6 +37,9 @@ def sliding_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     assert isinstance(sliding, Sliding)
     if sliding.kind == "barn":
         yield from _barn(sliding, cell, setting)
+        return
+    if sliding.kind != "bypass":
+        yield from pocket_pieces(cell, setting)
         return
     thickness = PANE if sliding.pane else setting.thickness
     first, second = _planes(thickness, setting)

@@ -33,7 +33,7 @@ RODS = 0.6  # of parallel lifts: a rod joins their arms
 
 def fit_sliding(rng: np.random.Generator, sliding: Sliding, room: Rect, style: MakerStyle) -> Sliding:
     """Returns the sliding doors with leaf, handle or grip, rails and shelves; a pane stays plain."""
-    width = room.width / (2 if sliding.kind == "barn" else sliding.leaves)
+    width = room.width / {"bypass": sliding.leaves, "shutter": 1}.get(sliding.kind, 2)
     leaf = "slab" if sliding.pane else _flat(rng, sliding.leaf, style, replace(room, x1=room.x0 + width))
     grip: Grip = pick(rng, CUT) if leaf == "slab" and chance(rng, CUT_IN) else "none"
     usual: HandleStyle = style.handle if style.handle != "none" or style.bare else pick(rng, SMALL_HELD)
@@ -48,7 +48,7 @@ def fit_sliding(rng: np.random.Generator, sliding: Sliding, room: Rect, style: M
         shelves=draw_shelves(rng, sliding.shelves, room, False, style),
         inside=draw_inside(rng, sliding.inside, leaf, style),
         lap=between(rng, (0.02, 0.05)),
-        left_first=chance(rng, 0.5) and sliding.leaves == 2,  # a handle between two leaves in front would stop them
+        left_first=chance(rng, 0.5) and sliding.leaves != 3,  # a handle between two leaves in front would stop them
         track=between(rng, pick(rng, TRACKS)),
     )
 
