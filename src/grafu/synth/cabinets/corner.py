@@ -14,6 +14,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.cabinets.carousel import carousel_piece
 from grafu.synth.fronts.front import front_pieces
+from grafu.synth.fronts.hold import EMPTY
 from grafu.synth.fronts.layout import Blank, Cell, Door, Edge, Edges, Rect
 from grafu.synth.fronts.setting import Mount, Setting
 from grafu.synth.pieces.assembly import PieceDraft, assemble, plank, solid
@@ -131,12 +132,23 @@ def _fronts(spec: InnerCorner) -> Iterator[PieceDraft]:
     top = Edge.CASE if spec.topped else Edge.STOP
     near = Rect(d + spec.post, spec.along_x - t, low, high)
     edges = Edges(left=Edge.STOP, top=top)
-    yield from front_pieces(Cell(replace(spec.door, hinge="right", shelves=0), near, edges), setting)
+    yield from front_pieces(
+        Cell(replace(_before(spec.door, spec.trays), hinge="right", shelves=0), near, edges), setting
+    )
     far = Rect(t - spec.along_y, -d - spec.post, low, high)
-    leaf = Blank(name="filler") if spec.second is None else replace(spec.second, hinge="left", shelves=0)
+    leaf = (
+        Blank(name="filler")
+        if spec.second is None
+        else replace(_before(spec.second, spec.trays), hinge="left", shelves=0)
+    )
     turn = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), pi / 2))
     for piece in front_pieces(Cell(leaf, far, Edges(right=Edge.STOP, top=top)), setting):
         yield piece.transformed(turn)
+
+
+def _before(door: Door, trays: int) -> Door:
+    """Returns a door before a carousel, where there is one: nothing else is behind it."""
+    return replace(door, shelves=0, inside=EMPTY) if trays else door
 
 
 ONE_DOOR = Door()
@@ -220,7 +232,9 @@ def _front(spec: CornerCabinet) -> Iterator[PieceDraft]:
     setting = Setting(0.0, spec.depth, spec.mount, lap=0.6 * b, panel=b, finish=spec.finish)
     frame = framed_opening(Box(vec3(-half, 0.0, low), vec3(half, thick, spec.height)), b)
     yield PieceDraft(PartLabel.FACE_FRAME, "face_frame", tuple(surface_of(mesh, spec.finish.case) for mesh in frame))
-    yield from front_pieces(Cell(spec.door, Rect(b - half, half - b, low + b, spec.height - b), Edges()), setting)
+    yield from front_pieces(
+        Cell(_before(spec.door, spec.trays), Rect(b - half, half - b, low + b, spec.height - b), Edges()), setting
+    )
     if low:
         span = ((b - half, spec.recess, 0.0), (half - b, spec.recess + thick, low))
         yield plank(PartLabel.SIDE_PANEL, "toe_kick", spec.finish.case, span)
