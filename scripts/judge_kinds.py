@@ -2,7 +2,8 @@
 
     python scripts/judge_kinds.py [KIND ...] [--count 200] [--motion annotation] [--seed 0] [--jobs 2] [--out DIR]
 
-Of each kind it prints how many true joints there are and, of these, how many were built with the right type and axis
+Of each kind it prints how many true joints of it there are (drawers of the same furniture and the like are not
+judged) and, of these, how many were built with the right type and axis
 (within 5 degrees, the same sense), open by at least 90 % of the true range, collide in no pose (tolerant, see
 docs/metrics.md; other moving bodies count, unless one turns on another) and stay connected (small parts apart, which
 stand off what they are pressed towards); then how many joints were built besides. With --out it writes truth and
@@ -19,7 +20,7 @@ from pathlib import Path
 from typing import final
 
 import numpy as np
-from judge_kinds_makers import KINDS
+from judge_kinds_makers import KINDS, OWN
 
 import grafu
 from grafu.articulation.articulated_object import ArticulatedObject
@@ -82,13 +83,14 @@ def judge(kind: str, motion: str, seed: int, out: Path | None, number: int) -> J
         write_files(out / "truth" / name, _as_mobility(asset))
         result.save(out / "results" / name, formats=("urdf",), page=False, overwrite=True)
     made = result.made.object
-    truth = (*asset.joints, *asset.small_joints)
+    stated = (*asset.joints, *asset.small_joints)
+    truth = [joint for joint in stated if kind not in OWN or OWN[kind](asset, joint)]
     is_flat = all(joint.parent == made.root for joint in made.joints)
     colliding = collision_shares(made, CollisionConfig(tolerance=TOLERANCE, moving_bodies=is_flat))
     held = connected_joints(made)
     held |= dict.fromkeys((f"{joint.part}_joint" for joint in asset.small_joints), True)
     joints = tuple((joint.part, _holding(joint, made, colliding, held)) for joint in truth)
-    besides = sum(joint.child not in {one.part for one in truth} for joint in made.moving_joints)
+    besides = sum(joint.child not in {one.part for one in stated} for joint in made.moving_joints)
     return Judged(name, joints, besides)
 
 

@@ -108,6 +108,19 @@ def _hangs_on_a_leaf(asset: Asset, joint: AnnotatedJoint) -> bool:
 
 LEVEL = 0.1  # the rise of a unit direction
 TRAY = 0.08  # metres
+OWN: Mapping[str, Wanted] = {
+    "lid": _is_flap,
+    "lift-up": _is_flap,
+    "lift-parallel": lambda _, joint: motion_kind(joint.type).turns,
+    "drop-front": _is_flap,
+    "keyboard-tray": _is_tray,
+    "refrigerator": lambda _, joint: motion_kind(joint.type).turns,
+    "swivel-mirror": _is_mirror,
+    "folding-corner": lambda _, joint: motion_kind(joint.type).turns,
+    "pocket-door": lambda asset, joint: asset.part(joint.part).label is PartLabel.DOOR,
+    "carousel": lambda _, joint: joint.part == "carousel",
+}
+"""The joints of the kind itself, where its furniture has others, too."""
 KINDS: Mapping[str, Maker] = {
     "sliding": lambda rng, name: make_sliding_doors(drawn_sliding_doors(rng, name)),
     "folding": _folding,

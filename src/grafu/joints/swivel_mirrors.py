@@ -1,7 +1,7 @@
 """Mirrors between two posts swivel about the level line between these: found by name, and by what holds them."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import radians
 from typing import final
 
@@ -15,12 +15,13 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.graph.edges import Hinge
-from grafu.joints.plan import JointRequest
+from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.small_knobs import SOURCE
 from grafu.scene.scene import metre_on
 
 _UP = 2
 _MIRROR = "mirror"
+_HOLDS = frozenset({"post", "stand", "support", "upright", "bracket"})  # what is called so is no piece of it
 
 
 @final
@@ -58,6 +59,15 @@ def swivel_mirrors(asset: Asset, config: MirrorConfig = MirrorConfig()) -> froze
     return frozenset(r.moving for r in _requests(called, boxes, at_scale(config, metre_on(asset.extent))))
 
 
+def with_stated_mirrors(plan: RealizationPlan, asset: Asset) -> RealizationPlan:
+    """Returns the plan in which mirrors between posts swivel no further than is stated: they turn about their middle."""
+    mirrors = swivel_mirrors(asset) & {request.moving for request in plan.joints if request.kind.turns}
+    if not mirrors:
+        return plan
+    joints = (replace(r, stop=r.reference) if r.moving in mirrors else r for r in plan.joints)
+    return replace(plan, joints=tuple(joints))
+
+
 def mirror_requests(
     made: ArticulatedObject, asset: Asset, config: MirrorConfig = MirrorConfig()
 ) -> tuple[JointRequest, ...]:
@@ -70,7 +80,8 @@ def mirror_requests(
 
 
 def _called_mirrors(asset: Asset) -> list[str]:
-    return [part.id for part in asset.parts if part.carried_by is None and _MIRROR in spoken(part.source.name)]
+    names = {part.id: set(spoken(part.source.name)) for part in asset.parts if part.carried_by is None}
+    return [name for name, called in names.items() if _MIRROR in called and not _HOLDS & called]
 
 
 def _requests(mirrors: Sequence[str], boxes: dict[str, Box], config: MirrorConfig) -> Iterator[JointRequest]:

@@ -12,6 +12,7 @@ from grafu.joints.folding import Fold, with_folds
 from grafu.joints.motion_choice import MotionChoice, Moves
 from grafu.joints.parallel_lifts import with_lifted
 from grafu.joints.plan import RealizationPlan
+from grafu.joints.swivel_mirrors import with_stated_mirrors
 from grafu.joints.tilting_fronts import with_tilts
 from grafu.pipeline.motion_choices import plan_with_motions
 
@@ -32,7 +33,8 @@ def with_mechanisms(
     plan = with_folds(plan_with_motions(plan, motions, completion, asset), folds, joints.fold)
     plan = with_tilts(plan, asset, completion.completed, _stated(motions, Moves.TILTS))
     plan = with_stated_supports(with_extension_leaves(plan, asset), asset)
-    return with_drawn_arms(with_lifted(plan, _stated(motions, Moves.LIFTS)), asset)
+    plan = with_stated_mirrors(with_lifted(plan, _stated(motions, Moves.LIFTS)), asset)
+    return with_drawn_arms(plan, asset)
 
 
 def _stated(motions: Mapping[str, MotionChoice], moves: Moves) -> frozenset[str]:
