@@ -38,7 +38,7 @@ class MirrorConfig:
     """Greatest thickness of a mirror, its frame counted in (fraction of its shorter other side)."""
     gap: float = 0.03
     """How far a post stands beside it at most (metres)."""
-    middle: float = 0.2
+    middle: float = 0.06
     """The posts reach past this middle part of its height (fraction)."""
     touching: float = 0.005
     """What is called a mirror, too, and is this near, is a piece of it (metres)."""
@@ -60,7 +60,7 @@ def swivel_mirrors(asset: Asset, config: MirrorConfig = MirrorConfig()) -> froze
 
 
 def with_stated_mirrors(plan: RealizationPlan, asset: Asset) -> RealizationPlan:
-    """Returns the plan in which mirrors between posts swivel no further than is stated: they turn about their middle."""
+    """Returns the plan in which mirrors between posts swivel no further than stated: they turn about their middle."""
     mirrors = swivel_mirrors(asset) & {request.moving for request in plan.joints if request.kind.turns}
     if not mirrors:
         return plan

@@ -7,6 +7,7 @@ import pytest
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
+from grafu.geometry.intersection import MeshCollider
 from grafu.graph.annotated import carrying_part
 from grafu.graph.edges import Hinge, Rail, Slide, Turn
 from grafu.graph.motion import axis_to_hinge, direction_to_code
@@ -29,6 +30,10 @@ KINDS = {
     "bins on a front": ("base cabinet", "PullOut(load='bins'", Slide, PartLabel.DOOR),
     "bins behind a door": ("base cabinet", "WasteBins(", Slide, PartLabel.MISC),
     "fold-up flap": ("wall cabinet", "Folding(side='top'", Hinge, PartLabel.DOOR),
+    "parallel lift": ("wall cabinet", "Lift(", Turn, PartLabel.MISC),
+    "shutter": ("wall cabinet", "kind='shutter'", Slide, PartLabel.DOOR),
+    "pocket door": ("sideboard", "kind='pocket'", Slide, PartLabel.DOOR),
+    "carousel": ("corner cabinet", "trays=2", Turn, PartLabel.MISC),
     "folding corner": ("corner cabinet", "FoldingCorner(", Hinge, PartLabel.DOOR),
     "keyboard tray": ("writing desk", "box='tray'", Rail, PartLabel.DRAWER),
     "swivel mirror": ("vanity", "swivel=0.3", Turn, PartLabel.MISC),
@@ -42,8 +47,8 @@ KINDS = {
     "window": ("window", "kind='pair'", Hinge, PartLabel.DOOR),
     "sash": ("window", "kind='sash'", Slide, PartLabel.DOOR),
 }
-NESTED = ("bi-fold wardrobe", "fold-up flap", "folding corner")
-FOLLOWING = {"bi-fold wardrobe": {2.0}, "fold-up flap": {2.0}}
+NESTED = ("bi-fold wardrobe", "fold-up flap", "folding corner", "parallel lift")
+FOLLOWING = {"bi-fold wardrobe": {2.0}, "fold-up flap": {2.0}, "parallel lift": {1.0}}
 
 
 @cache
@@ -107,6 +112,43 @@ def test_sliding_leaves_open_most_of_their_width_and_pass_one_another() -> None:
             part = asset.part(joint.part)
             if part.label is PartLabel.DOOR and abs(joint.axis.direction[0]) == 1.0:
                 assert 0.5 * part.box.size[0] <= joint.upper < part.box.size[0]
+
+
+def test_a_lifted_flap_stays_upright_and_rises_before_the_case() -> None:
+    asset = drawn("parallel lift")
+    joints = {joint.part: joint for joint in asset.joints}
+    arms, flap = joints["lift_arms"], joints["door"]
+    rotation = [motion_kind(joint.type).transform(joint.axis, joint.upper) for joint in (arms, flap)]
+    T = rotation[0] @ rotation[1]
+    np.testing.assert_allclose(T[:3, :3], np.eye(3), atol=1e-9)
+    assert T[2, 3] >= 0.4 * asset.part("door").box.size[2]
+    assert T[1, 3] <= 1e-9
+    assert {p.id for p in asset.parts if p.carried_by == "door"} >= {"lift_bracket_1", "lift_bracket_2"}
+
+
+@pytest.mark.parametrize(("name", "axis"), [("pocket door", 0), ("shutter", 2)])
+def test_what_slides_behind_a_board_ends_within_the_piece(name: str, axis: int) -> None:
+    asset = drawn(name)
+    (joint,) = [joint for joint in asset.joints if abs(joint.axis.direction[axis]) == 1.0]
+    leaf = asset.part(joint.part).box
+    board = next(p for p in asset.parts if p.id.split("_")[0] in ("pocket", "shutter") and "guide" not in p.id).box
+    moved = leaf.center + joint.axis.direction * joint.upper
+    assert joint.upper >= 0.5 * leaf.size[axis]
+    assert np.all(moved + leaf.size / 2 <= asset.box.high + 1e-9)
+    assert np.all(moved - leaf.size / 2 >= asset.box.low - 1e-9)
+    assert abs(moved[axis] - board.center[axis]) < 0.1 * leaf.size[axis] + 0.05
+    assert leaf.low[1] > board.low[1]
+
+
+def test_a_carousel_clears_the_cabinet_all_the_way_round() -> None:
+    asset = drawn("carousel")
+    trays = asset.part("carousel")
+    (joint,) = [joint for joint in asset.small_joints if joint.part == "carousel"]
+    turning = MeshCollider(trays.mesh)
+    others = [MeshCollider(p.mesh) for p in asset.parts if p.id != "carousel"]
+    for value in np.linspace(0.0, 2 * np.pi, 13):
+        turning.place(motion_kind(joint.type).transform(joint.axis, float(value)))
+        assert not any(turning.intersects(other) for other in others)
 
 
 def test_all_storage_and_tables_stay_most_of_what_is_made() -> None:

@@ -276,7 +276,7 @@ def door_search(
         scene.swept_body(request.moving, config.depth * scene.extent, part_axes(part.mesh)),
         tuple(o for o in scene.still_obstacles if o.id not in ignored),
         scene.other_bodies(request.moving),
-        max(wanted, config.hinge.least_opening),
+        max(wanted, min(config.hinge.least_opening, request.stop or pi)),
         most,
     )
 
