@@ -78,7 +78,7 @@ def corner_case(spec: InnerCorner) -> list[PieceDraft]:
 def _carousel(spec: InnerCorner) -> Iterator[PieceDraft]:
     """Yields the carousel that fills the corner: it clears both backs, and the post in the inner corner."""
     if spec.trays:
-        room = (sqrt(2) * (spec.depth - 2 * spec.panel) - CLEAR) / (1 + sqrt(2))
+        room = (sqrt(2) * (spec.depth - 2 * spec.panel - CLEAR) - CLEAR) / (1 + sqrt(2))
         middle = spec.panel + CLEAR + room
         floor, high = spec.base + spec.panel, spec.height - (spec.panel if spec.topped else 0.0)
         yield carousel_piece((middle, -middle), room, (floor, high), spec.trays, spec.finish)

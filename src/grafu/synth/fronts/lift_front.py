@@ -73,9 +73,9 @@ def lift_pieces(cell: Cell, setting: Setting) -> Iterator[PieceDraft]:
     flap = _flap(lift, arms, cell, setting)
     meshes = [_arm(arms, x) for x in (arms.span[0], arms.span[1] - ARM[0])]
     if lift.rod:
-        middle = tuple((1 - ROD[1]) * a + ROD[1] * b for a, b in zip(arms.on_case, arms.on_flap, strict=True))
-        ends = (vec3(x, *middle) for x in arms.span)
-        meshes.append(rod(*ends, ROD[0], 8))
+        (y0, z0), (y1, z1) = arms.on_case, arms.on_flap
+        middle = y0 + ROD[1] * (y1 - y0), z0 + ROD[1] * (z1 - z0)
+        meshes.append(rod(arms.at(arms.span[0], middle), arms.at(arms.span[1], middle), ROD[0], 8))
     made = solid(PartLabel.MISC, "lift_arms", setting.finish.metal, meshes)
     yield PieceDraft(made.label, made.stem, made.surfaces, on_case, (flap,))
     yield from _housings(arms, cell, setting)
