@@ -266,7 +266,7 @@ def door_search(
     part = scene.parts[request.moving]
     around, drawn = config.hinge.survey, border_frame(part.mesh, request.axis)
     frame = without_handle(drawn, part.mesh, around.front, around.rounding)
-    most = config.door_opening if _is_stated(request) else min(_most_opening(frame, config), request.stop or pi)
+    most = config.door_opening if _is_stated(request) else _most_opening(frame, request, config)
     wanted = min(request.reference or config.hinge.usual_opening, most)
     return DoorSearch(
         request,
@@ -286,11 +286,15 @@ def _is_stated(request: JointRequest) -> bool:
     return request.choice.opening is not None or request.coupling is not None
 
 
-def _most_opening(frame: BorderFrame, config: RealizationConfig) -> float:
-    """Returns how far what hangs so opens at most: a door to `door_opening`, a flap until level, a lid past upright."""
+def _most_opening(frame: BorderFrame, request: JointRequest, config: RealizationConfig) -> float:
+    """Returns how far what hangs so opens at most: a door to `door_opening`, a flap until level, a lid past upright.
+
+    A flap that goes up opens wider where that is stated; nothing opens further than it is to stop.
+    """
     axis, leaf = frame.direction(0.0, 0.0, 1.0), frame.direction(1.0, 0.0, 0.0)
-    if abs(float(axis[2])) > config.level_axis:
-        return config.door_opening
-    if abs(float(leaf[2])) < config.upright:
-        return min(config.lid_opening, config.door_opening)
-    return atan2(float(leaf[2]), -float(np.cross(axis, leaf)[2])) % pi
+    most = config.door_opening
+    if abs(float(axis[2])) <= config.level_axis:
+        wider = min(request.reference or 0.0, most) if float(leaf[2]) < 0 else 0.0
+        level = atan2(float(leaf[2]), -float(np.cross(axis, leaf)[2])) % pi
+        most = min(config.lid_opening, most) if abs(float(leaf[2])) < config.upright else max(level, wider)
+    return min(most, request.stop or pi)
