@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import atan2, pi
+from math import pi
 from typing import final
 
 import numpy as np
@@ -29,6 +29,7 @@ from grafu.joints.hinge.candidates import (
 )
 from grafu.joints.hinge.hardware import Neighbour, neighbours_of
 from grafu.joints.hinge.judged import JudgedPin
+from grafu.joints.hinge.most_opening import most_opening
 from grafu.joints.hinge.survey import BorderSurvey, survey
 from grafu.joints.limits import all_blockers, free_opening, in_the_way, sweep, swept_box, widest_above, widest_free
 from grafu.joints.plan import CUP, PIVOT, JointRequest
@@ -266,7 +267,7 @@ def door_search(
     part = scene.parts[request.moving]
     around, drawn = config.hinge.survey, border_frame(part.mesh, request.axis)
     frame = without_handle(drawn, part.mesh, around.front, around.rounding)
-    most = config.door_opening if _is_stated(request) else _most_opening(frame, request, config)
+    most = most_opening(request, frame, part.mesh, config)
     wanted = min(request.reference or config.hinge.usual_opening, most)
     return DoorSearch(
         request,
@@ -279,22 +280,3 @@ def door_search(
         max(wanted, min(config.hinge.least_opening, request.stop or pi)),
         most,
     )
-
-
-def _is_stated(request: JointRequest) -> bool:
-    """Whether the user chose how far the door opens, or a leader states it."""
-    return request.choice.opening is not None or request.coupling is not None
-
-
-def _most_opening(frame: BorderFrame, request: JointRequest, config: RealizationConfig) -> float:
-    """Returns how far what hangs so opens at most: a door to `door_opening`, a flap until level, a lid past upright.
-
-    A flap that goes up opens wider where that is stated; nothing opens further than it is to stop.
-    """
-    axis, leaf = frame.direction(0.0, 0.0, 1.0), frame.direction(1.0, 0.0, 0.0)
-    most = config.door_opening
-    if abs(float(axis[2])) <= config.level_axis:
-        wider = min(request.reference or 0.0, most) if float(leaf[2]) < 0 else 0.0
-        level = atan2(float(leaf[2]), -float(np.cross(axis, leaf)[2])) % pi
-        most = min(config.lid_opening, most) if abs(float(leaf[2])) < config.upright else max(level, wider)
-    return min(most, request.stop or pi)
