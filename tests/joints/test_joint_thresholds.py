@@ -65,6 +65,7 @@ REASONS = {
     "clearance/separate.py": {"_SAMPLES": SAMPLES},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
+    "drawn_arms.py": {"_UP": NUMBERING},
     "drawn_hinges.py": {"_POINT": TOLERANCE},
     "drop_leaves.py": {"_UP": NUMBERING},
     "drop_supports.py": {"_UP": NUMBERING, "_QUARTER": GEOMETRY},

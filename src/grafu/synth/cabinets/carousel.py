@@ -1,14 +1,13 @@
 """The carousel of a corner cabinet: round trays on a post, which turn without end. The cabinet states its room."""
 
-from math import pi
-
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
-from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, solid
+from grafu.synth.appliances.appliance import turn_of
+from grafu.synth.pieces.assembly import PieceDraft, solid
 from grafu.synth.pieces.finish import Finish
 from grafu.synth.pieces.shapes import rod, turned
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 POST = 0.0125  # metres: the radius of the post
 FLOOR, RIM, WALL = 0.008, 0.05, 0.006  # metres: how thick a tray's floor is, how high its rim, how thick that
@@ -32,7 +31,7 @@ def carousel_piece(
     meshes = [rod(vec3(x, y, low + PLAY), vec3(x, y, high - PLAY), POST, 12)]
     for k in range(trays):
         meshes += _tray(x, y, low + LIFT + k * pitch, radius)
-    turn = PieceMotion(JointType.CONTINUOUS, Axis(vec3(x, y, low), vec3(0.0, 0.0, 1.0)), 2 * pi, small=True)
+    turn = turn_of(Axis(vec3(x, y, low), vec3(0.0, 0.0, 1.0)))
     made = solid(PartLabel.MISC, "carousel", look.metal, meshes)
     return PieceDraft(made.label, made.stem, made.surfaces, turn)
 
