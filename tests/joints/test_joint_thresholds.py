@@ -11,6 +11,7 @@ from grafu.joints.building_doors import BuildingDoorConfig
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.config import BlockConfig, RealizationConfig, TimeConfig
+from grafu.joints.drawn_arm_config import DrawnArmConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
 from grafu.joints.drop_support_config import DropSupportConfig
@@ -112,8 +113,8 @@ REASONS = {
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
-    FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig, PlanConfig,
-    PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig,
+    DrawnArmConfig, FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
+    PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig,
     TiltConfig, TimeConfig, WasteBinConfig, WideBarConfig, WindowConfig,
 )  # fmt: skip
 

@@ -48,7 +48,7 @@ def bars_of(mesh: TriangleMesh, slim: float) -> Iterator[Bar]:
     """Yields the shells of a mesh that are at least `slim` times as long as wide, from their lower end up."""
     for shell in connected_parts(mesh):
         points = shell.vertices[np.unique(shell.faces)]
-        if len(points) < 4:
+        if len(points) <= points.shape[1]:
             continue
         middle = points.mean(axis=0)
         along = np.linalg.svd(points - middle, full_matrices=False)[2]
