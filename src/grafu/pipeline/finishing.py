@@ -55,10 +55,20 @@ def with_lifts_of(
     return stages.timed("lift arms", build, lambda _: realized)
 
 
-def with_drawn_arms_of(
-    realized: Realized, fittings: StepResult, plan: RealizationPlan, asset: Asset, joints: RealizationConfig
+def with_stays_of(
+    realized: Realized,
+    fittings: StepResult,
+    plan: RealizationPlan,
+    asset: Asset,
+    joints: RealizationConfig,
+    stages: Stages,
+    wanted: bool,
 ) -> tuple[Realized, StepResult]:
-    """Returns what was realized with drawn arms and stays in place, and those that were replaced among the removed."""
+    """Returns what was realized with stays, if they are wanted, and with the drawn arms and stays that stay in place.
+
+    Those that do not are among what the fittings removed.
+    """
+    realized = _with_stays(realized, joints, stages) if wanted else realized
     if not plan.arms:  # as in most runs
         return realized, fittings
     from grafu.joints.drawn_lifts import with_drawn_left
@@ -68,7 +78,7 @@ def with_drawn_arms_of(
     return realized, replace(fittings, changes=changes)
 
 
-def with_stays_of(realized: Realized, joints: RealizationConfig, stages: Stages) -> Realized:
+def _with_stays(realized: Realized, joints: RealizationConfig, stages: Stages) -> Realized:
     """Returns what was realized with stays on the lids and flaps that have room for them."""
     upright = (abs(float(joint.axis.direction[2])) for joint in realized.object.joints if joint.kind.turns)
     if min(upright, default=1.0) > joints.stay.level:
