@@ -105,6 +105,7 @@ def _self_test() -> Finding:
     from grafu.pipeline.functionalize import functionalize
     from grafu.pipeline.motion_source import MotionSource
     from grafu.pipeline.report import report_of
+    from grafu.pipeline.verdict import verdict_of
     from grafu.synth.samples import TIDY
     from grafu.templates.gallery import builtin_gallery
 
@@ -113,6 +114,6 @@ def _self_test() -> Finding:
         made = functionalize(TIDY[_PIECE]().without_annotation(), MotionSource.NETWORK, builtin_gallery())
     except FunctionalizationError as error:
         return Finding("a cabinet with two doors", False, str(error))
-    verdict = report_of(made).verdict
+    verdict = verdict_of(report_of(made))
     right = len(made.object.moving_joints) == 2  # its two doors
     return Finding("a cabinet with two doors", right, f"{verdict.sentence} ({perf_counter() - began:.1f} s)")

@@ -69,7 +69,7 @@ def _places(front: Sliding, o: Rect, setting: Setting) -> tuple[Rect, Rect, Side
 
 
 def _sliding(front: Sliding, leaf: Rect, y: float, towards: Side, cover: Box, setting: Setting) -> PieceDraft:
-    """Returns the leaf with its handle at the edge that stays in sight, and its motion."""
+    """Returns the leaf with its handle at the edge that stays visible, and its motion."""
     side = gripped_side(front.hold, towards)
     grip = front.grip, side, held_along(front.hold, side)
     shape = LeafShape(front.leaf, leaf, y, setting.thickness, opposite(towards), *grip)
