@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 from grafu.articulation.build_material import MassConfig
+from grafu.articulation.finger_fit import FingerFitConfig
+from grafu.articulation.finger_room import FingerRoomCutConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.asset.body_kinds import BodyKindConfig
 from grafu.asset.cutting import CutConfig
@@ -55,6 +57,8 @@ ELSEWHERE = "a tolerance that tells other coordinates from rounding, no size of 
 EFFORT = "after how much work a reader ends, or works in a simpler way"
 FORMAT = "what a format or a data set states: its axes, its codes, how large its numbers are"
 
+FINGER = "the fingertip of a gripper: frames, shapes and pages must not differ in it"
+
 READERS = (
     "blend", "collada", "fbx", "fbx_document", "folder", "gltf", "gltf_buffers", "gltf_draco", "gltf_meshes",
     "gltf_meshopt", "hssd_annotation", "json_files", "load", "mesh_files", "mjcf", "mjcf_text", "obj_lines",
@@ -65,6 +69,16 @@ READERS = (
 
 OF_MODULES = {
     "articulation": {
+        "finger_fit.py": {"_ACROSS": SAMPLES, "_LEVELS": SAMPLES, "_PLACES": SAMPLES, "_ON_FINGER": SAMPLES},
+        "finger_room.py": {},
+        "grasp_frame.py": {
+            "FINGER_WIDTH": FINGER,
+            "FINGER_THICKNESS": FINGER,
+            "FINGER_REACH": FINGER,
+            "FINGER_GAP": FINGER,
+            "_RIGHT_ANGLE": TOLERANCE,
+        },
+        "grasp_search.py": {},
         "coupled_weight.py": {"_STEP": TOLERANCE, "_EXACT": TOLERANCE, "_AT": SAMPLES},
         "build_material.py": {"_BY_WORD": MATERIALS, "_GLASS": MATERIALS, "_STEEL": MATERIALS, "_TEXTILE": MATERIALS},
         "mass.py": {"NO_MOMENTS": FORMULA, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA},
@@ -177,7 +191,7 @@ IN_FUNCTIONS = {
 }
 CONFIGS = (
     AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
-    DynamicsConfig,
+    DynamicsConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LooseConfig,
     MassConfig, MatchConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,

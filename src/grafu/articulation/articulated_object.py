@@ -11,6 +11,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.joint_values import Coupling as Coupling
 from grafu.articulation.joint_values import JointLimits as JointLimits
 from grafu.articulation.motion_kind import MotionKind, motion_kind
@@ -148,13 +149,14 @@ class ArticulatedObject:
         ArticulationError: if ids repeat, a joint names a link that is not there, a link has two parents, a cycle
             exists, a link cannot be reached from the root, or hardware swings with one that does not move; if a joint
             follows one that is not there, is static or follows it in turn, waits for others by itself, or has limits
-            that do not follow from its leader's.
+            that do not follow from its leader's; if grasps have one name, or are of links that are not there.
     """
 
     name: str
     root: str
     links: tuple[Link, ...]
     joints: tuple[Joint, ...] = ()
+    grasps: tuple[GraspFrame, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ArticulatedObject {self.name}: {len(self.links)} links, {len(self.joints)} joints>"
@@ -163,6 +165,9 @@ class ArticulatedObject:
         ids = [link.id for link in self.links]
         require_unique("link", ids)
         require_unique("joint", [joint.id for joint in self.joints])
+        require_unique("grasp", [grasp.name for grasp in self.grasps])
+        if lost_grasps := [grasp.name for grasp in self.grasps if grasp.link not in ids]:
+            raise ArticulationError(f"grasps must be of known links: {lost_grasps} are not")
         if self.root not in ids:
             raise ArticulationError(f"the root must be one of the links: got `{self.root}`, links are {ids}")
         known, children = set(ids), [joint.child for joint in self.joints]

@@ -19,6 +19,7 @@ from grafu.articulation.collision_shapes import (
     corners_of,
     shapes_of,
 )
+from grafu.articulation.finger_room import FingerRoomCutConfig, with_finger_room
 from grafu.articulation.joint_dynamics import DynamicsConfig, JointDynamics, joint_dynamics
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.mass import MassProperties, mass_of_link, moments_of, moments_of_box
@@ -38,6 +39,7 @@ class PhysicsConfig(ShortRepr):
     mass: MassConfig = field(default_factory=MassConfig)
     collision: CollisionShapeConfig = field(default_factory=CollisionShapeConfig)
     clearance: ShapeClearanceConfig = field(default_factory=ShapeClearanceConfig)
+    fingers: FingerRoomCutConfig = field(default_factory=FingerRoomCutConfig)
     dynamics: DynamicsConfig = field(default_factory=DynamicsConfig)
 
 
@@ -97,6 +99,11 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
         _CLEARANCE,
         partial(cleared, articulated, drawn, config.clearance),
         partial(_noted, notes, "collision shapes were not cut back where joints make them meet", drawn),
+    )
+    shapes = within(
+        _CONTACTS,
+        partial(with_finger_room, shapes, articulated.grasps, config.fingers),
+        partial(_noted, notes, "collision shapes were not cut where fingers go", shapes),
     )
     touching = within(
         _CONTACTS,

@@ -15,6 +15,7 @@ from typing import Any, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
+from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.sweep import JointTrack, cycle_tracks
 from grafu.articulation.swing import Swing
@@ -107,6 +108,9 @@ class _GlbWriter:
         joint = self._object.joint_of.get(link.id)
         node: dict[str, Any] = {"name": self._names.unique(f"{link.id}_link")}
         extras: dict[str, Any] = {"link": link.id}
+        grasps = [g for g in self._object.grasps if g.link == link.id]
+        if grasps:
+            extras["grasps"] = [_described_grasp(grasp, self._origins[link.id]) for grasp in grasps]
         if joint is not None:
             node["translation"] = self._offset(joint)
             extras["joint"] = _described_joint(joint)
@@ -194,6 +198,22 @@ def _described_joint(joint: Joint) -> dict[str, Any]:
         "upper": joint.limits.upper,
         "after": list(joint.after),
     } | ({} if joint.coupling is None else {"coupling": asdict(joint.coupling)})
+
+
+def _described_grasp(grasp: GraspFrame, origin: Vec3) -> dict[str, Any]:
+    """Returns a grasp in the frame of its link's node."""
+    vectors = np.stack([grasp.position - origin, grasp.approach, grasp.closing])
+    position, approach, closing = (_plain(vector) for vector in to_y_up(vectors))
+    return {
+        "name": grasp.name,
+        "part": grasp.part,
+        "kind": grasp.kind,
+        "position": position,
+        "approach": approach,
+        "closing": closing,
+        "width": grasp.width,
+        "depth": grasp.depth,
+    }
 
 
 def _plain(vector: Vec3) -> list[float]:

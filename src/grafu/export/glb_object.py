@@ -17,6 +17,7 @@ from grafu.articulation.articulated_object import (
     Visual,
     VisualRole,
 )
+from grafu.articulation.grasp_frame import GraspFrame
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
 from grafu.asset.options import Limits
@@ -54,6 +55,7 @@ class _Reader:
         self._meshes = GltfMeshes(file)
         self._links: list[Link] = []
         self._joints: list[Joint] = []
+        self._grasps: list[GraspFrame] = []
         self._seen: set[int] = set()
 
     def read(self) -> ArticulatedObject:
@@ -63,7 +65,7 @@ class _Reader:
             raise UnreadableAsset(f"{self._file.path} is no model.glb of grafu: its nodes do not say what they are")
         self._add_link(roots[0], None, vec3(0.0, 0.0, 0.0))
         root = self._said(roots[0])["link"]
-        return ArticulatedObject(scene.text("name"), root, tuple(self._links), tuple(self._joints))
+        return ArticulatedObject(scene.text("name"), root, tuple(self._links), tuple(self._joints), tuple(self._grasps))
 
     def _add_link(self, index: int, parent: str | None, above: Vec3) -> None:
         if index in self._seen:
@@ -75,6 +77,7 @@ class _Reader:
         below = [child for child in children if "link" in self._said(child)]
         visuals = tuple(self._visual(child, origin) for child in children if "link" not in self._said(child))
         self._links.append(Link(said["link"], visuals))
+        self._grasps += [_grasp(one, said["link"], origin) for one in said.get("grasps", ())]
         if parent is not None:
             self._joints.append(_joint(said["joint"], parent, said["link"], origin))
         for child in below:
@@ -92,6 +95,14 @@ class _Reader:
     def _said(self, index: Any) -> dict[str, Any]:
         """Returns what a node states about itself, empty where it is none of ours."""
         return dict(self._file.item("nodes", index).member("extras").member("grafu").data)
+
+
+def _grasp(said: dict[str, Any], link: str, origin: Vec3) -> GraspFrame:
+    vectors = np.array([said["position"], said["approach"], said["closing"]], dtype=np.float64) @ _Z_UP.T
+    sizes = float(said["width"]), float(said["depth"])
+    return GraspFrame(
+        said["name"], link, said["part"], said["kind"], origin + vectors[0], vectors[1], vectors[2], *sizes
+    )
 
 
 def _joint(said: dict[str, Any], parent: str, child: str, origin: Vec3) -> Joint:

@@ -27,8 +27,8 @@ from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import within
+from grafu.geometry.transform import quaternion_of
 from grafu.visible import ShortRepr
-from grafu.vocabulary import PartLabel
 
 VISUAL_GROUP, COLLISION_GROUP, GRASP_GROUP = "2", "3", "4"  # the first is shown by default, the others are not
 _FOR_POSE = 0.3  # of the time that is left
@@ -129,6 +129,7 @@ class _MjcfWriter:
         _add_inertial(body, self._physics.masses[link.id], origin)
         for visual, file in self._objs.visuals[link.id]:
             self._add_visual(body, visual, file, origin)
+        self._add_grasps(body, link.id, origin)
         for place, shape in enumerate(self._physics.shapes[link.id]):
             self._add_collision(body, link.id, place, shape)
         below = [other.child for other in self._object.joints if other.parent == link.id]
@@ -163,11 +164,17 @@ class _MjcfWriter:
                 "material": self._materials.name_of(drawn.material),
             }
             ET.SubElement(body, "geom", attributes)
-        if visual.label is PartLabel.HANDLE:
-            site = self._sites.unique(f"{printable(visual.name)}_grasp")
-            ET.SubElement(
-                body, "site", {"class": "grasp", "name": site, "pos": numbers(visual.mesh.box.center - origin)}
-            )
+
+    def _add_grasps(self, body: ET.Element, link: str, origin: Vec3) -> None:
+        """Adds a site for each grasp of a link, and for the first the names that robosuite and robocasa look for."""
+        for place, grasp in enumerate(g for g in self._object.grasps if g.link == link):
+            names = [printable(grasp.name)]
+            if not place:
+                names.append(f"{printable(link)}_handle")
+                names += ["handle"] if grasp is self._object.grasps[0] else []
+            pose = {"pos": numbers(grasp.position - origin), "quat": numbers(quaternion_of(grasp.rotation))}
+            for name in names:
+                ET.SubElement(body, "site", {"class": "grasp", "name": self._sites.unique(name)} | pose)
 
     def _add_collision(self, body: ET.Element, link: str, place: int, shape: CollisionShape) -> None:
         attributes = {"class": "collision", "name": self._geoms.unique(collision_name(printable(link), place))}

@@ -6,7 +6,9 @@ root link's frame is the object frame (metres, Z up, front -Y). What must open f
 
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
-from typing import final
+from typing import Final, final
+
+import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
 from grafu.articulation.collision_shapes import CollisionShape
@@ -14,7 +16,7 @@ from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.export.files import ExportFiles
-from grafu.export.names import number, numbers, printable
+from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set
 from grafu.export.shading import CREASE_ANGLE
 from grafu.geometry.arrays import Vec3
@@ -22,15 +24,23 @@ from grafu.geometry.box import OrientedBox
 from grafu.geometry.transform import roll_pitch_yaw
 from grafu.visible import ShortRepr
 
+_NEXT_TO_NOTHING: Final = MassProperties(1e-6, np.zeros(3), 1e-10 * np.eye(3))
+"""The mass of a frame: kilograms, and kilograms by square metres."""
+
 
 @final
 @dataclass(frozen=True, slots=True)
 class UrdfConfig(ShortRepr):
-    """What goes into a URDF. `mujoco` adds the element that tells MuJoCo where the meshes are; others ignore it."""
+    """What goes into a URDF.
+
+    `mujoco` adds the element that tells MuJoCo where the meshes are; others ignore it. `grasps` adds a frame for each
+    grasp.
+    """
 
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)
     crease_angle: float = CREASE_ANGLE
     mujoco: bool = True
+    grasps: bool = True
 
 
 DEFAULT_URDF_CONFIG = UrdfConfig()
@@ -60,6 +70,8 @@ class _UrdfWriter:
             self._add_link(robot, link)
         for joint in self._object.joints:
             self._add_joint(robot, joint)
+        if self._config.grasps:
+            self._add_grasps(robot)
         ET.indent(robot)
         text = ET.tostring(robot, encoding="utf-8", xml_declaration=True) + b"\n"
         meshes = {f"{MESHES}/{name}": data for name, data in self._objs.folder.files.items()}
@@ -72,6 +84,23 @@ class _UrdfWriter:
             _add_mesh(ET.SubElement(element, "visual", name=visual.name), file)
         for place, shape in enumerate(self._physics.shapes[link.id]):
             self._add_collision(element, link.id, place, shape)
+
+    def _add_grasps(self, robot: ET.Element) -> None:
+        """Adds each grasp as a link on a fixed joint: a frame, as ROS has them for tools.
+
+        PyBullet gives a link without a mass one kilogram, so these state that they have next to none.
+        """
+        book = NameBook(case_counts=True)
+        for name in (*(link.id for link in self._object.links), *(joint.id for joint in self._object.joints)):
+            book.unique(name)
+        for grasp in self._object.grasps:
+            name = book.unique(grasp.name)
+            _add_inertial(ET.SubElement(robot, "link", name=name), _NEXT_TO_NOTHING, np.zeros(3))
+            element = ET.SubElement(robot, "joint", name=book.unique(f"{name}_fixed"), type="fixed")
+            place = {"xyz": numbers(grasp.position - self._physics.origins[grasp.link])}
+            ET.SubElement(element, "origin", place | {"rpy": numbers(roll_pitch_yaw(grasp.rotation))})
+            ET.SubElement(element, "parent", link=grasp.link)
+            ET.SubElement(element, "child", link=name)
 
     def _add_collision(self, parent: ET.Element, link: str, place: int, shape: CollisionShape) -> None:
         element = ET.SubElement(parent, "collision", name=collision_name(link, place))

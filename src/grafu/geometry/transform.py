@@ -125,6 +125,12 @@ def _quaternion(R: Mat3) -> tuple[float, float, float, float]:
     return g + c, h + f, 1 - trace + 2 * i, d - b
 
 
+def quaternion_of(R: Mat3) -> tuple[float, float, float, float]:
+    """Returns a rotation as a unit quaternion, in the order wxyz, w not negative."""
+    x, y, z, w = np.array(_quaternion(R)) / np.linalg.norm(_quaternion(R)) * (-1.0 if _quaternion(R)[3] < 0 else 1.0)
+    return float(w), float(x), float(y), float(z)
+
+
 def rotation_about(point: Vec3, direction: Vec3, angle: float) -> Mat4:
     """Returns the rotation by `angle` about the line through `point` along the unit `direction`."""
     R = rotation_matrix(direction, angle)

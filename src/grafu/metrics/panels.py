@@ -186,7 +186,7 @@ def _turned(articulated: ArticulatedObject, T: Mat4) -> ArticulatedObject:
 
     links = tuple(replace(link, visuals=tuple(map(moved, link.visuals))) for link in articulated.links)
     joints = tuple(replace(joint, axis=joint.kind.mapped_axis(joint.axis, T)) for joint in articulated.joints)
-    return replace(articulated, links=links, joints=joints)
+    return replace(articulated, links=links, joints=joints, grasps=())
 
 
 def _loose_ends(panel: Visual, others: Mapping[str, TriangleMesh], reach: float) -> Sequence[str]:

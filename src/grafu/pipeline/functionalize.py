@@ -32,6 +32,7 @@ from grafu.pipeline.additions import add_after_joints, add_before_joints, withou
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
 from grafu.pipeline.finishing import to_build, with_lifts_of, with_small_joints_of, with_stays_of
+from grafu.pipeline.grasps import with_grasp_frames
 from grafu.pipeline.mechanisms import with_mechanisms
 from grafu.pipeline.motion_choices import corrected, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
@@ -221,6 +222,7 @@ def functionalize(
     realized = with_small_joints_of(realized, fittings, asset, joints, stages, small)
     realized = with_lifts_of(realized, plan, asset, joints, stages)
     realized, fittings = with_stays_of(realized, fittings, plan, asset, joints, stages, settings.stays)
+    realized = with_grasp_frames(realized, fittings, plan, stages)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(

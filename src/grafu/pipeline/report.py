@@ -3,13 +3,16 @@
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 
+import numpy as np
+
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.joints.report import LIFT_ARMS, Installed
+from grafu.joints.report import Installed
 from grafu.joints.sliding_doors import SOURCE as RULE
 from grafu.pipeline.certainty import guesses_of
 from grafu.pipeline.functionalize import Functionalized
+from grafu.pipeline.grasps import grasp_kinds, small_parts
 from grafu.pipeline.move_options import move_options
 from grafu.pipeline.records import (
     axis_record,
@@ -26,6 +29,7 @@ from grafu.pipeline.report_schema import (
     AddedRecord,
     ClearanceRecord,
     Grasp,
+    GraspRecord,
     JointRecord,
     MotionRecord,
     PartRecord,
@@ -36,8 +40,6 @@ from grafu.pipeline.verdict import verdict_of
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel
-
-_ON_FLOOR = 0.01  # metres: what ends lower stands on the floor
 
 
 def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str, float] | None = None) -> Report:
@@ -122,40 +124,39 @@ def _part_record(part: Part, category: PartLabel, link: str) -> PartRecord:
 
 def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
     joints = {joint.id: joint for joint in result.object.joints}
-    grasps = _grasps(result)
+    grasps = grasp_kinds(result.object, result.fittings, result.report, result.plan)
     pulled = {name: result.object.leader_of(joint).child for name, joint in joints.items()}
-    small = _small_parts(result)
+    small = small_parts(result.report, result.plan)
     records = (
         _joint_record(made, joints[made.joint], grasps.get(made.moving, grasps.get(pulled[made.joint], "none")))
         for made in result.report.installed
     )
-    return tuple(record.model_copy(update={"small": record.part in small}) for record in records)
+    return tuple(
+        record.model_copy(
+            update={
+                "small": record.part in small,
+                "grasp_frames": _grasp_records(result.object, joints[record.id].child),
+            }
+        )
+        for record in records
+    )
 
 
-def _small_parts(result: Functionalized) -> frozenset[str]:
-    """Returns the knobs, buttons, wheels and casters with a joint of their own: no plan asks for these."""
-    planned = {request.moving for request in result.plan.joints}
-    others = (made for made in result.report.installed if made.template != LIFT_ARMS)
-    return frozenset(made.moving for made in others if made.moving not in planned)
-
-
-def _grasps(result: Functionalized) -> dict[str, Grasp]:
-    """Returns how each moving body can be grasped in the end."""
-    found: dict[str, Grasp] = {moving: grasp.kind for moving, grasp in result.fittings.grasps.items()}
-    found |= {a.part.carried_by: "handle" for a in result.fittings.additions if a.part.carried_by}
-    found |= {c.part.id: "recess" for c in result.fittings.changes.carved}
-    for made in result.report.installed:
-        if made.template == LIFT_ARMS:
-            found.setdefault(made.moving, "driven")
-    return found | {moving: _grasp_of_small(result.object, moving) for moving in _small_parts(result)}
-
-
-def _grasp_of_small(made: ArticulatedObject, moving: str) -> Grasp:
-    """Returns how a small part is moved: what stands on the floor rolls with the piece, the others are held."""
-    floor = min(float(link.mesh.box.low[2]) for link in made.links)
-    below = [made.link(moving), *(made.link(joint.child) for joint in made.joints if joint.parent == moving)]
-    stands = min(float(link.mesh.box.low[2]) for link in below) <= floor + _ON_FLOOR
-    return "driven" if stands else "itself"
+def _grasp_records(made: ArticulatedObject, link: str) -> tuple[GraspRecord, ...]:
+    return tuple(
+        GraspRecord(
+            name=grasp.name,
+            part=grasp.part,
+            kind=grasp.kind,
+            position=vector(np.asarray(grasp.position)),
+            approach=vector(np.asarray(grasp.approach)),
+            closing=vector(np.asarray(grasp.closing)),
+            width=round(grasp.width, 6),
+            depth=round(grasp.depth, 6),
+        )
+        for grasp in made.grasps
+        if grasp.link == link
+    )
 
 
 def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:

@@ -127,6 +127,19 @@ class ClearanceRecord(ReportRecord):
     why: str = Field(description="what it blocked")
 
 
+class GraspRecord(ReportRecord):
+    """Where a gripper with two fingers takes hold of the moving link, at rest."""
+
+    name: str = Field(description="the name of its frame in model.urdf, model.xml and model.usdc")
+    part: str = Field(description="the visual that is held")
+    kind: Grasp = Field(description="what is held, as in `grasp`")
+    position: Vector = Field(description="a point on the surface of what is held")
+    approach: Vector = Field(description="unit vector from the hand into the piece: z of the frame")
+    closing: Vector = Field(description="unit vector along which the fingers close: y of the frame")
+    width: float = Field(description="what lies between the fingers; 0: they hook in closed, and pull at +`closing`")
+    depth: float = Field(description="how far past `position` both fingers have room, at most 20 mm; 0: they have none")
+
+
 class JointRecord(ReportRecord):
     """One joint that was built, with what was measured on it."""
 
@@ -161,6 +174,7 @@ class JointRecord(ReportRecord):
         description="how it can be grasped (`itself`: a knob or button is held, `driven`: a drive, or the whole piece, "
         "moves it); a follower without a grasp: how its leader can be"
     )
+    grasp_frames: tuple[GraspRecord, ...] = Field(default=(), description="its grips: each handle, else at most one")
     small: bool = Field(default=False, description="whether it is a knob, a button, a wheel or a caster")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
     notes: tuple[str, ...] = Field(description="what the user should check")

@@ -77,7 +77,7 @@ def nothing_after_joints(scene: Scene, why: str) -> tuple[StepResult, Scene]:
 
 RATIOS: Mapping[str, float] = MappingProxyType(
     {"parse": 0.25, "complete": 0.3, "close": 0.1, "body": 0.25, "realize": 0.6, "fittings": 0.5}
-    | {"small parts": 0.3, "lift arms": 0.2, "stays": 0.2}
+    | {"small parts": 0.3, "lift arms": 0.2, "stays": 0.2, "grasp frames": 0.2}
 )
 """What is left after them is for files and page; a stage that is not named here is short, and never given up."""
 _INSTEAD: Mapping[str, str] = MappingProxyType(
@@ -91,6 +91,7 @@ _INSTEAD: Mapping[str, str] = MappingProxyType(
         "small parts": "knobs, buttons and wheels stay on what carries them",
         "lift arms": "flaps that were to rise upright turn about their upper edges",
         "stays": "lids and flaps got no stays",
+        "grasp frames": "no grasp frame was looked for",
     }
 )
 

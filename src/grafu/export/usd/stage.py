@@ -88,10 +88,26 @@ class _StageBuilder:
         for visual in link.rigid_visuals:
             if len(visual.mesh.faces):
                 self._add_visual(visuals.AppendChild(siblings.unique(visual.name)), visual, origin)
+        self._add_grasps(link, path, origin)
         collisions = UsdGeom.Xform.Define(self._stage, path.AppendChild("collisions"))
         collisions.CreatePurposeAttr(UsdGeom.Tokens.guide)
         for place, shape in enumerate(self._physics.shapes[link.id]):
             add_collision(self._stage, collisions.GetPath().AppendChild(f"collision_{place}"), shape, origin)
+
+    def _add_grasps(self, link: Link, path: Sdf.Path, origin: Vec3) -> None:
+        """Adds an empty prim for each grasp of a link: its frame, and its sizes in metres."""
+        grasps, siblings = [grasp for grasp in self._object.grasps if grasp.link == link.id], Siblings()
+        if not grasps:
+            return
+        scope = UsdGeom.Scope.Define(self._stage, path.AppendChild("grasps")).GetPath()
+        for grasp in grasps:
+            prim = self._define(UsdGeom.Xform, scope.AppendChild(siblings.unique(grasp.name)), grasp.name)
+            frame = UsdGeom.Xformable(prim)
+            frame.AddTranslateOp().Set(Gf.Vec3d(*(grasp.position - origin).tolist()))
+            frame.AddOrientOp(UsdGeom.XformOp.PrecisionDouble).Set(quaternion(grasp.rotation))
+            prim.CreateAttribute("grafu:grasp:kind", Sdf.ValueTypeNames.Token).Set(grasp.kind)
+            for name, value in (("width", grasp.width), ("depth", grasp.depth)):
+                prim.CreateAttribute(f"grafu:grasp:{name}", Sdf.ValueTypeNames.Double).Set(value)
 
     def _add_visual(self, path: Sdf.Path, visual: Visual, origin: Vec3) -> None:
         """Adds a part: one mesh where it has one surface, else a prim with a mesh for each."""
