@@ -63,6 +63,13 @@ _ALL = (
         "grafu.export.mjcf:export_mjcf",
     ),
     Format(
+        "sdf",
+        "SDF",
+        "Joints, masses, springs and frames of grasps: Gazebo",
+        ("model.sdf", "meshes/"),
+        "grafu.export.sdf:export_sdf",
+    ),
+    Format(
         "usd",
         "USD",
         "OpenUSD with physics and materials: Isaac Sim, Omniverse",

@@ -6,10 +6,12 @@ from zipfile import ZIP_STORED, ZipFile
 import lids_and_flaps
 import numpy as np
 import pytest
+import trimesh
 from small_cabinet import board, make_cabinet, painted_cube, png
 from test_swings import with_bar
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
+from grafu.articulation.grasp_search import GraspHint, with_grasps
 from grafu.articulation.kinematics import link_origins, link_poses
 from grafu.articulation.mass import mass_of_link
 from grafu.articulation.physics import physics_of
@@ -17,6 +19,7 @@ from grafu.export.files import ExportFiles, write_files
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points, translation
 from grafu.synth.generate import make_specimen
 from grafu.synth.truth.clashes import articulated_of
@@ -27,6 +30,7 @@ from pxr import Usd, UsdGeom, UsdPhysics, UsdShade, UsdValidation
 
 from grafu.export.usd.config import UsdConfig
 from grafu.export.usd.exporter import export_usd, export_usdz
+from grafu.export.usd.stage import build_stage
 
 
 def opened(files: ExportFiles, folder: Path) -> Usd.Stage:
@@ -344,3 +348,55 @@ def test_a_joint_without_limits_states_none(cabinet, tmp_path):
     assert made
     assert not made.GetUpperLimitAttr().HasAuthoredValue()
     assert not made.GetLowerLimitAttr().HasAuthoredValue()
+
+
+def test_collision_hulls_have_normals_and_all_shapes_a_physics_material():
+    hull = trimesh_cylinder()
+    made = ArticulatedObject("o", "body", (Link("body", (Visual("leg", (Surface(hull),)),)),))
+    stage, _ = build_stage(made, UsdConfig(static_friction=0.7, dynamic_friction=0.6, restitution=0.2))
+    collisions = stage.GetPrimAtPath("/o/body/collisions")
+    mesh = UsdGeom.Mesh(collisions.GetChild("collision_0"))
+    bound, _ = UsdShade.MaterialBindingAPI(mesh.GetPrim()).ComputeBoundMaterial("physics")
+    friction = UsdPhysics.MaterialAPI(bound.GetPrim())
+
+    assert mesh.GetNormalsInterpolation() == "uniform"
+    points, normals = (np.array(attr.Get()) for attr in (mesh.GetPointsAttr(), mesh.GetNormalsAttr()))
+    faces = np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3)
+    outwards = points[faces].mean(axis=1) - points.mean(axis=0)
+    assert np.allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-5)
+    assert (np.einsum("ij,ij->i", outwards, normals) > 0).all()
+    assert friction.GetStaticFrictionAttr().Get() == pytest.approx(0.7)
+    assert friction.GetDynamicFrictionAttr().Get() == pytest.approx(0.6)
+    assert friction.GetRestitutionAttr().Get() == pytest.approx(0.2)
+
+
+def trimesh_cylinder() -> TriangleMesh:
+    return TriangleMesh.from_trimesh(trimesh.creation.cylinder(0.03, 0.7, sections=16))
+
+
+@pytest.mark.parametrize("wrong", [{"static_friction": 0.1}, {"restitution": 1.5}, {"dynamic_friction": -0.1}])
+def test_impossible_contacts_are_refused(wrong):
+    with pytest.raises(ValueError, match="friction"):
+        UsdConfig(**wrong)
+
+
+def test_links_and_parts_have_semantic_labels(cabinet):
+    stage, _ = build_stage(cabinet, UsdConfig())
+
+    def labels(path: str) -> list[str]:
+        return list(stage.GetPrimAtPath(path).GetAttribute("semantics:labels:class").Get() or [])
+
+    assert labels("/cabinet/door_1") == labels("/cabinet/door_1/visuals/door_1") == ["door"]
+    assert labels("/cabinet/drawer_1") == ["drawer"]
+    assert labels("/cabinet/body") == []
+
+
+def test_grasps_are_prims_in_their_links():
+    made = with_grasps(make_cabinet(), {"door_1": GraspHint("handle")})
+    (grasp,) = made.grasps
+    prim = build_stage(made, UsdConfig())[0].GetPrimAtPath("/cabinet/door_1/grasps/handle_1_grasp")
+    T = np.array(UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(0)).T
+
+    assert np.allclose(T, grasp.T_object_grasp, atol=1e-6)
+    assert prim.GetAttribute("grafu:grasp:width").Get() == grasp.width
+    assert prim.GetAttribute("grafu:grasp:kind").Get() == "handle"

@@ -8,7 +8,7 @@ are degrees, as OpenUSD has them.
 from typing import Any, final
 
 import numpy as np
-from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics
+from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade
 
 from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint, Link, Visual
 from grafu.articulation.joint_dynamics import JointDynamics
@@ -70,6 +70,11 @@ class _StageBuilder:
         Usd.ModelAPI(top).SetKind(Kind.Tokens.component)
         UsdPhysics.ArticulationRootAPI.Apply(top)
         UsdGeom.Scope.Define(stage, self._top.AppendChild("Looks"))
+        self._contact = self._materials.new_material("contact")
+        made = UsdPhysics.MaterialAPI.Apply(self._contact.GetPrim())
+        made.CreateStaticFrictionAttr(self._config.static_friction)
+        made.CreateDynamicFrictionAttr(self._config.dynamic_friction)
+        made.CreateRestitutionAttr(self._config.restitution)
 
     def _define(self, schema: Any, path: Sdf.Path, name: str) -> Usd.Prim:
         """Returns a new prim; a name that no prim can have is what it shows to people."""
@@ -84,6 +89,8 @@ class _StageBuilder:
         UsdGeom.Xformable(prim).AddTranslateOp().Set(Gf.Vec3d(*origin.tolist()))
         UsdPhysics.RigidBodyAPI.Apply(prim)
         _add_mass(prim, self._physics.masses[link.id], origin)
+        if link.id != self._object.root:
+            _add_label(prim, _label_of(link))
         visuals, siblings = UsdGeom.Xform.Define(self._stage, path.AppendChild("visuals")).GetPath(), Siblings()
         for visual in link.rigid_visuals:
             if len(visual.mesh.faces):
@@ -91,6 +98,8 @@ class _StageBuilder:
         self._add_grasps(link, path, origin)
         collisions = UsdGeom.Xform.Define(self._stage, path.AppendChild("collisions"))
         collisions.CreatePurposeAttr(UsdGeom.Tokens.guide)
+        binding = UsdShade.MaterialBindingAPI.Apply(collisions.GetPrim())
+        binding.Bind(self._contact, UsdShade.Tokens.weakerThanDescendants, "physics")
         for place, shape in enumerate(self._physics.shapes[link.id]):
             add_collision(self._stage, collisions.GetPath().AppendChild(f"collision_{place}"), shape, origin)
 
@@ -116,8 +125,7 @@ class _StageBuilder:
         prim = self._define(UsdGeom.Mesh if len(drawn) == 1 else UsdGeom.Xform, path, visual.name)
         for place, surface in zip(places, drawn, strict=True):
             add_surface(self._stage, place, surface, origin, self._materials, self._config.crease_angle)
-        if visual.label is not PartLabel.UNKNOWN:
-            UsdSemantics.LabelsAPI.Apply(prim, "class").CreateLabelsAttr([visual.label.value])
+        _add_label(prim, visual.label)
         prim.CreateAttribute("grafu:role", Sdf.ValueTypeNames.Token).Set(visual.role.value)
 
     def _add_root_joint(self) -> None:
@@ -197,6 +205,17 @@ class _StageBuilder:
         }
         for name, value in values.items():
             prim.CreateAttribute(f"physxJointAxis:{instance}:{name}", Sdf.ValueTypeNames.Float, False).Set(value)
+
+
+def _label_of(link: Link) -> PartLabel:
+    """Returns what a link is called: the label of its largest part."""
+    drawn = [visual for visual in link.visuals if len(visual.mesh.faces)]
+    return max(drawn, key=lambda v: v.mesh.box.diagonal).label if drawn else PartLabel.UNKNOWN
+
+
+def _add_label(prim: Usd.Prim, label: PartLabel) -> None:
+    if label is not PartLabel.UNKNOWN:
+        UsdSemantics.LabelsAPI.Apply(prim, "class").CreateLabelsAttr([label.value])
 
 
 def _join(joint: Any, first: Sdf.Path, second: Sdf.Path, offset: Vec3, R: Mat3) -> None:

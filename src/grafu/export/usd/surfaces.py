@@ -222,6 +222,8 @@ def add_collision(stage: Usd.Stage, path: Sdf.Path, shape: CollisionShape, origi
         UsdPhysics.CollisionAPI.Apply(cube.GetPrim())
         return
     mesh = _add_mesh(stage, path, shape.mesh, origin)
+    mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(_floats(shape.mesh.face_normals)))
+    mesh.SetNormalsInterpolation(UsdGeom.Tokens.uniform)
     UsdPhysics.CollisionAPI.Apply(mesh.GetPrim())
     UsdPhysics.MeshCollisionAPI.Apply(mesh.GetPrim()).CreateApproximationAttr(UsdPhysics.Tokens.convexHull)
 
