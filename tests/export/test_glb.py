@@ -118,11 +118,49 @@ def test_quaternions_never_flip_between_keys(cabinet):
     assert np.all(np.einsum("nd,nd->n", q[1:], q[:-1]) > 0.9)
 
 
-def test_one_animation_opens_everything(cabinet):
-    (animation,) = read(cabinet).tables["animations"]
+def test_one_animation_opens_everything_and_one_each_joint(cabinet):
+    animations = read(cabinet).tables["animations"]
 
-    assert animation["name"] == "open_close"
-    assert len(animation["channels"]) == 2
+    assert [animation["name"] for animation in animations] == [
+        "open_close",
+        "open_door_1_hinge",
+        "open_drawer_1_rail",
+    ]
+    assert [len(animation["channels"]) for animation in animations] == [2, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("place", "link", "path"), [(1, "door_1_link", "rotation"), (2, "drawer_1_link", "translation")]
+)
+def test_the_clip_of_a_joint_opens_it_alone_from_closed_to_open(cabinet, place, link, path):
+    file = read(cabinet)
+    animation = file.tables["animations"][place]
+    (channel,) = animation["channels"]
+    sampler = animation["samplers"][channel["sampler"]]
+    times, values = file.array(sampler["input"]).ravel(), file.array(sampler["output"])
+
+    assert file.tables["nodes"][channel["target"]["node"]]["name"] == link
+    assert channel["target"]["path"] == path
+    assert (times[0], times[-1]) == (0.0, 1.5)
+    if path == "translation":
+        assert np.allclose(values[-1] - values[0], [0, 0, 0.28], atol=1e-6)
+    else:
+        assert np.allclose(values[0], [0, 0, 0, 1], atol=1e-6)
+        assert 2 * np.arccos(values[-1][3]) == pytest.approx(1.75, abs=1e-4)
+
+
+def test_a_click_plays_the_clip_of_its_joint_after_those_before_it(cabinet):
+    file = read(cabinet)
+
+    assert file.node("door_1_link")["extras"]["grafu"]["on_click"] == {
+        "play": "open_door_1_hinge",
+        "toggle": True,
+        "after": [],
+    }
+    assert file.node("drawer_1_link")["extras"]["grafu"]["on_click"]["after"] == ["open_door_1_hinge"]
+    assert "on_click" not in file.node("body_link")["extras"]["grafu"]
+    bare = read(cabinet, GlbConfig(animate=False))
+    assert "on_click" not in bare.node("door_1_link")["extras"]["grafu"]
 
 
 def test_a_static_object_has_no_animation(make_cube):

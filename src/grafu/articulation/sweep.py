@@ -119,6 +119,27 @@ def cycle_tracks(
     return tuple(tracks)
 
 
+def opening_tracks(
+    articulated: ArticulatedObject, joint_id: str, seconds: float = 1.5, steps: int = 16
+) -> tuple[JointTrack, ...]:
+    """Returns the tracks of one joint that opens from rest to full, and of those that are coupled with it.
+
+    It has a soft start and stop, sampled at `steps` + 1 keys from 0 s. Joints that it waits for do not move.
+
+    Raises:
+        ArticulationError: if the joint is not a moving joint.
+    """
+    leader = articulated.leader_of(_moving_joint(articulated, joint_id))
+    joints = {joint.id: joint for joint in articulated.moving_joints}
+    ramp = np.linspace(0.0, 1.0, steps + 1)
+    ratios = ramp * ramp * (3.0 - 2.0 * ramp)
+    return tuple(
+        JointTrack(name, seconds * ramp, _scaled(joint, _ratios(joints, name, ratios)))
+        for name, joint in joints.items()
+        if articulated.leader_of(joint) is leader
+    )
+
+
 def values_at(tracks: tuple[JointTrack, ...], time: float) -> JointValues:
     """Returns the value of each track's joint at a time in seconds, interpolated linearly."""
     return {track.joint: float(np.interp(time, track.times, track.values)) for track in tracks}

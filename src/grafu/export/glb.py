@@ -1,4 +1,4 @@
-"""An articulated object as one animated GLB: every part its own node, every joint a channel of one animation.
+"""An articulated object as one animated GLB: every part its own node, one animation of all joints, one of each.
 
 Coordinates are baked to glTF's frame (Y up, front +Z). Each link has a node whose origin lies on its joint's axis; its
 parts, its hardware and the links it carries are the children. Node `extras.grafu` say what glTF cannot: the joint's
@@ -17,7 +17,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
 from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.kinematics import link_origins
-from grafu.articulation.sweep import JointTrack, cycle_tracks
+from grafu.articulation.sweep import JointTrack, cycle_tracks, opening_tracks
 from grafu.articulation.swing import Swing
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
@@ -85,10 +85,10 @@ class _GlbWriter:
             joint = self._object.joint_of.get(link)
             if joint is not None:
                 self._nodes[link_nodes[joint.parent]].setdefault("children", []).append(node)
-        animation = self._animation(link_nodes) if self._config.animate else None
-        return _packed(self._tables(link_nodes[self._object.root], animation), self._buffer.to_bytes())
+        animations = self._animations(link_nodes) if self._config.animate else []
+        return _packed(self._tables(link_nodes[self._object.root], animations), self._buffer.to_bytes())
 
-    def _tables(self, root: int, animation: dict[str, Any] | None) -> dict[str, Any]:
+    def _tables(self, root: int, animations: list[dict[str, Any]]) -> dict[str, Any]:
         data = self._buffer.to_bytes()
         tables: dict[str, Any] = {
             "asset": {"version": "2.0", "generator": f"grafu {__version__}"},
@@ -97,7 +97,7 @@ class _GlbWriter:
             "nodes": self._nodes,
             "meshes": self._meshes,
             **self._materials.tables,
-            "animations": [animation] if animation is not None else [],
+            "animations": animations,
             "accessors": self._buffer.accessors,
             "bufferViews": self._buffer.views,
             "buffers": [{"byteLength": len(data)}] if data else [],
@@ -114,6 +114,8 @@ class _GlbWriter:
         if joint is not None:
             node["translation"] = self._offset(joint)
             extras["joint"] = _described_joint(joint)
+            if self._config.animate and _opens(joint):
+                extras["on_click"] = self._on_click(joint)
         node["extras"] = {"grafu": extras}
         self._nodes.append(node)
         index = len(self._nodes) - 1
@@ -141,13 +143,28 @@ class _GlbWriter:
         self._nodes.append(node)
         return len(self._nodes) - 1
 
-    def _animation(self, link_nodes: dict[str, int]) -> dict[str, Any] | None:
+    def _on_click(self, joint: Joint) -> dict[str, Any]:
+        """Returns which animation a click on a link plays, and those that must have been played before."""
+        leader = self._object.leader_of(joint)
+        return {"play": _clip_name(leader.id), "toggle": True, "after": [_clip_name(other) for other in leader.after]}
+
+    def _animations(self, link_nodes: dict[str, int]) -> list[dict[str, Any]]:
+        """Returns the animation that opens and closes everything, then one for each joint that moves by itself."""
+        times: dict[bytes, int] = {}
         tracks = cycle_tracks(self._object, self._config.stage_seconds, self._config.pause)
-        joints = {joint.id: joint for joint in self._object.moving_joints if joint.limits.range > 0}
+        made = [self._animation(ANIMATION_NAME, tracks, link_nodes, times)]
+        for joint in self._object.free_joints:
+            tracks = opening_tracks(self._object, joint.id, self._config.stage_seconds)
+            made.append(self._animation(_clip_name(joint.id), tracks, link_nodes, times))
+        return [animation for animation in made if animation is not None]
+
+    def _animation(
+        self, name: str, tracks: tuple[JointTrack, ...], link_nodes: dict[str, int], times: dict[bytes, int]
+    ) -> dict[str, Any] | None:
+        joints = {joint.id: joint for joint in self._object.moving_joints if _opens(joint)}
         moving = [track for track in tracks if track.joint in joints]
         if not moving:
             return None
-        times: dict[bytes, int] = {}
         samplers: list[dict[str, Any]] = []
         channels: list[dict[str, Any]] = []
         for track in moving:
@@ -161,7 +178,7 @@ class _GlbWriter:
                     turns = quaternions_about(to_y_up(swing.axis.direction[None])[0], swing.angles_at(track.values))
                     channels.append({"sampler": len(samplers), "target": {"node": node, "path": "rotation"}})
                     samplers.append(self._sampler(track, turns, times))
-        return {"name": ANIMATION_NAME, "channels": channels, "samplers": samplers}
+        return {"name": name, "channels": channels, "samplers": samplers}
 
     def _animated(self, joint: Joint, values: Scalars) -> Iterator[tuple[str, np.ndarray]]:
         """Yields the properties of a joint's node that follow its values, with what they pass through."""
@@ -187,6 +204,14 @@ def _reserved_names(articulated: ArticulatedObject) -> NameBook:
         for visual in link.visuals:
             names.unique(visual.name)
     return names
+
+
+def _opens(joint: Joint) -> bool:
+    return joint.kind.moves and joint.limits.range > 0
+
+
+def _clip_name(joint_id: str) -> str:
+    return f"open_{joint_id}"
 
 
 def _described_joint(joint: Joint) -> dict[str, Any]:
