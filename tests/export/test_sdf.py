@@ -50,7 +50,7 @@ def test_our_reader_reads_the_same_parts_and_joints(cabinet, folder):
         box = Box.around(drawn[part.id].mesh.transformed(np.array(shift)).vertices)
         assert np.allclose([part.box.low, part.box.high], [box.low, box.high], atol=1e-5)
     assert {s.material.name for p in asset.parts for s in p.surfaces} >= {"oak", "glass", "steel"}
-    stated = {joint.part: joint for joint in asset.joints}
+    stated = {joint.part: joint for joint in asset.stated_joints}
     for joint in cabinet.joints:
         assert np.allclose(stated[joint.child].axis.direction, joint.axis.direction, atol=1e-6)
         assert stated[joint.child].limits.upper == pytest.approx(joint.limits.upper)
