@@ -199,8 +199,7 @@ def functionalize(
     complete = partial(cache.value, f"complete by {chosen} of {settings.weights}", motion.complete, asset, graph)
     completion = stages.timed("complete", complete, partial(without_network, graph))
     completion = with_mounts(with_motions(completion, motions, asset), settings.joints)
-    first = partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan)  # initial axes
-    plan = stages.timed("plan", first)
+    plan = stages.timed("plan", partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan))
     turning: frozenset[str] = frozenset()
     if not motion.reads_annotation:
         plan, turning = shown_by_shape(plan, asset, completion.completed, joints, motions, settings.small_parts)
