@@ -29,14 +29,14 @@ def _hints(made: ArticulatedObject, kinds: dict[str, Grasp], fittings: StepResul
     link_of = {visual.name: link.id for link in made.links for visual in link.visuals}
     hints: dict[str, GraspHint] = {}
     for moving, kind in kinds.items():
-        link = link_of.get(moving, moving)
-        if kind in ("none", "driven"):
+        if kind == "none" or kind == "driven":
             continue
-        seen = fittings.grasps.get(moving)
-        told = seen is not None and seen.kind == kind
-        hints[link] = GraspHint(kind, seen.part, seen.center, seen.length) if told and seen else GraspHint(kind)
-        if told and seen and kind == "handle":
-            hints[link] = GraspHint(kind, seen.part)
+        seen, hint = fittings.grasps.get(moving), GraspHint(kind)
+        if seen is not None and seen.kind == kind:
+            hint = replace(hint, part=seen.part)
+            if kind != "handle":  # a handle is its whole part
+                hint = replace(hint, center=seen.center, length=seen.length)
+        hints[link_of.get(moving, moving)] = hint
     carved = {link_of.get(c.part.id, c.part.id): c for c in fittings.changes.carved}
     return hints | {link: GraspHint("recess", c.part.id, c.centre, float(c.size[0])) for link, c in carved.items()}
 
