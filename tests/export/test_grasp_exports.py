@@ -52,7 +52,7 @@ def test_sites_stand_where_the_kinematics_say(held, pose, tmp_path):
 
 @pytest.mark.parametrize("pose", [dict.fromkeys(POSE, 0.0), POSE])
 def test_frames_of_the_urdf_stand_where_the_kinematics_say(held, pose, tmp_path):
-    write_files(export_urdf(held), tmp_path / "out")
+    write_files(export_urdf(held, UrdfConfig(grasps=True)), tmp_path / "out")
     robot = yourdfpy.URDF.load(str(tmp_path / "out" / "model.urdf"))
     robot.update_cfg(pose)
 
@@ -60,21 +60,21 @@ def test_frames_of_the_urdf_stand_where_the_kinematics_say(held, pose, tmp_path)
         assert np.allclose(robot.get_transform(name, "body"), T, atol=1e-6)
 
 
-def test_frames_of_the_urdf_change_no_mass_and_can_be_left_out(held, tmp_path):
-    bare = ET.fromstring(export_urdf(held, UrdfConfig(grasps=False))["model.urdf"])
-    framed = ET.fromstring(export_urdf(held)["model.urdf"])
+def test_frames_of_the_urdf_change_no_mass_and_are_written_on_request(held, tmp_path):
+    bare = ET.fromstring(export_urdf(held)["model.urdf"])
+    framed = ET.fromstring(export_urdf(held, UrdfConfig(grasps=True))["model.urdf"])
     masses = [sum(float(m.get("value")) for m in tree.iter("mass")) for tree in (bare, framed)]
 
     assert len(bare.findall("link")) == 3
     assert len(framed.findall("link")) == 5
     assert masses[1] == pytest.approx(masses[0], abs=1e-5)
-    write_files(export_urdf(held), tmp_path / "out")
+    write_files(export_urdf(held, UrdfConfig(grasps=True)), tmp_path / "out")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "out" / "model.urdf"))
     assert model.nq == 2
 
 
 def test_our_reader_takes_frames_for_no_parts(held, tmp_path):
-    write_files(export_urdf(held), tmp_path / "out")
+    write_files(export_urdf(held, UrdfConfig(grasps=True)), tmp_path / "out")
 
     asset = load_asset(tmp_path / "out" / "model.urdf")
 
@@ -105,6 +105,9 @@ def test_names_that_are_taken_get_another(held):
     )
     made = ArticulatedObject(held.name, held.root, links, joints, held.grasps[:1])
 
-    names = [link.get("name") for link in ET.fromstring(export_urdf(made)["model.urdf"]).findall("link")]
+    names = [
+        link.get("name")
+        for link in ET.fromstring(export_urdf(made, UrdfConfig(grasps=True))["model.urdf"]).findall("link")
+    ]
 
     assert names == ["body", "door_1", "handle_1_grasp", "handle_1_grasp_2"]

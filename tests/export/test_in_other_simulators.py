@@ -14,7 +14,8 @@ from grafu.articulation.grasp_search import GraspHint, with_grasps
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.physics import physics_of
 from grafu.export.files import write_files
-from grafu.export.formats import export
+from grafu.export.sdf import export_sdf
+from grafu.export.urdf import UrdfConfig, export_urdf
 
 JOINTS = ("door_1_hinge", "drawer_1_rail")
 POSE = dict(zip(JOINTS, (1.75, 0.28), strict=True))
@@ -28,7 +29,7 @@ def cabinet() -> ArticulatedObject:
 @pytest.fixture(scope="module")
 def folder(cabinet, tmp_path_factory) -> Path:
     out = tmp_path_factory.mktemp("simulators") / "cabinet"
-    write_files(export(cabinet, ["urdf", "sdf"]), out)
+    write_files(export_urdf(cabinet, UrdfConfig(grasps=True)).joined(export_sdf(cabinet)), out)
     return out
 
 

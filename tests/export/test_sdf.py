@@ -58,7 +58,7 @@ def test_our_reader_reads_the_same_parts_and_joints(cabinet, folder):
     stated = {joint.part: joint for joint in asset.stated_joints}
     for joint in cabinet.joints:
         assert np.allclose(stated[joint.child].axis.direction, joint.axis.direction, atol=1e-6)
-        assert stated[joint.child].limits.upper == pytest.approx(joint.limits.upper)
+        assert stated[joint.child].upper == pytest.approx(joint.limits.upper)
 
 
 def test_numbers_are_those_of_the_physics(cabinet, model):

@@ -33,14 +33,14 @@ _NEXT_TO_NOTHING: Final = MassProperties(1e-6, np.zeros(3), 1e-10 * np.eye(3))
 class UrdfConfig(ShortRepr):
     """What goes into a URDF.
 
-    `mujoco` adds the element that tells MuJoCo where the meshes are; others ignore it. `grasps` adds a frame for each
-    grasp.
+    `mujoco` adds the element that tells MuJoCo where the meshes are; others ignore it. `grasps` adds a link
+    for each grasp frame; without them each link is a body that moves, which many readers expect.
     """
 
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)
     crease_angle: float = CREASE_ANGLE
     mujoco: bool = True
-    grasps: bool = True
+    grasps: bool = False
 
 
 DEFAULT_URDF_CONFIG = UrdfConfig()

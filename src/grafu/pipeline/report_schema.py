@@ -130,7 +130,7 @@ class ClearanceRecord(ReportRecord):
 class GraspRecord(ReportRecord):
     """Where a gripper with two fingers takes hold of the moving link, at rest."""
 
-    name: str = Field(description="the name of its frame in model.urdf, model.xml and model.usdc")
+    name: str = Field(description="the name of its frame in model.xml, model.sdf and model.usdc")
     part: str = Field(description="the visual that is held")
     kind: Grasp = Field(description="what is held, as in `grasp`")
     position: Vector = Field(description="a point on the surface of what is held")
