@@ -167,7 +167,7 @@ class FingerSpace:
         position = axes @ np.array([x, y, hit])
         inside = position - axes[:, 2] * min(max(hit - z, _LEVELS[0]), FINGER_THICKNESS / 2)
         options = [sign * axes[:, k] for k in (1, 0) for sign in (-1.0, 1.0)]
-        walls = [float(self._all.along(inside[None], way)[0]) for way in options]
+        walls = [float(self._all.along(inside[None], side)[0]) for side in options]
         return FingerFit(position, axes[:, 2], options[int(np.argmin(walls))], 0.0, 0.0, 0.0)
 
     @staticmethod

@@ -29,7 +29,7 @@ from grafu.pipeline.report_schema import (
     AddedRecord,
     ClearanceRecord,
     Grasp,
-    GraspRecord,
+    GraspFrameRecord,
     JointRecord,
     MotionRecord,
     PartRecord,
@@ -142,9 +142,9 @@ def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
     )
 
 
-def _grasp_records(made: ArticulatedObject, link: str) -> tuple[GraspRecord, ...]:
+def _grasp_records(made: ArticulatedObject, link: str) -> tuple[GraspFrameRecord, ...]:
     return tuple(
-        GraspRecord(
+        GraspFrameRecord(
             name=grasp.name,
             part=grasp.part,
             kind=grasp.kind,

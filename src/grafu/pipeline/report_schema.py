@@ -127,7 +127,7 @@ class ClearanceRecord(ReportRecord):
     why: str = Field(description="what it blocked")
 
 
-class GraspRecord(ReportRecord):
+class GraspFrameRecord(ReportRecord):
     """Where a gripper with two fingers takes hold of the moving link, at rest."""
 
     name: str = Field(description="the name of its frame in model.xml, model.sdf and model.usdc")
@@ -174,7 +174,9 @@ class JointRecord(ReportRecord):
         description="how it can be grasped (`itself`: a knob or button is held, `driven`: a drive, or the whole piece, "
         "moves it); a follower without a grasp: how its leader can be"
     )
-    grasp_frames: tuple[GraspRecord, ...] = Field(default=(), description="its grips: each handle, else at most one")
+    grasp_frames: tuple[GraspFrameRecord, ...] = Field(
+        default=(), description="its grips: each handle, else at most one"
+    )
     small: bool = Field(default=False, description="whether it is a knob, a button, a wheel or a caster")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
     notes: tuple[str, ...] = Field(description="what the user should check")
