@@ -8,7 +8,7 @@ from small_cabinet import GLASS, STEEL, WOOD, png
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.articulation.sweep import cycle_tracks, values_at
-from grafu.export.glb import DEFAULT_GLB_CONFIG, GlbConfig, export_glb
+from grafu.export.glb import DEFAULT_GLB_CONFIG, GlbConfig, export_glb, export_merged_glb
 from grafu.geometry.appearance import Material, Texture
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, rotation_matrix, transform_points
@@ -229,3 +229,29 @@ def test_links_and_parts_of_one_name_stay_apart(make_cube):
 def test_times_must_be_positive():
     with pytest.raises(ValueError, match="positive seconds"):
         GlbConfig(pause=0.0)
+
+
+def test_a_merged_file_draws_each_link_with_one_primitive_per_material(cabinet, tmp_path):
+    data = export_merged_glb(cabinet)["model_merged.glb"]
+    file, whole = Glb.parse(data), read(cabinet)
+    meshes = {mesh["name"]: len(mesh["primitives"]) for mesh in file.tables["meshes"]}
+
+    assert meshes == {"body_parts": 2, "door_1_parts": 3, "drawer_1_parts": 1}
+    assert file.tables["animations"][0]["name"] == "open_close"
+    assert issues_of(data, tmp_path)["numErrors"] == 0
+    for link in cabinet.links:
+        parts = np.vstack([whole.triangles(visual.name) for visual in link.visuals]).reshape(-1, 3)
+        merged = file.triangles(f"{link.id}_parts").reshape(-1, 3)
+        assert len(merged) == len(parts)
+        assert np.allclose(np.sort(merged, axis=0), np.sort(parts, axis=0), atol=1e-6)
+
+
+def test_surfaces_with_and_without_coordinates_are_not_merged(make_cube):
+    (visual,) = make_cube(material=WOOD).link("body").visuals
+    plain = visual.surfaces[0]
+    laid = replace(plain, uv=plain.mesh.vertices[:, :2])
+    both = ArticulatedObject("o", "body", (Link("body", (Visual("a", (plain,)), Visual("b", (laid,)))),))
+
+    mesh = Glb.parse(export_merged_glb(both)["model_merged.glb"]).tables["meshes"][0]
+
+    assert ["TEXCOORD_0" in primitive["attributes"] for primitive in mesh["primitives"]] == [False, True]

@@ -49,6 +49,13 @@ _ALL = (
         "grafu.export.glb:export_glb",
     ),
     Format(
+        "glb-merged",
+        "GLB, merged",
+        "The same with one mesh per link and material: fewer draw calls on web pages",
+        ("model_merged.glb",),
+        "grafu.export.glb:export_merged_glb",
+    ),
+    Format(
         "urdf",
         "URDF",
         "Joints, masses and collision shapes: any robot simulator",
