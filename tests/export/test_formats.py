@@ -31,7 +31,8 @@ def test_formats_are_exported_together(cabinet):
 def test_an_unknown_format_names_the_known_ones(cabinet):
     with pytest.raises(
         ExportError,
-        match=r"unknown format `fbx`: known formats are glb, glb-merged, urdf, mjcf, sdf, usd, usdz, particulate, singapo, blend",
+        match=r"unknown format `fbx`: known formats are glb, glb-merged, urdf, mjcf, sdf, usd, usdz, particulate, "
+        "singapo, blend",
     ):
         export(cabinet, ["glb", "fbx"])
 

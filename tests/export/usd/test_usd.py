@@ -26,7 +26,7 @@ from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import JointType
 
 pytest.importorskip("pxr", reason="usd-core is not installed: pip install 'grafu[usd]'")
-from pxr import Usd, UsdGeom, UsdPhysics, UsdShade, UsdValidation
+from pxr import Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade, UsdValidation
 
 from grafu.export.usd.config import UsdConfig
 from grafu.export.usd.exporter import export_usd, export_usdz
@@ -403,3 +403,9 @@ def test_grasps_are_prims_in_their_links():
     assert np.allclose(T, grasp.T_object_grasp, atol=1e-6)
     assert prim.GetAttribute("grafu:grasp:width").Get() == grasp.width
     assert prim.GetAttribute("grafu:grasp:kind").Get() == "handle"
+
+
+def test_the_whole_is_labelled_in_two_taxonomies(stage):
+    top = stage.GetDefaultPrim()
+    labels = {name: UsdSemantics.LabelsAPI(top, name).GetLabelsAttr().Get()[0] for name in ("class", "wikidata_qcode")}
+    assert labels == {"class": "furniture", "wikidata_qcode": "Q14745"}

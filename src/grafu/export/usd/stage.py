@@ -21,6 +21,8 @@ from grafu.geometry.arrays import Mat3, Vec3
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel
 
+_WHOLE = {"class": "furniture", "wikidata_qcode": "Q14745"}
+"""What the whole is, by taxonomy: SimReady asks for Wikidata's code; parts without a label of their own inherit it."""
 _AXES = (UsdPhysics.Tokens.x, UsdPhysics.Tokens.y, UsdPhysics.Tokens.z)
 
 
@@ -69,6 +71,8 @@ class _StageBuilder:
         stage.SetDefaultPrim(top)
         Usd.ModelAPI(top).SetKind(Kind.Tokens.component)
         UsdPhysics.ArticulationRootAPI.Apply(top)
+        for taxonomy, label in _WHOLE.items():
+            UsdSemantics.LabelsAPI.Apply(top, taxonomy).CreateLabelsAttr([label])
         UsdGeom.Scope.Define(stage, self._top.AppendChild("Looks"))
         self._contact = self._materials.new_material("contact")
         made = UsdPhysics.MaterialAPI.Apply(self._contact.GetPrim())
