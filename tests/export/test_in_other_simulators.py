@@ -82,7 +82,8 @@ def test_drake_has_its_mass_and_poses(cabinet, folder, file):
     plant.Finalize()
     context = plant.CreateDefaultContext()
     for joint, value in POSE.items():
-        plant.GetJointByName(joint).SetPositions(context, [value])
+        moved = plant.GetJointByName(joint)
+        (moved.set_angle if moved.type_name() == "revolute" else moved.set_translation)(context, value)
 
     assert plant.num_positions() == 2
     assert plant.CalcTotalMass(context) == pytest.approx(mass_of(cabinet), abs=1e-4)
