@@ -11,6 +11,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.base import Base
 from grafu.articulation.joint_values import Coupling as Coupling
 from grafu.articulation.joint_values import JointLimits as JointLimits
 from grafu.articulation.motion_kind import MotionKind, motion_kind
@@ -142,7 +143,7 @@ class Joint:
 @final
 @dataclass(frozen=True, repr=False)
 class ArticulatedObject:
-    """A tree of links under one static root.
+    """A tree of links under one static root. `base` is what holds the root; None: nobody stated it.
 
     Raises:
         ArticulationError: if ids repeat, a joint names a link that is not there, a link has two parents, a cycle
@@ -155,6 +156,7 @@ class ArticulatedObject:
     root: str
     links: tuple[Link, ...]
     joints: tuple[Joint, ...] = ()
+    base: Base | None = None
 
     def __repr__(self) -> str:
         return f"<ArticulatedObject {self.name}: {len(self.links)} links, {len(self.joints)} joints>"

@@ -253,10 +253,10 @@ def _cut_back(shape: CollisionShape, obstacle: Points, config: ShapeClearanceCon
         return None
     normal = R[:, axis] * (1.0 if side == 0 else -1.0)
     offset = float(low[axis] + room[axis, 0]) if side == 0 else -float(high[axis] - room[axis, 1])
-    return _halved(shape, normal, offset, int(axis))
+    return halved(shape, normal, offset, int(axis))
 
 
-def _halved(shape: CollisionShape, normal: np.ndarray, offset: float, axis: int) -> CollisionShape | None:
+def halved(shape: CollisionShape, normal: np.ndarray, offset: float, axis: int) -> CollisionShape | None:
     """Returns the part of a shape where `normal . x <= offset`; the normal is along `axis` of a box."""
     if isinstance(shape, OrientedBox):
         reach = float(normal @ shape.center) + shape.half[axis]

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING
 from grafu.asset.regular_files import read_head
 from grafu.cli.input_options import add_input_options, add_limit_option, load_options, positive_count, with_limits
 from grafu.cli.limit_options import add_limit_options, limits_of
-from grafu.cli.part_options import MOVE_HELP, add_addition_options, motion_choice, part_move, with_moves
+from grafu.cli.part_options import (
+    MOVE_HELP,
+    add_addition_options,
+    add_base_option,
+    motion_choice,
+    part_move,
+    with_moves,
+)
 from grafu.cli.verb import complain
 from grafu.errors import AssetError, OptionError
 from grafu.export.formats import DEFAULT_FORMATS, known_formats
@@ -53,14 +60,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "file: particulate:FILE, singapo:FILE, grafu-pred:FILE, urdf:FILE; for several inputs a folder with an entry "
         "for each name (default: auto)",
     )
-    parser.add_argument(
-        "--move",
-        action="append",
-        type=part_move,
-        default=[],
-        metavar="PART=HOW",
-        help=MOVE_HELP,
-    )
+    parser.add_argument("--move", action="append", type=part_move, default=[], metavar="PART=HOW", help=MOVE_HELP)
     parser.add_argument(
         "--formats",
         default=",".join(DEFAULT_FORMATS),
@@ -90,6 +90,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         action="store_true",
         help="go on where a run was stopped: results that are there stay, and are shown with the new ones",
     )
+    add_base_option(parser)
     add_addition_options(parser)
     add_input_options(parser)
     add_limit_option(parser)
@@ -271,6 +272,7 @@ def stated_settings(options: argparse.Namespace) -> "Settings":
         weights=options.weights or base.weights,
         hinge=options.hinge or base.hinge,
         stays=base.stays and not options.no_stays,
+        base=options.base or base.base,
     )
     if options.motion is None or options.motion.source.is_foreign:
         return settings
