@@ -59,11 +59,10 @@ def test_a_urdf_has_a_world_only_where_it_is_stated(cabinet, tmp_path, base, has
 
 
 def test_a_part_called_world_stays_what_it_is(cabinet):
-    named = replace(
-        cabinet, root="world", links=tuple(replace(k, id="world") if k.id == cabinet.root else k for k in cabinet.links)
-    )
+    links = tuple(replace(k, id="world") if k.id == cabinet.root else k for k in cabinet.links)
     joints = tuple(replace(j, parent="world") if j.parent == cabinet.root else j for j in cabinet.joints)
-    robot = ET.fromstring(export_urdf(replace(named, joints=joints, base=Base.FIXED))["model.urdf"])
+    named = replace(cabinet, root="world", links=links, joints=joints, base=Base.FIXED)
+    robot = ET.fromstring(export_urdf(named)["model.urdf"])
 
     names = [link.get("name") for link in robot.findall("link")]
     assert len(names) == len(set(names)) == len(cabinet.links) + 1

@@ -75,6 +75,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument(
         "--no-page", action="store_true", help="leave out report.html of each model, and index.html of several"
     )
+    parser.add_argument(
+        "--check", action="store_true", help="check each result as `grafu check` does; needs grafu[sim]"
+    )
     parser.add_argument("--no-trim", action="store_true", help="never take material away to give a part clearance")
     parser.add_argument(
         "--settings",
@@ -123,11 +126,14 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the options are wrong; nothing has been written then.
     """
-    from grafu.cli.job import jobs_of
+    from grafu.cli.check import check_results, require_simulator
+    from grafu.cli.job import Succeeded, jobs_of
     from grafu.cli.run_page import write_index
     from grafu.cli.summary import print_place, print_results
     from grafu.export.whole_file import clear_remains
 
+    if options.check:
+        require_simulator(options.formats)
     inputs = _distinct(options.inputs)
     shared = _job_options(options, alone=len(inputs) == 1)
     jobs, refused = jobs_of(inputs, shared)
@@ -139,6 +145,8 @@ def run(options: argparse.Namespace) -> int:
     order = {job.name: k for k, job in enumerate(jobs)}
     results = sorted([*done, *refused], key=lambda r: (inputs.index(r.job.input), order.get(r.job.name, -1)))
     print_results(results)
+    if options.check:
+        check_results([result.job.folder for result in results if isinstance(result, Succeeded)])
     if not options.no_page and (page := write_index(results, options.out)):
         print_place("all on one page", page)
     return _exit_code(results)
