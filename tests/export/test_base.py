@@ -2,7 +2,6 @@
 
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from dataclasses import replace
 
 import mujoco
 import numpy as np

@@ -54,7 +54,7 @@ def read_prediction(entry: Path, rng: Random) -> Any:
 
 
 def read_settings(entry: Path, rng: Random) -> Any:
-    from grafu.cli.functionalize import stated_settings
+    from grafu.cli.stated_settings import stated_settings
     from grafu.cli.main import build_parser
 
     arguments = ["functionalize", "x.glb", "--out", "x", "--settings", str(entry)]

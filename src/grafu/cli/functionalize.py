@@ -3,12 +3,11 @@
 import argparse
 import os
 from contextlib import closing
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.asset.regular_files import read_head
-from grafu.cli.input_options import add_input_options, add_limit_option, load_options, positive_count, with_limits
+from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.part_options import (
     MOVE_HELP,
@@ -18,13 +17,13 @@ from grafu.cli.part_options import (
     part_move,
     with_moves,
 )
+from grafu.cli.stated_settings import MOST_SETTINGS, stated_settings
 from grafu.cli.verb import complain
-from grafu.errors import AssetError, OptionError
+from grafu.errors import OptionError
 from grafu.export.formats import DEFAULT_FORMATS, known_formats
 
 if TYPE_CHECKING:
     from grafu.cli.job import Failed, Job, JobOptions, JobResult
-    from grafu.pipeline.settings import Settings
 
 _DESCRIPTION = """\
 Reads part-segmented furniture (GLB, glTF, USD, FBX, COLLADA, URDF, SDF, MJCF, OBJ, a folder of meshes, a
@@ -111,7 +110,7 @@ def _may_split(options: argparse.Namespace) -> bool:
     if options.pieces is not None or options.settings is None:
         return bool(options.pieces == "split")
     try:
-        return b'"split"' in read_head(options.settings, _MOST_SETTINGS)
+        return b'"split"' in read_head(options.settings, MOST_SETTINGS)
     except OSError:
         return False  # it is refused when it is read
 
@@ -186,7 +185,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
 
 def _require_weights(options: argparse.Namespace) -> None:
     """Raises FunctionalizationError if `--weights` names no file, or is given for a source that is not the network."""
-    from grafu.errors import OptionError, WeightsError
+    from grafu.errors import WeightsError
     from grafu.pipeline.motion_source import MotionSource
 
     if options.weights is None:
@@ -253,52 +252,3 @@ def _exit_code(results: "list[JobResult]") -> int:
     if not failed:
         return 0
     return 2 if len(results) == 1 and failed[0].users_fault else 1
-
-
-_MOST_SETTINGS = 16 * 2**20  # bytes of a settings file
-
-
-def stated_settings(options: argparse.Namespace) -> "Settings":
-    """Returns the settings in the file `--settings`, or the defaults, with what the other options state in their place.
-
-    A motion source that reads another system's file (`--motion particulate:FILE`) is no setting: it is passed over.
-
-    Raises:
-        FunctionalizationError: if the file cannot be read or is wrong, or an option is.
-    """
-    from grafu.cli.part_options import addition_config
-    from grafu.pipeline.settings import Settings
-    from grafu.templates.gallery import open_handles
-
-    base = read_settings(options.settings) if options.settings else Settings()
-    settings = replace(
-        base,
-        reading=with_limits(load_options(options, base.reading), options),
-        additions=addition_config(options, open_handles(options.templates), base.additions),
-        trim=base.trim and not options.no_trim,
-        small_parts=base.small_parts if options.small_parts is None else options.small_parts,
-        weights=options.weights or base.weights,
-        hinge=options.hinge or base.hinge,
-        stays=base.stays and not options.no_stays,
-        base=options.base or base.base,
-    )
-    if options.motion is None or options.motion.source.is_foreign:
-        return settings
-    return replace(settings, motion=options.motion.source)
-
-
-def read_settings(path: Path) -> "Settings":
-    """Returns the settings in a file.
-
-    Raises:
-        OptionError: if the file cannot be read or is wrong.
-    """
-    from grafu.asset.options import Limits
-    from grafu.asset.resources import read_bytes
-    from grafu.pipeline.settings import settings_from_bytes
-
-    try:
-        data = read_bytes(path, Limits(max_bytes=_MOST_SETTINGS))
-    except AssetError as error:
-        raise OptionError(f"`--settings` must be a JSON file: {error}") from None
-    return settings_from_bytes(data, path)
