@@ -40,7 +40,7 @@ def mass(kg: float, bounds: tuple[float, ...]) -> MassProperties:
     return MassProperties(kg, box(bounds).center, np.eye(3) * kg / 6)
 
 
-def chest(case: float, drawer: float, travel: float) -> Stability | None:
+def chest(case: float, drawer: float, travel: float, feet: tuple[float, ...] = CASE) -> Stability | None:
     """A case of 1 x 0.4 x 1 m whose drawer front, 20 mm thick, has all the drawer's mass."""
     joint = Joint(
         "slide",
@@ -53,7 +53,7 @@ def chest(case: float, drawer: float, travel: float) -> Stability | None:
     links = (link("case", CASE, PartLabel.UNKNOWN), link("drawer", FRONT, PartLabel.DRAWER))
     made = ArticulatedObject("chest", "case", links, (joint,))
     masses = {"case": mass(case, CASE), "drawer": mass(drawer, FRONT)}
-    return stability_of(made, masses, {"case": shape(CASE), "drawer": shape(FRONT)})
+    return stability_of(made, masses, {"case": shape(feet), "drawer": shape(FRONT)})
 
 
 def test_an_open_drawer_moves_the_centre_and_the_pull_that_tips_is_that_of_the_lever():
@@ -117,3 +117,12 @@ def test_nothing_tips_a_piece_without_joints_and_what_stands_on_an_edge_does_not
     thin = (-0.5, -0.002, 0.0, 0.5, 0.002, 1.0)
     assert stability_of(blade, {"case": mass(10.0, CASE)}, {"case": shape(thin)}) is None
     assert stability_of(blade, {"case": mass(10.0, CASE)}, {"case": ()}) is None
+
+
+def test_what_leans_on_a_wall_tips_while_it_is_closed():
+    feet = (-0.5, -0.2, 0.0, 0.5, -0.15, 0.02)
+    found = chest(case=20.0, drawer=5.0, travel=0.1, feet=feet)
+    assert found is not None
+    assert found.margin == pytest.approx(-0.15 - (5.0 * -0.21) / 25.0)
+    assert found.tipping_force == 0.0
+    assert found.weight_needed > 0

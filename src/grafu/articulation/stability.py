@@ -1,6 +1,6 @@
 """Whether a piece tips over: statics of the polygon on which it stands, with every joint wide open.
 
-The polygon is around all points of collision shapes that touch the floor. A pull at a grip, along the grip's own path,
+What leans on a wall tips while it is closed: that counts as well. The polygon is around all points of collision shapes that touch the floor. A pull at a grip, along the grip's own path,
 tips the piece about a side of the polygon where its moment is larger than that of the weight. Friction does not help:
 a piece that slides before it tips is judged as if it were held at its feet.
 """
@@ -20,7 +20,7 @@ from grafu.articulation.grip_point import grip_point
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.sweep import all_open, values_before
-from grafu.geometry.arrays import Points, Vec3
+from grafu.geometry.arrays import Mat4, Points, Vec3
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.transform import transform_points
 
@@ -55,9 +55,9 @@ DEFAULT_STABILITY_CONFIG = StabilityConfig()
 @final
 @dataclass(frozen=True, slots=True)
 class Stability:
-    """How safely a piece stands with everything open; masses in kg, forces in newtons, lengths in metres.
+    """How safely a piece stands, closed and with everything open; masses in kg, forces in newtons, lengths in metres.
 
-    `margin` is how far its centre of mass is inside the polygon on which it stands, negative outside. `tipping_force`
+    `margin` is the least that its centre of mass is inside the polygon on which it stands, negative outside. `tipping_force`
     is the least pull at a grip that tips it, 0 where it tips by itself, infinite where none can; `tipping_joint` is
     that grip's (empty: none). `weight_needed` is the least mass, low down at the far side of the polygon, and
     `wall_force` the pull of a wall mount at its upper edge, with which it bears the usual pulls; 0: it does without.
@@ -93,22 +93,27 @@ def stability_of(
     shapes: Mapping[str, tuple[CollisionShape, ...]],
     config: StabilityConfig = DEFAULT_STABILITY_CONFIG,
 ) -> Stability | None:
-    """Returns how safely a piece stands on a level floor with all joints at their upper limits.
+    """Returns how safely a piece stands on a level floor with all joints closed, and with all at their upper limits.
 
-    Each grip is pulled where it is while its joint is closed, and where it is while that is open. `masses` and `shapes`
+    About each side of the polygon the worse of the two holds. Each grip is pulled where it is while its joint is closed, and where it is while that is open. `masses` and `shapes`
     are those of all links by id, object frame at rest. None: it has no width on which it could stand.
     """
     feet = standing_points(shapes, config)
     polygon = _polygon(feet, config.least_side)
     if polygon is None:
         return None
-    poses = link_poses(articulated, all_open(articulated))
     total = sum(masses[link.id].mass for link in articulated.links)
-    centers = {link: transform_points(poses[link], held.center[None])[0] for link, held in masses.items()}
-    center: Vec3 = sum((masses[k].mass * centers[k] for k in masses), start=np.zeros(3)) / total
+    centers = [_center(masses, link_poses(articulated, values)) for values in ({}, all_open(articulated))]
     top = max(float(corners_of(shape)[:, 2].max()) for held in shapes.values() for shape in held)
     pulls = [pull for joint in articulated.free_joints for pull in _pulls(articulated, joint, config)]
-    return _judged(polygon, float(feet[:, 2].min()), top, total, center, pulls)
+    return _judged(polygon, float(feet[:, 2].min()), top, total, np.stack(centers), pulls)
+
+
+def _center(masses: Mapping[str, MassProperties], poses: Mapping[str, Mat4]) -> Vec3:
+    """Returns the centre of mass of the whole with links in these poses."""
+    total = sum(held.mass for held in masses.values())
+    moved = (held.mass * transform_points(poses[k], held.center[None])[0] for k, held in masses.items())
+    return np.asarray(sum(moved, start=np.zeros(3)) / total)
 
 
 def standing_points(
@@ -157,9 +162,11 @@ def _pulls(articulated: ArticulatedObject, joint: Joint, config: StabilityConfig
     return found
 
 
-def _judged(polygon: np.ndarray, floor: float, top: float, mass: float, center: Vec3, pulls: list[_Pull]) -> Stability:
+def _judged(
+    polygon: np.ndarray, floor: float, top: float, mass: float, centers: Points, pulls: list[_Pull]
+) -> Stability:
     weight, normals = GRAVITY * mass, _normals(polygon)
-    inside = np.einsum("nk,nk->n", polygon - center[:2], normals)  # of the centre of mass, from each side
+    inside = (np.einsum("nk,nk->n", polygon, normals) - centers[:, :2] @ normals.T).min(axis=0)  # from each side
     across = (polygon @ normals.T).max(axis=0) - (polygon @ normals.T).min(axis=0)
     least, which = (0.0, "") if inside.min() < 0 else (inf, "")
     lacking = -weight * inside

@@ -64,9 +64,9 @@ def _notes(record: BaseRecord) -> tuple[str, ...]:
 def stability_words(found: StabilityRecord) -> str:
     """Returns in a sentence what tips a piece over, and what it needs."""
     if found.tipping_force == 0 and not found.tipping_joint:
-        tips = "with everything open it tips over by itself"
+        tips = "closed or with everything open it tips over by itself"
     elif found.tipping_force is None:
-        return "with everything open no pull at a grip tips it over"
+        return "closed and with everything open no pull at a grip tips it over"
     else:
         tips = f"with everything open a pull of {found.tipping_force:.0f} N at {found.tipping_joint} tips it over"
     if found.weight_needed == 0:
