@@ -57,10 +57,11 @@ DEFAULT_STABILITY_CONFIG = StabilityConfig()
 class Stability:
     """How safely a piece stands, closed and with everything open; masses in kg, forces in newtons, lengths in metres.
 
-    `margin` is the least that its centre of mass is inside the polygon on which it stands, negative outside. `tipping_force`
-    is the least pull at a grip that tips it, 0 where it tips by itself, infinite where none can; `tipping_joint` is
-    that grip's (empty: none). `weight_needed` is the least mass, low down at the far side of the polygon, and
-    `wall_force` the pull of a wall mount at its upper edge, with which it bears the usual pulls; 0: it does without.
+    `margin` is the least that its centre of mass is inside the polygon on which it stands, negative outside.
+    `tipping_force` is the least pull at a grip that tips it, 0 where it tips by itself, infinite where none can;
+    `tipping_joint` is that grip's (empty: none). `weight_needed` is the least mass, low down at the far side of the
+    polygon, and `wall_force` the pull of a wall mount at its upper edge, with which it bears the usual pulls; 0: it
+    does without.
     """
 
     mass: float
@@ -95,8 +96,9 @@ def stability_of(
 ) -> Stability | None:
     """Returns how safely a piece stands on a level floor with all joints closed, and with all at their upper limits.
 
-    About each side of the polygon the worse of the two holds. Each grip is pulled where it is while its joint is closed, and where it is while that is open. `masses` and `shapes`
-    are those of all links by id, object frame at rest. None: it has no width on which it could stand.
+    About each side of the polygon the worse of the two holds. Each grip is pulled where it is while its joint is
+    closed, and where it is while that is open. `masses` and `shapes` are those of all links by id, object frame at
+    rest. None: it has no width on which it could stand.
     """
     feet = standing_points(shapes, config)
     polygon = _polygon(feet, config.least_side)

@@ -30,7 +30,7 @@ class StabilityRecord(ReportRecord):
 
     mass: float = Field(description="of the whole, kg")
     margin: float = Field(
-        description="how far the centre of mass is at least inside the polygon on which it stands, closed and open, metres"
+        description="the least that the centre of mass is inside the polygon on which it stands, closed or open, metres"
     )
     tipping_force: float | None = Field(
         description="the least pull at a grip that tips it, newtons; 0: it tips by itself; null: none does"
