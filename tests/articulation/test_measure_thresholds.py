@@ -28,7 +28,7 @@ REASONS = {
         "collision_shapes.py": {"_DENSE": EFFORT},
         "convex_pieces.py": {"_DIRECTIONS": SAMPLES, "_HULL_CORNERS": SAMPLES, "_GRID": SAMPLES, "_TRIES": EFFORT},
         "coupled_weight.py": {"_STEP": SAMPLES, "_EXACT": TOLERANCE, "_AT": SAMPLES},
-        "floor_clearance.py": {"_LEVEL": TOLERANCE, "_NOTHING": TOLERANCE, "_FRONTS": UNIT},
+        "floor_clearance.py": {"_LEVEL": TOLERANCE, "_NOTHING": TOLERANCE},
         "grip_point.py": {"_EDGE": TOLERANCE},
         "kinematics.py": {"_ALIKE": TOLERANCE},
         "mass.py": {"_TETRAHEDRON": UNIT, "_TRIANGLE": UNIT, "NO_MOMENTS": UNIT},

@@ -1,8 +1,8 @@
-"""Whether a piece tips over: statics of the polygon on which it stands, with every joint wide open.
+"""Whether a piece tips over: statics of the polygon on which it stands, with every joint closed and wide open.
 
-What leans on a wall tips while it is closed: that counts as well. The polygon is around all points of collision shapes that touch the floor. A pull at a grip, along the grip's own path,
-tips the piece about a side of the polygon where its moment is larger than that of the weight. Friction does not help:
-a piece that slides before it tips is judged as if it were held at its feet.
+What leans on a wall tips while it is closed. The polygon is around all points of collision shapes that touch the floor.
+A pull at a grip, along the grip's own path, tips the piece about a side of the polygon where its moment is larger than
+that of the weight. Friction does not help: a piece that slides before it tips is judged as if it were held at its feet.
 """
 
 from collections.abc import Mapping

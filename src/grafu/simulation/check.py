@@ -68,8 +68,8 @@ def _check_file(path: Path, report: Report, meshes: Meshes, config: CheckConfig,
         return FileCheck(file=path.name, error=str(error), joints=(), stands=None, stands_open=None)
     stands = on_feet and _stands(on_feet, (), config)
     stands_open = on_feet and _stands(on_feet, on_feet.joints, config)
-    error = "" if world.is_stable else "the simulation became unstable"
-    return FileCheck(file=path.name, error=error, joints=joints, stands=stands, stands_open=stands_open)
+    why = "" if world.is_stable else "the simulation became unstable"
+    return FileCheck(file=path.name, error=why, joints=joints, stands=stands, stands_open=stands_open)
 
 
 def _is_driven(report: Report, joint: SimJoint) -> bool:

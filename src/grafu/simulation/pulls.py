@@ -138,7 +138,7 @@ def _is_in(world: World, joint: SimJoint, place: Vec3, config: CheckConfig) -> b
     T = world.pose(joint.body)
     off = T[:3, :3].T @ (world.cube - T[:3, 3]) - place
     near = float(np.linalg.norm(off[:2])) < 2.0 * config.cube
-    return near and -config.cube / 2 < off[2] < 1.5 * config.cube
+    return near and -config.cube / 2 < float(off[2]) < 1.5 * config.cube
 
 
 def hollow_place(meshes: list[TriangleMesh], axis: Vec3, config: CheckConfig) -> Vec3 | None:

@@ -190,7 +190,7 @@ def visual_meshes(folder: Path) -> Meshes:
         named = _named_in_urdf(folder) if (folder / "model.urdf").is_file() else _named_in_mjcf(folder)
         found: dict[str, dict[str, TriangleMesh]] = {}
         for link, name, file in named:
-            read = trimesh.load(folder / file, force="mesh", process=False)
+            read: Any = trimesh.load(folder / file, force="mesh", process=False)
             mesh = TriangleMesh(np.array(read.vertices, dtype=np.float64), np.array(read.faces))
             found.setdefault(link, {})[name] = mesh
     except (OSError, ET.ParseError, ValueError, AttributeError) as error:
