@@ -38,6 +38,12 @@ REASONS = {
         "stability.py": {"_LEAST_ARM": TOLERANCE},
         "physics.py": {"(_MASSES, _PIECES, _CLEARANCE, _CONTACTS)": EFFORT},
     },
+    "simulation": {
+        "clip.py": dict.fromkeys(("_COLOURS", "_MILLISECONDS", "_SIZE"), UNIT),
+        "pulls.py": dict.fromkeys(("_ABOVE", "_EDGE", "_FULL"), TOLERANCE)
+        | dict.fromkeys(("_CONTROL", "_SLOT"), SAMPLES),
+        "world.py": {"_AWAY": UNIT},
+    },
     "metrics": {
         "collision.py": {"TOLERANT": MEASURE},
         "graph_accuracy.py": {"NEAR": MEASURE, "_DISTANCE_WEIGHT": MEASURE},

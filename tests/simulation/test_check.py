@@ -1,6 +1,7 @@
 """`grafu check`: what works passes, and each way of being broken is found; what is found lands in the folder."""
 
 import json
+import re
 import shutil
 import sys
 from dataclasses import replace
@@ -25,7 +26,7 @@ DRESSER = Path(__file__).parents[2] / "samples" / "dresser.glb"
 @pytest.fixture(scope="module")
 def result(tmp_path_factory) -> Path:
     out = tmp_path_factory.mktemp("check")
-    assert main(["functionalize", str(DRESSER), "--formats", "glb,mjcf", "--no-page", "--out", str(out)]) == 0
+    assert main(["functionalize", str(DRESSER), "--formats", "glb,mjcf", "--out", str(out)]) == 0
     return out / "dresser"
 
 
@@ -48,9 +49,6 @@ def checked(folder: Path) -> tuple[int, CheckReport]:
 @pytest.mark.slow
 def test_what_works_passes_and_all_is_written_and_listed(result, tmp_path, capsys):
     folder = copied(result, tmp_path)
-    page = folder / "report.html"
-    page.write_text("<main><p>before</p></main>")
-
     code, report = checked(folder)
 
     assert code == 0
@@ -61,21 +59,33 @@ def test_what_works_passes_and_all_is_written_and_listed(result, tmp_path, capsy
     assert (folder / "check.gif").read_bytes().startswith(b"GIF89a")
     listed = json.loads((folder / ".grafu.json").read_text())["files"]
     assert {"check.json", "check.gif"} <= set(listed)
+    page = (folder / "report.html").read_text()
+    assert page.count("<!-- check -->") == 1
+    assert all(joint.joint in page[page.index("<!-- check -->") :] for joint in report.files[0].joints)
     assert "stands still" in capsys.readouterr().out
 
 
 def test_a_joint_that_needs_more_than_a_hand_does_not_open(result, tmp_path):
     from grafu.simulation.check import check_folder
 
-    text = (result / "model.xml").read_text()
-    first = text.index('frictionloss="') + len('frictionloss="')
-    stuck = text[first : text.index('"', first)]
-    folder = copied(result, tmp_path, (f'frictionloss="{stuck}"', 'frictionloss="80"'))
+    folder = copied(result, tmp_path)
+    text = (folder / "model.xml").read_text()
+    (folder / "model.xml").write_text(re.sub('frictionloss="[^"]*"', 'frictionloss="80"', text))
 
     found = check_folder(folder, replace(CheckConfig(), longest_pull=1.0, frames=2)).report
 
     assert not found.works
     assert all(not joint.works and joint.opened < 0.1 for joint in found.files[0].joints)
+
+
+def test_a_page_that_is_not_ours_stays_as_it_is(result, tmp_path):
+    folder = copied(result, tmp_path, ("</mujoco>", "<nonsense/></mujoco>"))
+    marker = json.loads((folder / ".grafu.json").read_text())
+    marker["files"].remove("report.html")
+    (folder / ".grafu.json").write_text(json.dumps(marker))
+    (folder / "report.html").write_text("<main></main>")
+    checked(folder)
+    assert (folder / "report.html").read_text() == "<main></main>"
 
 
 def test_a_damaged_file_is_an_error_of_the_file_and_another_folder_is_refused(result, tmp_path, capsys):

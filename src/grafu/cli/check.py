@@ -94,6 +94,7 @@ def _write(folder: Path, report: "CheckReport", clip: bytes) -> None:
     from tempfile import TemporaryDirectory
 
     from grafu.export.files import add_files
+    from grafu.export.marker import read_marker
     from grafu.graph.serialize import dump_json
     from grafu.simulation.words import COLUMNS, sentences, table_rows
     from grafu.viewer.check_page import with_check
@@ -101,7 +102,8 @@ def _write(folder: Path, report: "CheckReport", clip: bytes) -> None:
     contents = {CHECK_FILE: dump_json(report.model_dump(mode="json", by_alias=True)).encode()}
     if clip:
         contents[CLIP_FILE] = clip
-    if (folder / PAGE).is_file():
+    marker = read_marker(folder)
+    if marker is not None and PAGE in marker.files and (folder / PAGE).is_file():  # another's page stays as it is
         page = (folder / PAGE).read_text(encoding="utf-8")
         contents[PAGE] = with_check(page, COLUMNS, table_rows(report), sentences(report), clip).encode()
     with TemporaryDirectory() as place:
