@@ -37,7 +37,7 @@ DOCS = Path(__file__).parent.parent / "docs"
 REPORT_HEAD = """\
 # report.json
 
-<!-- drawn by scripts/docs.py from src/grafu/pipeline/report_schema.py and inspection.py -->
+<!-- drawn by scripts/docs.py from src/grafu/pipeline/report_schema.py, report_record.py and inspection.py -->
 
 Every result holds a `report.json` of the form `grafu.report/1`; `grafu inspect --json` prints `grafu.inspection/1`.
 Lengths are metres, angles radians; points and directions are in the output's frame ([conventions](conventions.md)). A

@@ -15,12 +15,16 @@ from grafu.additions.top.config import TopConfig
 from grafu.articulation.build_material import MassConfig
 from grafu.articulation.collision_clearance import ShapeClearanceConfig
 from grafu.articulation.collision_shapes import CollisionShapeConfig
+from grafu.articulation.floor_clearance import FloorConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
+from grafu.articulation.stability import StabilityConfig
+from grafu.asset.wall_units import WallUnitConfig
 from grafu.completion.features import FeatureConfig
 from grafu.export.usd.config import UsdConfig
 from grafu.joints.config import RealizationConfig
 from grafu.metrics.collision import ConnectivityConfig
 from grafu.metrics.tops import DEFAULT_TOP_MEASURE_CONFIG as TOP_MEASURE
+from grafu.simulation.config import CheckConfig
 from grafu.templates import user
 from grafu.templates.rails import TRAVEL
 
@@ -29,6 +33,7 @@ TOP, BOX, CARCASS = TopConfig(), DrawerBoxConfig(), CarcassConfig()
 HANDLE, GRIP, GRASP, INTERIOR = HandleConfig(), GripConfig(), GraspConfig(), InteriorConfig()
 BUILT, SEEN, MOVES = RealizationConfig(), FeatureConfig(), DynamicsConfig()
 MASS, SHAPES = MassConfig(), CollisionShapeConfig()
+FLOOR, STANDS, WALL, CHECK = FloorConfig(), StabilityConfig(), WallUnitConfig(), CheckConfig()
 
 
 def per_cent(ratio: float) -> float:
@@ -161,6 +166,7 @@ def joints() -> Iterator[Sentence]:
     yield "exports.md", "opens whatever is not lifted within {:g} s", (2 * MOVES.opened,)
     yield "exports.md", "friction takes no more than {:g} % of it", (per_cent(MOVES.braking_ratio),)
     yield "exports.md", "damped more, down to {:g} ms", (mm(MOVES.quickest),)
+    yield from standing()
     yield "exports.md", "Nothing moves under less than {:g} N at its", (MOVES.touch,)
     yield (
         "exports.md",
@@ -182,3 +188,28 @@ def joints() -> Iterator[Sentence]:
     yield "exports.md", "A link has at most {}:", (SHAPES.most_shapes,)
     yield "exports.md", "a pull of {:g} N at its far", (MOVES.counterbalance.pull,)
     yield "exports.md", "an armature of {:g} % of what moves", (per_cent(UsdConfig().armature),)
+
+
+def standing() -> Iterator[Sentence]:
+    """Yields what docs/exports.md repeats of how a piece stands, and of how results are checked."""
+    page = "exports.md"
+    yield page, "Collision shapes of moving links stand {:g} mm off", (mm(FLOOR.gap),)
+    yield (
+        page,
+        "does not bear {:g} N at each door and {:g} N at each drawer",
+        (STANDS.turning_pull, STANDS.sliding_pull),
+    )
+    yield (
+        page,
+        "at most {:g} m tall, or the input has it between {:g} m and {:g} m",
+        (
+            WALL.tallest,
+            WALL.lowest,
+            WALL.highest,
+        ),
+    )
+    yield page, "at most {:g} N (doors) or {:g} N (drawers)", (CHECK.turning_pull, CHECK.sliding_pull)
+    yield page, "no faster than {:g} m/s, then pushes it", (CHECK.hand_speed,)
+    yield page, "opens to {:g} % of its range, closes below {:g} %", (per_cent(CHECK.opened), per_cent(CHECK.closed))
+    yield page, "no other joint moves by {:g} %", (per_cent(CHECK.closed),)
+    yield page, "must carry a {:g} cm cube", (100 * CHECK.cube,)

@@ -28,12 +28,21 @@ REASONS = {
         "collision_shapes.py": {"_DENSE": EFFORT},
         "convex_pieces.py": {"_DIRECTIONS": SAMPLES, "_HULL_CORNERS": SAMPLES, "_GRID": SAMPLES, "_TRIES": EFFORT},
         "coupled_weight.py": {"_STEP": SAMPLES, "_EXACT": TOLERANCE, "_AT": SAMPLES},
+        "floor_clearance.py": {"_LEVEL": TOLERANCE, "_NOTHING": TOLERANCE},
+        "grip_point.py": {"_EDGE": TOLERANCE},
         "kinematics.py": {"_ALIKE": TOLERANCE},
         "mass.py": {"_TETRAHEDRON": UNIT, "_TRIANGLE": UNIT, "NO_MOMENTS": UNIT},
         "motion_kind.py": {"_A_LITTLE": SAMPLES, "_DEGREES": UNIT, "_CENTIMETRES": UNIT, "_ROWS": UNIT},
         "open_together.py": {"_STEPS": SAMPLES},
         "counterbalance.py": {"GRAVITY": PHYSICS},
+        "stability.py": {"_LEAST_ARM": TOLERANCE},
         "physics.py": {"(_MASSES, _PIECES, _CLEARANCE, _CONTACTS)": EFFORT},
+    },
+    "simulation": {
+        "clip.py": dict.fromkeys(("_COLOURS", "_MILLISECONDS", "_SIZE"), UNIT),
+        "pulls.py": dict.fromkeys(("_ABOVE", "_EDGE", "_FULL"), TOLERANCE)
+        | dict.fromkeys(("_CONTROL", "_SLOT"), SAMPLES),
+        "world.py": {"_AWAY": UNIT},
     },
     "metrics": {
         "collision.py": {"TOLERANT": MEASURE},

@@ -9,7 +9,11 @@ import pytest
 from gltf_validation import issues_of
 
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.articulation.sweep import opening_stages
+from grafu.articulation.collision_shapes import corners_of
+from grafu.articulation.floor_clearance import FloorConfig
+from grafu.articulation.kinematics import link_poses
+from grafu.articulation.physics import physics_of
+from grafu.articulation.sweep import opening_stages, rest_to_full
 from grafu.asset.load import load_asset
 from grafu.export.files import write_files
 from grafu.export.formats import export
@@ -36,6 +40,20 @@ def made(request) -> ArticulatedObject:
 
 def run(model: mujoco.MjModel, data: mujoco.MjData, seconds: float) -> None:
     mujoco.mj_step(model, data, round(seconds / model.opt.timestep))
+
+
+def test_what_moves_keeps_off_the_floor_and_no_hardware_reaches_below_it(made):
+    physics, gap = physics_of(made), FloorConfig().gap
+    floor = min(float(corners_of(shape)[:, 2].min()) for shape in physics.shapes[made.root])
+    assert floor < 0.01
+    for joint in made.free_joints:
+        for values in rest_to_full(made, joint.id, 40, 2.0):
+            poses = link_poses(made, values)
+            for link in (other.child for other in made.moving_joints):
+                T = poses[link]
+                lowest = [float((corners_of(s) @ T[2, :3]).min()) + float(T[2, 3]) for s in physics.shapes[link]]
+                assert min(lowest, default=1.0) >= floor + gap - 1e-4  # a flap may be lower between sampled poses
+    assert all(len(v) == 0 or float(v[:, 2].min()) >= -1e-6 for v in (k.hardware_mesh.vertices for k in made.links))
 
 
 @pytest.mark.parametrize(("kind", "file"), [("urdf", "model.urdf"), ("mjcf", "model.xml")])

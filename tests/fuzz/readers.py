@@ -54,8 +54,8 @@ def read_prediction(entry: Path, rng: Random) -> Any:
 
 
 def read_settings(entry: Path, rng: Random) -> Any:
-    from grafu.cli.functionalize import stated_settings
     from grafu.cli.main import build_parser
+    from grafu.cli.stated_settings import stated_settings
 
     arguments = ["functionalize", "x.glb", "--out", "x", "--settings", str(entry)]
     return stated_settings(build_parser().parse_args(arguments))

@@ -17,6 +17,7 @@ from grafu.api.request import (
     require_word,
 )
 from grafu.api.result import Result
+from grafu.articulation.base import Base
 from grafu.asset.load import endings_in, load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
@@ -103,6 +104,7 @@ def functionalize(
     small_parts: bool | None = None,
     hinge: str = "",
     stays: bool = True,
+    base: str | None = None,
     templates: PathLikeStr | None = None,
     **reading: Any,
 ) -> Result:
@@ -124,6 +126,8 @@ def functionalize(
             their own in a robot description.
         hinge: the hinge that doors get where it finds room: a template's id, such as `cup`.
         stays: whether lids and flaps get stays where there is room.
+        base: what holds the piece in a simulator: `free`, `fixed` or `wall`; None: it is fixed, and what is known to be
+            a wall unit hangs on a wall.
         templates: a folder of your own hinge, rail and handle templates.
         **reading: `up`, `front`, `scale`, `height`, `labels`, `parts`, `pieces` and `piece` of `grafu.load`, where
             `source` is a path.
@@ -153,9 +157,18 @@ def functionalize(
         weights=None if weights is None else as_path(weights, "weights"),
         hinge=require_word(hinge, "hinge", "the id of a hinge template, as str"),
         stays=require(stays, bool, "stays", "True or False"),
+        base=_base(base),
     )
     foreign = prediction_for(choice, asset.name) if choice.source.is_foreign else None
     return Result.of(Request(asset, settings, foreign, folder))
+
+
+def _base(word: str | None) -> Base | None:
+    if word is None:
+        return None
+    if require_word(word, "base", "`free`, `fixed`, `wall` or None") not in {known.value for known in Base}:
+        raise OptionError(f"`base` must be one of {', '.join(Base)}: got {word!r}")
+    return Base(word)
 
 
 def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, LoadOptions]:

@@ -11,9 +11,11 @@ from grafu.export.formats import export
 from grafu.geometry.budget import UNLIMITED, Budget, within
 from grafu.graph.serialize import completion_to_json, dump_json
 from grafu.pipeline.functionalize import Functionalized
-from grafu.pipeline.report import report_of, with_notes
+from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
+from grafu.pipeline.standing import with_stability
+from grafu.pipeline.verdict import with_notes
 from grafu.visible import writable
 
 MODEL_PAGE: Final = "report.html"
@@ -57,7 +59,8 @@ def files_of(
     with budget.in_force():
         files = export(made.object, formats)
     seconds = {**(timings or {}), "export": perf_counter() - started}
-    report, picture = with_notes(report_of(made, name, seconds), *files.notes), b""
+    stated = with_stability(report_of(made, name, seconds), made.object)
+    report, picture = with_notes(stated, *files.notes), b""
     if page:
         started = perf_counter()
         with budget.in_force():

@@ -20,6 +20,7 @@ from grafu.articulation.collision_shapes import (
     shapes_of,
 )
 from grafu.articulation.finger_room import FingerRoomCutConfig, with_finger_room
+from grafu.articulation.floor_clearance import FloorConfig, off_floor
 from grafu.articulation.joint_dynamics import DynamicsConfig, JointDynamics, joint_dynamics
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.mass import MassProperties, mass_of_link, moments_of, moments_of_box
@@ -40,6 +41,7 @@ class PhysicsConfig(ShortRepr):
     collision: CollisionShapeConfig = field(default_factory=CollisionShapeConfig)
     clearance: ShapeClearanceConfig = field(default_factory=ShapeClearanceConfig)
     fingers: FingerRoomCutConfig = field(default_factory=FingerRoomCutConfig)
+    floor: FloorConfig = field(default_factory=FloorConfig)
     dynamics: DynamicsConfig = field(default_factory=DynamicsConfig)
 
 
@@ -83,6 +85,12 @@ def physics_of(articulated: ArticulatedObject, config: PhysicsConfig = DEFAULT_P
     return known[1]
 
 
+def physics_known(articulated: ArticulatedObject) -> PhysicsModel | None:
+    """Returns the physics that was found last of an object; None: nobody has asked for it."""
+    known = _LATEST.get(articulated)
+    return None if known is None else known[1]
+
+
 def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsModel:
     notes: list[str] = []
     measured = WhileTimeLasts(_MASSES, moments_of, moments_of_box)
@@ -97,7 +105,7 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
         notes.append(f"{_parts(of_part.spared)} collide as one box each: {_NO_TIME}")
     shapes = within(
         _CLEARANCE,
-        partial(cleared, articulated, drawn, config.clearance),
+        lambda: off_floor(articulated, cleared(articulated, drawn, config.clearance), config.floor),
         partial(_noted, notes, "collision shapes were not cut back where joints make them meet", drawn),
     )
     shapes = within(

@@ -3,21 +3,27 @@
 import argparse
 import os
 from contextlib import closing
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.asset.regular_files import read_head
-from grafu.cli.input_options import add_input_options, add_limit_option, load_options, positive_count, with_limits
+from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
-from grafu.cli.part_options import MOVE_HELP, add_addition_options, motion_choice, part_move, with_moves
+from grafu.cli.part_options import (
+    MOVE_HELP,
+    add_addition_options,
+    add_base_option,
+    motion_choice,
+    part_move,
+    with_moves,
+)
+from grafu.cli.stated_settings import MOST_SETTINGS, stated_settings
 from grafu.cli.verb import complain
-from grafu.errors import AssetError, OptionError
+from grafu.errors import OptionError
 from grafu.export.formats import DEFAULT_FORMATS, known_formats
 
 if TYPE_CHECKING:
     from grafu.cli.job import Failed, Job, JobOptions, JobResult
-    from grafu.pipeline.settings import Settings
 
 _DESCRIPTION = """\
 Reads part-segmented furniture (GLB, glTF, USD, FBX, COLLADA, URDF, SDF, MJCF, OBJ, a folder of meshes, a
@@ -53,14 +59,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "file: particulate:FILE, singapo:FILE, grafu-pred:FILE, urdf:FILE; for several inputs a folder with an entry "
         "for each name (default: auto)",
     )
-    parser.add_argument(
-        "--move",
-        action="append",
-        type=part_move,
-        default=[],
-        metavar="PART=HOW",
-        help=MOVE_HELP,
-    )
+    parser.add_argument("--move", action="append", type=part_move, default=[], metavar="PART=HOW", help=MOVE_HELP)
     parser.add_argument(
         "--formats",
         default=",".join(DEFAULT_FORMATS),
@@ -74,6 +73,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument(
         "--no-page", action="store_true", help="leave out report.html of each model, and index.html of several"
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="check each result as `grafu check` does; needs grafu[sim]"
     )
     parser.add_argument("--no-trim", action="store_true", help="never take material away to give a part clearance")
     parser.add_argument(
@@ -90,6 +92,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         action="store_true",
         help="go on where a run was stopped: results that are there stay, and are shown with the new ones",
     )
+    add_base_option(parser)
     add_addition_options(parser)
     add_input_options(parser)
     add_limit_option(parser)
@@ -107,7 +110,7 @@ def _may_split(options: argparse.Namespace) -> bool:
     if options.pieces is not None or options.settings is None:
         return bool(options.pieces == "split")
     try:
-        return b'"split"' in read_head(options.settings, _MOST_SETTINGS)
+        return b'"split"' in read_head(options.settings, MOST_SETTINGS)
     except OSError:
         return False  # it is refused when it is read
 
@@ -122,11 +125,14 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the options are wrong; nothing has been written then.
     """
-    from grafu.cli.job import jobs_of
+    from grafu.cli.check import check_results, require_simulator
+    from grafu.cli.job import Succeeded, jobs_of
     from grafu.cli.run_page import write_index
     from grafu.cli.summary import print_place, print_results
     from grafu.export.whole_file import clear_remains
 
+    if options.check:
+        require_simulator(options.formats)
     inputs = _distinct(options.inputs)
     shared = _job_options(options, alone=len(inputs) == 1)
     jobs, refused = jobs_of(inputs, shared)
@@ -138,6 +144,8 @@ def run(options: argparse.Namespace) -> int:
     order = {job.name: k for k, job in enumerate(jobs)}
     results = sorted([*done, *refused], key=lambda r: (inputs.index(r.job.input), order.get(r.job.name, -1)))
     print_results(results)
+    if options.check:
+        check_results([result.job.folder for result in results if isinstance(result, Succeeded)])
     if not options.no_page and (page := write_index(results, options.out)):
         print_place("all on one page", page)
     return _exit_code(results)
@@ -177,7 +185,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
 
 def _require_weights(options: argparse.Namespace) -> None:
     """Raises FunctionalizationError if `--weights` names no file, or is given for a source that is not the network."""
-    from grafu.errors import OptionError, WeightsError
+    from grafu.errors import WeightsError
     from grafu.pipeline.motion_source import MotionSource
 
     if options.weights is None:
@@ -244,51 +252,3 @@ def _exit_code(results: "list[JobResult]") -> int:
     if not failed:
         return 0
     return 2 if len(results) == 1 and failed[0].users_fault else 1
-
-
-_MOST_SETTINGS = 16 * 2**20  # bytes of a settings file
-
-
-def stated_settings(options: argparse.Namespace) -> "Settings":
-    """Returns the settings in the file `--settings`, or the defaults, with what the other options state in their place.
-
-    A motion source that reads another system's file (`--motion particulate:FILE`) is no setting: it is passed over.
-
-    Raises:
-        FunctionalizationError: if the file cannot be read or is wrong, or an option is.
-    """
-    from grafu.cli.part_options import addition_config
-    from grafu.pipeline.settings import Settings
-    from grafu.templates.gallery import open_handles
-
-    base = read_settings(options.settings) if options.settings else Settings()
-    settings = replace(
-        base,
-        reading=with_limits(load_options(options, base.reading), options),
-        additions=addition_config(options, open_handles(options.templates), base.additions),
-        trim=base.trim and not options.no_trim,
-        small_parts=base.small_parts if options.small_parts is None else options.small_parts,
-        weights=options.weights or base.weights,
-        hinge=options.hinge or base.hinge,
-        stays=base.stays and not options.no_stays,
-    )
-    if options.motion is None or options.motion.source.is_foreign:
-        return settings
-    return replace(settings, motion=options.motion.source)
-
-
-def read_settings(path: Path) -> "Settings":
-    """Returns the settings in a file.
-
-    Raises:
-        OptionError: if the file cannot be read or is wrong.
-    """
-    from grafu.asset.options import Limits
-    from grafu.asset.resources import read_bytes
-    from grafu.pipeline.settings import settings_from_bytes
-
-    try:
-        data = read_bytes(path, Limits(max_bytes=_MOST_SETTINGS))
-    except AssetError as error:
-        raise OptionError(f"`--settings` must be a JSON file: {error}") from None
-    return settings_from_bytes(data, path)

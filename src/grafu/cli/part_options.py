@@ -1,8 +1,9 @@
-"""Options on parts: `--motion`, `--move`, and those of what is added. They move and add nothing themselves."""
+"""Options on parts and the whole: `--motion`, `--move`, `--base`, and those of what is added. They move nothing."""
 
 import argparse
 from typing import TYPE_CHECKING
 
+from grafu.articulation.base import Base
 from grafu.errors import OptionError
 from grafu.pipeline.motion_source import SourceOption, parse_motion
 from grafu.vocabulary import MOTION_WORDS
@@ -66,6 +67,23 @@ def with_moves(
     for part, word in moves:
         settings = settings.with_motion(part, choice_in_words(word))
     return settings
+
+
+def add_base_option(parser: argparse.ArgumentParser) -> None:
+    """Adds --base: what holds the piece in a simulator."""
+    parser.add_argument(
+        "--base",
+        type=_base,
+        metavar="HOW",
+        help="what holds the piece in a simulator: free: nothing, it stands on the floor; fixed: it is fixed to the "
+        "world; wall: it hangs on a wall (default: fixed, and what is known to be a wall unit hangs on a wall)",
+    )
+
+
+def _base(text: str) -> Base:
+    if text not in {known.value for known in Base}:
+        raise argparse.ArgumentTypeError(f"must be one of {', '.join(Base)}: got {text!r}")
+    return Base(text)
 
 
 TOP_SHAPES = ("rectangle", "rounded", "chamfered")

@@ -1,7 +1,8 @@
 """An articulated object as MuJoCo's own format: one body per link, each part its own geom, joints as the URDF has them.
 
 Body frames stand on their joints' axes, parallel to the object frame at rest; the root's is the object frame (metres,
-radians, Z up, front -Y), and it is static. What must open first is text that MuJoCo keeps and does not obey.
+radians, Z up, front -Y); it is static, or has a free joint where the piece stands freely. What must open first is text
+that MuJoCo keeps and does not obey.
 The XML is written here: MuJoCo's `MjSpec` writes MJCF too, but needs MuJoCo (99 MB), which the base install leaves out.
 """
 
@@ -12,6 +13,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
+from grafu.articulation.base import Base
 from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.kinematics import with_coupled
 from grafu.articulation.mass import MassProperties
@@ -31,6 +33,7 @@ from grafu.geometry.transform import quaternion_of
 from grafu.visible import ShortRepr
 
 VISUAL_GROUP, COLLISION_GROUP, GRASP_GROUP = "2", "3", "4"  # the first is shown by default, the others are not
+_FREE_JOINT, _AT_REST = "root_free", (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)  # position, quaternion
 _FOR_POSE = 0.3  # of the time that is left
 _STIFF = "0.999 0.9995 0.001"
 """MuJoCo's dry friction yields a little all the time: flaps that it holds would creep open, 0.3 degrees in 2 s."""
@@ -89,7 +92,8 @@ class _MjcfWriter:
         self._used: set[str] = set()
         self._geoms, self._sites = NameBook(case_counts=True), NameBook(case_counts=True)
         self._bodies = _names([link.id for link in articulated.links], taken="world")
-        self._joints = _names([joint.id for joint in articulated.joints])
+        self._is_free = articulated.base is Base.FREE
+        self._joints = _names([joint.id for joint in articulated.joints], taken=_FREE_JOINT if self._is_free else "")
         self._moving: list[Joint] = []
         self._springs = MjcfSprings(articulated, self._physics, self._joints)
         self._notes: list[str] = []
@@ -122,6 +126,8 @@ class _MjcfWriter:
         """Returns the body of a link with all that hangs on it; joints are noted in the order in which they stand."""
         joint, origin = self._object.joint_of.get(link.id), self._physics.origins[link.id]
         body = ET.Element("body", name=self._bodies[link.id])
+        if joint is None and self._is_free:
+            ET.SubElement(body, "freejoint", name=_FREE_JOINT)
         if joint is not None:
             body.set("pos", numbers(origin - self._physics.origins[joint.parent]))
             self._add_joint(body, joint)
@@ -226,7 +232,7 @@ class _MjcfWriter:
         free = {joint.id: joint.limits.lower for joint in self._object.free_joints}
         closed = with_coupled(self._object, free)
         for name, pose in (("closed", closed), *self._open_pose()):
-            values = [pose[joint.id] for joint in self._moving]
+            values = [*(_AT_REST if self._is_free else ()), *(pose[joint.id] for joint in self._moving)]
             key = ET.SubElement(element, "key", name=name, qpos=numbers(values))
             if self._config.actuators:
                 key.set("ctrl", numbers(pose[joint.id] for joint in self._moving if joint.coupling is None))

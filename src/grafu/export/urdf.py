@@ -1,7 +1,8 @@
 """An articulated object as a URDF with its meshes: one link per moving part, every part its own visual.
 
 All names of files are relative. Link frames stand on their joints' axes, parallel to the object frame at rest, so the
-root link's frame is the object frame (metres, Z up, front -Y). What must open first (`Joint.after`) URDF cannot say.
+root link's frame is the object frame (metres, Z up, front -Y). Where it is stated that the piece is fixed, a link
+`world` stands above the root. What must open first (`Joint.after`) URDF cannot say.
 """
 
 import xml.etree.ElementTree as ET
@@ -11,6 +12,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
+from grafu.articulation.base import Base
 from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
@@ -44,6 +46,7 @@ class UrdfConfig(ShortRepr):
 
 
 DEFAULT_URDF_CONFIG = UrdfConfig()
+_WORLD = "world"
 
 
 def export_urdf(articulated: ArticulatedObject, config: UrdfConfig = DEFAULT_URDF_CONFIG) -> ExportFiles:
@@ -66,6 +69,8 @@ class _UrdfWriter:
         if self._config.mujoco:
             compiler = {"strippath": "false", "discardvisual": "true"}
             ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", compiler)
+        if self._object.base in (Base.FIXED, Base.WALL):
+            self._add_world(robot)
         for link in self._object.links_from_root:
             self._add_link(robot, link)
         for joint in self._object.joints:
@@ -76,6 +81,18 @@ class _UrdfWriter:
         text = ET.tostring(robot, encoding="utf-8", xml_declaration=True) + b"\n"
         meshes = {f"{MESHES}/{name}": data for name, data in self._objs.folder.files.items()}
         return ExportFiles({"model.urdf": text} | meshes, notes=self._physics.notes)
+
+    def _add_world(self, robot: ET.Element) -> None:
+        """Adds the link that Drake, Gazebo and MoveIt know to stand still, and the joint that holds the root to it."""
+        taken = NameBook()
+        for name in (*(link.id for link in self._object.links), *(joint.id for joint in self._object.joints)):
+            taken.unique(name)
+        world = taken.unique(_WORLD)
+        ET.SubElement(robot, "link", name=world)
+        element = ET.SubElement(robot, "joint", name=taken.unique(f"{_WORLD}_fixed"), type="fixed")
+        ET.SubElement(element, "origin", xyz="0 0 0", rpy="0 0 0")
+        ET.SubElement(element, "parent", link=world)
+        ET.SubElement(element, "child", link=self._object.root)
 
     def _add_link(self, robot: ET.Element, link: Link) -> None:
         element = ET.SubElement(robot, "link", name=link.id)

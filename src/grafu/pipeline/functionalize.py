@@ -46,6 +46,7 @@ from grafu.pipeline.stages import (
     without_joints,
     without_network,
 )
+from grafu.pipeline.standing import base_of
 from grafu.processes.cache import NO_CACHE, Cache
 from grafu.scene.scene import Scene, metre_on
 from grafu.templates.template import Gallery, HandleTemplate
@@ -229,7 +230,7 @@ def functionalize(
         MotionSource(completion.source) if stages.gave_up("complete") else chosen,
         graph_built,
         plan,
-        realized.object,
+        replace(realized.object, base=base_of(asset, settings)),
         realized.report,
         body,
         fittings,

@@ -16,16 +16,15 @@ from grafu.pipeline.records import (
     source_record,
     vector,
 )
+from grafu.pipeline.report_record import ReportRecord, schema_field
 from grafu.pipeline.report_schema import (
     AxisRecord,
     CouplingRecord,
     DeficiencyRecord,
     FrameRecord,
     InputRecord,
-    ReportRecord,
     SourceRecord,
     Vector,
-    schema_field,
 )
 from grafu.vocabulary import JointType, PartLabel
 

@@ -36,6 +36,7 @@ from grafu.pipeline.report_schema import (
     Report,
     SkippedRecord,
 )
+from grafu.pipeline.standing import base_record
 from grafu.pipeline.verdict import verdict_of
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.version import __version__
@@ -58,6 +59,7 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
             source=result.source, stated_joints=result.stated_joints, unused_joints=result.unused_joints
         ),
         size=vector(result.asset.box.size),
+        base=base_record(result.asset, result.object),
         parts=_part_records(result),
         deficiencies=tuple(deficiency_record(one) for one in missing),
         joints=_joint_records(result),
@@ -90,12 +92,6 @@ def skipped_record(refusal: Refusal) -> SkippedRecord:
         what=refusal.what,
         cause=refusal.reason,
     )
-
-
-def with_notes(report: Report, *notes: str) -> Report:
-    """Returns a report with more notes of what was done in a simpler way, or left out, and the verdict on all."""
-    noted = report.model_copy(update={"notes": (*report.notes, *notes)})
-    return noted.model_copy(update={"verdict": verdict_of(noted)}) if notes else report
 
 
 def _with_removed(result: Functionalized) -> FunctionalGraph:

@@ -3,17 +3,17 @@
 Lengths are metres, angles radians, points and directions in the output's frame (Z up, front -Y) unless said otherwise.
 """
 
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Final, Literal
 
-from pydantic import AliasChoices, BaseModel, ConfigDict, Field, FiniteFloat
+from pydantic import Field, FiniteFloat
 
 from grafu.additions.step import DeficiencyKind
 from grafu.graph.completion import Question
 from grafu.joints.report import LIFT_ARMS
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report_record import BaseRecord, ReportRecord, schema_field
 from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked, Reason
-from grafu.visible import short_repr
 from grafu.vocabulary import JointType, MechanismClass, PartLabel
 
 Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
@@ -21,23 +21,6 @@ Row = tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat]
 Ratio = Annotated[float, Field(ge=0, le=1)]
 NOT_ADDED: Final = "not added"
 Grasp = Literal["handle", "recess", "edge", "itself", "driven", "none"]
-
-
-class ReportRecord(BaseModel):
-    """Abstract base: frozen, and strict about unknown fields."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    def __repr__(self) -> str:
-        return short_repr(type(self).__name__, ((name, getattr(self, name)) for name in type(self).model_fields))
-
-    __str__ = __repr__
-
-
-def schema_field(name: str) -> Any:
-    """Returns the field `schema_`, whose value is `name`; it is called `schema` in JSON, a word that pydantic keeps."""
-    alias = AliasChoices("schema", "schema_")
-    return Field(default=name, validation_alias=alias, serialization_alias="schema", description="the form's name")
 
 
 class InputRecord(ReportRecord):
@@ -279,6 +262,9 @@ class Report(ReportRecord):
     )
     size: Vector | None = Field(
         default=None, description="the size of the input, metres; null: written by an earlier version"
+    )
+    base: BaseRecord | None = Field(
+        default=None, description="what holds it, and what tips it over; null: written by an earlier version"
     )
     parts: tuple[PartRecord, ...] = Field(description="every part of the input")
     deficiencies: tuple[DeficiencyRecord, ...] = Field(description="what the input lacked")

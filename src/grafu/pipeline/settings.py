@@ -15,6 +15,7 @@ from pydantic import TypeAdapter, ValidationError
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
+from grafu.articulation.base import Base
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
 from grafu.errors import AssetError, OptionError
@@ -36,7 +37,8 @@ class Settings(ShortRepr):
     their own in a robot description, with False none. `labels` and `motions` go by the ids of parts,
     `joints` by those of moving parts. `weights` is a file of trained weights (ONNX) for the network; None: those that
     came with the package. `hinge` is the template that doors get where it finds room. With `stays` lids and flaps get
-    stays where there is room. A motion source that reads another system's file is no setting: it needs the file.
+    stays where there is room. `base` is what holds the piece: None, it is fixed, and a known wall
+    unit hangs on a wall. A motion source that reads another system's file is no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO
@@ -50,6 +52,7 @@ class Settings(ShortRepr):
     weights: Path | None = None
     hinge: str = ""
     stays: bool = True
+    base: Base | None = None
 
     def __post_init__(self) -> None:
         if self.motion.is_foreign:

@@ -67,6 +67,12 @@ def verdict_of(report: Report, config: VerdictConfig = VerdictConfig()) -> Verdi
     )
 
 
+def with_notes(report: Report, *notes: str) -> Report:
+    """Returns a report with more notes of what was done in a simpler way, or left out, and the verdict on all."""
+    noted = report.model_copy(update={"notes": (*report.notes, *notes)})
+    return noted.model_copy(update={"verdict": verdict_of(noted)}) if notes else report
+
+
 def not_built(report: Report) -> tuple[SkippedRecord, ...]:
     """Returns what was asked for and could not be built; what the user fixed is no fault."""
     return tuple(skip for skip in report.skipped if skip.reason is not Reason.REJECTED)

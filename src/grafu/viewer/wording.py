@@ -5,8 +5,10 @@ from collections.abc import Iterable
 from math import acos, degrees
 
 from grafu.additions.step import DeficiencyKind
+from grafu.articulation.base import Base
 from grafu.articulation.motion_kind import motion_kind
 from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, Vector
+from grafu.pipeline.standing import stability_words
 from grafu.pipeline.verdict import fixed_by_user
 from grafu.pipeline.words import counted, listed
 from grafu.vocabulary import JointType, PartLabel
@@ -130,3 +132,22 @@ def _mended(lack: DeficiencyRecord, report: Report) -> bool:
     if lack.kind is DeficiencyKind.DRAWER_BOX:
         return any(a.link == lack.part and a.category is not PartLabel.HANDLE for a in report.added)
     return any(added.category is _ADDED_FOR[lack.kind] for added in report.added)
+
+
+_HELD = {
+    Base.FREE: "It stands freely on the floor",
+    Base.FIXED: "It is fixed to the world",
+    Base.WALL: "It hangs on a wall",
+}
+
+
+def standing_words(report: Report) -> list[str]:
+    """Returns what holds the piece and why, and what tips it over; nothing of reports that do not state it."""
+    if report.base is None:
+        return []
+    held = f"{_HELD[report.base.kind]} ({report.base.why})."
+    found = report.base.stability
+    if found is None or report.base.kind is Base.WALL:
+        return [held]
+    words = stability_words(found)
+    return [held, f"On its own feet: {words}."]

@@ -1,8 +1,8 @@
 """An articulated object as one OpenUSD scene: bodies side by side under one prim, joints between them.
 
 The prim of a link stands on its joint's axis, parallel to the object frame at rest (metres, kilograms, Z up, front -Y);
-the root's is the object frame, and a fixed joint holds it to the prim above, wherever that is placed. Angles of joints
-are degrees, as OpenUSD has them.
+the root's is the object frame, and a fixed joint holds it to the prim above, wherever that is placed, unless the piece
+stands freely. Angles of joints are degrees, as OpenUSD has them.
 """
 
 from typing import Any, final
@@ -11,6 +11,7 @@ import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade
 
 from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint, Link, Visual
+from grafu.articulation.base import Base
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.motion_kind import MotionKind
@@ -53,7 +54,8 @@ class _StageBuilder:
         for link in self._object.links_from_root:
             self._add_link(link)
         UsdGeom.Scope.Define(self._stage, self._top.AppendChild("joints"))
-        self._add_root_joint()
+        if self._object.base is not Base.FREE:
+            self._add_root_joint()
         for joint in self._object.joints:
             self._add_joint(joint)
         for first, second in self._physics.touching:

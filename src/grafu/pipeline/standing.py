@@ -1,0 +1,77 @@
+"""How a piece stands: what holds it, why, and what tips it over; for the report. It makes and writes nothing."""
+
+from math import isfinite
+
+from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.articulation.base import Base
+from grafu.articulation.physics import physics_known
+from grafu.articulation.stability import Stability, stability_of
+from grafu.asset.part import Asset
+from grafu.asset.wall_units import hangs_on_wall
+from grafu.pipeline.report_record import BaseRecord, StabilityRecord
+from grafu.pipeline.report_schema import Report
+from grafu.pipeline.settings import Settings
+from grafu.pipeline.verdict import with_notes
+
+_DIGITS = 4
+
+
+def base_of(asset: Asset, settings: Settings) -> Base | None:
+    """Returns what holds a piece: as the user states, on the wall where it is known to hang there, else None."""
+    return settings.base or (Base.WALL if hangs_on_wall(asset) else None)
+
+
+def base_record(asset: Asset, articulated: ArticulatedObject) -> BaseRecord:
+    """Returns what holds a piece, and why."""
+    evidence, base = hangs_on_wall(asset), articulated.base
+    if base is None:
+        return BaseRecord(kind=Base.FIXED, why="by default")
+    return BaseRecord(kind=base, why=evidence if base is Base.WALL and evidence else "as asked for")
+
+
+def with_stability(report: Report, articulated: ArticulatedObject) -> Report:
+    """Returns the report with what tips the piece over, where masses and shapes were worked out for a format.
+
+    Of a piece that is to stand freely and does not bear the usual pulls a note says so.
+    """
+    physics = physics_known(articulated)
+    if physics is None or report.base is None:
+        return report
+    found = stability_of(articulated, physics.masses, physics.shapes)
+    record = report.base.model_copy(update={"stability": None if found is None else _record(found)})
+    stated = report.model_copy(update={"base": record})
+    return with_notes(stated, *_notes(record)) if report.base.kind is Base.FREE else stated
+
+
+def _record(found: Stability) -> StabilityRecord:
+    return StabilityRecord(
+        mass=round(found.mass, _DIGITS),
+        margin=round(found.margin, _DIGITS),
+        tipping_force=round(found.tipping_force, _DIGITS) if isfinite(found.tipping_force) else None,
+        tipping_joint=found.tipping_joint,
+        weight_needed=round(found.weight_needed, _DIGITS),
+        wall_force=round(found.wall_force, _DIGITS),
+    )
+
+
+def _notes(record: BaseRecord) -> tuple[str, ...]:
+    found = record.stability
+    if found is None:
+        return ("it does not stand by itself: too little of it touches the floor",)
+    return () if found.weight_needed == 0 else (stability_words(found),)
+
+
+def stability_words(found: StabilityRecord) -> str:
+    """Returns in a sentence what tips a piece over, and what it needs."""
+    if found.tipping_force == 0 and not found.tipping_joint:
+        tips = "closed or with everything open it tips over by itself"
+    elif found.tipping_force is None:
+        return "closed and with everything open no pull at a grip tips it over"
+    else:
+        tips = f"with everything open a pull of {found.tipping_force:.0f} N at {found.tipping_joint} tips it over"
+    if found.weight_needed == 0:
+        return tips
+    return (
+        f"{tips}: it needs {found.weight_needed:.1f} kg more at the far side of its base, or a wall mount at its upper "
+        f"edge that bears {found.wall_force:.0f} N"
+    )

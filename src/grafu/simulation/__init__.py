@@ -1,0 +1,1 @@
+"""Results loaded into MuJoCo, pulled, closed and filled: what `grafu check` measures. It needs `grafu[sim]`."""

@@ -1,0 +1,51 @@
+"""The form of `check.json`, version `grafu.check/1`: what a simulator made of a result."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from grafu.pipeline.report_record import ReportRecord, schema_field
+
+
+class JointCheck(ReportRecord):
+    """One joint, pulled and pushed shut in one file."""
+
+    joint: str = Field(description="the joint's name")
+    force: float = Field(description="the greatest pull that was allowed, newtons")
+    opened: float = Field(description="how far it opened, fraction of its range")
+    closed: float = Field(description="where it was in the end, fraction of its range; 0 is closed")
+    moved: tuple[str, ...] = Field(description="other joints that moved with it, though nothing couples them")
+    carries: bool | None = Field(
+        default=None, description="whether a cube dropped into it rests there and is carried; null: it is not hollow"
+    )
+    works: bool = Field(description="whether it opened, closed, moved alone, and carried the cube")
+
+
+class FileCheck(ReportRecord):
+    """One file, loaded into MuJoCo."""
+
+    file: str = Field(description="model.xml or model.urdf")
+    error: str = Field(default="", description="why it could not be loaded or was unstable; empty: it was loaded")
+    joints: tuple[JointCheck, ...] = Field(description="every joint that moves by itself within limits")
+    stands: bool | None = Field(description="whether it stands still on a floor, closed; null: it hangs on a wall")
+    stands_open: bool | None = Field(description="the same with everything open at once")
+
+    @property
+    def works(self) -> bool:
+        """Whether all that was tried worked."""
+        stands = self.stands is not False and self.stands_open is not False
+        return not self.error and stands and all(joint.works for joint in self.joints)
+
+
+class CheckReport(ReportRecord):
+    """The whole check."""
+
+    schema_: Literal["grafu.check/1"] = schema_field("grafu.check/1")
+    version: str = Field(description="the version of grafu")
+    mujoco: str = Field(description="the version of MuJoCo")
+    files: tuple[FileCheck, ...] = Field(description="the files that were there")
+
+    @property
+    def works(self) -> bool:
+        """Whether everything worked in all files."""
+        return all(file.works for file in self.files)
