@@ -31,12 +31,15 @@ from grafu.viewer.wording import facts, size_words, unused_joints
 _LEAD = "A click copies an option: give it to the same command, with --overwrite."
 
 
-def verdict_view(report: Report, verdict: VerdictRecord) -> Html:
-    """Returns the traffic light, the faults with the option that may correct each, and the facts below it."""
+def verdict_view(report: Report, verdict: VerdictRecord, lead: str = _LEAD) -> Html:
+    """Returns the traffic light, the faults with the option that may correct each, and the facts below it.
+
+    `lead` states what a click on an option does.
+    """
     light = tag("p", light_of(verdict.colour), " ", verdict.sentence, class_="verdict")
     rows = [_line(fault, {part.id for part in report.parts}) for fault in verdict.lines]
-    lead = [tag("p", _LEAD, class_="lead")] if any(fault.option for fault in verdict.lines) else []
-    faults = [tag("ul", joined(rows), class_="faults"), *lead] if rows else []
+    said = [tag("p", lead, class_="lead")] if any(fault.option for fault in verdict.lines) else []
+    faults = [tag("ul", joined(rows), class_="faults"), *said] if rows else []
     return joined([light, *faults, tag("p", facts(report))])
 
 
@@ -49,11 +52,12 @@ def _line(fault: FaultRecord, known: set[str]) -> Html:
     return tag("li", joined([tag("span", joined([*phrases, kind, ": ", fault.why]), class_="said"), copy]))
 
 
-_STYLES = ("page.css", "model.css")
-_SCRIPTS = (
+STYLES = ("page.css", "model.css")
+VIEW_SCRIPTS = (
     "matrices.js", "scene.js", "joints.js", "camera.js", "shaders.js", "renderer.js", "view.js", "gestures.js",
-    "overlay.js", "controls.js", "copy.js", "model.js",
+    "overlay.js", "controls.js", "model.js",
 )  # fmt: skip
+_SCRIPTS = (*VIEW_SCRIPTS, "copy.js", "start.js")
 _SCRIPTS_OF_WORDS = ("copy.js",)
 _NAMED = 28  # nodes whose names have room below them; of more the name shows under the pointer
 _HINT = (
@@ -76,15 +80,16 @@ def model_page(
         shown = [_stage(articulated), section("Before and after", stills_row(stills, report.input.name))]
         data = [json_block("scene", scene.tables), tag("script", Html(scene.packed), type="text/plain", id="geometry")]
     body = joined([
-        tag("header", tag("h1", report.input.name), verdict_view(report, verdict_of(report)), _facts(asset, report)),
-        tag("main", *shown, *_report_sections(report, completion)),
+        tag("header", tag("h1", report.input.name), verdict_view(report, verdict_of(report)), header_facts(asset, report)),
+        tag("main", *shown, *report_sections(report, completion)),
         tag("footer", f"grafu {report.version}"),
         *data,
     ])  # fmt: skip
-    return whole_page(report.input.name, body, _STYLES, _SCRIPTS if shown else _SCRIPTS_OF_WORDS)
+    return whole_page(report.input.name, body, STYLES, _SCRIPTS if shown else _SCRIPTS_OF_WORDS)
 
 
-def _facts(asset: Asset, report: Report) -> Html:
+def header_facts(asset: Asset, report: Report) -> Html:
+    """Returns what was read, in a line."""
     phrases = (
         f"{report.input.parts} parts",
         size_words(asset.box.size.tolist()),
@@ -97,6 +102,11 @@ def _facts(asset: Asset, report: Report) -> Html:
 
 def _stage(articulated: ArticulatedObject) -> Html:
     """Returns the 3D view and what stands beside it; everything is disabled until the script has it."""
+    return tag("section", tag("div", *view_box()), joint_panel(articulated), id="stage", aria_label="3D view")
+
+
+def view_box() -> tuple[Html, ...]:
+    """Returns the 3D view, and the lines below it that state what is chosen or why nothing is shown."""
     canvas = tag("canvas", tabindex=0, role="img", aria_label="3D view: arrow keys turn, + and − zoom, Home resets")
     lines_over = tag("svg", class_="overlay", aria_hidden="true", hidden=True)
     label = tag("div", class_="label", hidden=True)
@@ -104,10 +114,11 @@ def _stage(articulated: ArticulatedObject) -> Html:
     noscript = tag("noscript", tag("p", "The 3D view needs JavaScript; the pictures below do not.", class_="note"))
     note = tag("p", id="view-note", class_="note", role="status")
     hint = tag("p", _HINT, id="chosen", data_empty=_HINT, aria_live="polite")
-    return tag("section", tag("div", view, hint, note, noscript), _panel(articulated), id="stage", aria_label="3D view")
+    return view, hint, note, noscript
 
 
-def _panel(articulated: ArticulatedObject) -> Html:
+def joint_panel(articulated: ArticulatedObject) -> Html:
+    """Returns the buttons, the sliders and the switches beside the 3D view."""
     joints = articulated.moving_joints
     actions = (("open", "Open all"), ("close", "Close all"), ("play", "Play"))
     buttons = [tag("button", word, type="button", data_action=action, disabled=True) for action, word in actions]
@@ -135,8 +146,10 @@ def _switch(key: str, word: str, on: bool) -> Html:
     return tag("label", box, " ", word)
 
 
-def _report_sections(report: Report, completion: GraphCompletion) -> list[Html]:
-    options = {joint.part: report.moves[joint.part] for joint in report.joints if joint.part in report.moves}
+def report_sections(report: Report, completion: GraphCompletion, *, corrections: bool = True) -> list[Html]:
+    """Returns the report as sections; with `corrections` each joint has the options that set it right beside it."""
+    moves = report.moves if corrections else {}
+    options = {joint.part: moves[joint.part] for joint in report.joints if joint.part in moves}
     return [
         section("Joints", joints_table(report, completion, options), lead=LEAD if options else "", name="joints"),
         section("What was missing", deficiencies_table(report)),

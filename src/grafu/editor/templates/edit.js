@@ -1,0 +1,107 @@
+// The page of a model that is edited: brings the view, the choices, the toolbar and the server together.
+
+class Editor {
+  constructor(stage) {
+    this.stage = stage;
+    this.at = readJson("editor");
+    this.view = new LiveView(stage, {
+      chosen: (part) => this.inspector.choosePart(part),
+      moved: (handle, by) => this.moveHandle(handle, by),
+    });
+    this.inspector = new Inspector({
+      choose: (question, part, value) => this.choose(question, part, value),
+      picked: (part) => this.pick(part),
+    });
+    Object.assign(this.inspector, { hinges: this.at.hinges, rails: this.at.rails });
+    this.toolbar = new Toolbar({
+      undo: () => this.server.act("undo"), redo: () => this.server.act("redo"), anew: () => this.server.act("anew"),
+      stop: () => this.server.act("stop"), export: () => this.export(), next: () => this.next(),
+      accept: () => this.about("accept"), reject: () => this.about("reject"),
+      automatic: () => this.about("motion"), open: () => this.view.toggle(this.view.jointOf(this.view.view.chosen)),
+    });
+    this.server = new Server({ told: (status) => this.hear(status), failed: (why) => this.fail(why) });
+    this.shown = 0;
+    listenToKeys({ toolbar: this.toolbar, inspector: this.inspector, at: this.at, leave: () => this.pick("") });
+    document.addEventListener("click", ({ target }) => this.apply(target.closest("[data-copy]")));
+  }
+
+  async hear(status) {
+    this.toolbar.show(status);
+    this.building = Boolean(status.stage);
+    if (status.build === this.shown || this.fetching) return;
+    this.fetching = true;
+    try {
+      await this.show(await this.server.built());
+    } finally {
+      this.fetching = false;
+    }
+    if (status.build > this.shown) this.hear(status);
+  }
+
+  async show({ state, scene, images }) {
+    this.state = state;
+    this.shown = state.build;
+    document.getElementById("model-header").innerHTML = state.markup.header;
+    document.getElementById("joint-panel").innerHTML = state.markup.panel;
+    document.getElementById("sections").innerHTML = state.markup.sections;
+    this.inspector.show(state);
+    this.toolbar.doubtful(this.inspector.doubtful().length);
+    this.view.replace(scene, images);
+    this.stage.className = "ready";
+  }
+
+  choose(question, part, value) {
+    return this.server.choose(question, part, value).then((done) => {
+      if (!done) this.inspector.choosePart(this.inspector.part); // shows again what holds
+    });
+  }
+
+  about(question) {
+    if (this.inspector.part) this.choose(question, this.inspector.part, null);
+  }
+
+  pick(part) {
+    this.view.chooseItem(this.view.itemNamed(part));
+    this.inspector.choosePart(part);
+  }
+
+  next() {
+    const parts = this.inspector.doubtful();
+    if (parts.length) this.pick(parts[(parts.indexOf(this.inspector.part) + 1) % parts.length]);
+  }
+
+  moveHandle(handle, [aside, up]) {
+    const { report, settings } = this.state, { link } = report.added.find((one) => one.part === handle);
+    const [x, y] = settings.additions.fronts[link]?.offset ?? [0, 0];
+    this.choose("handle offset", link, [x + aside, y + up]);
+  }
+
+  // Applies an option that the tables name, such as `--move door_1=left`.
+  apply(button) {
+    const found = button && /^--move (.+)=([a-z-]+)$/.exec(button.dataset.copy);
+    if (found) this.choose("motion", found[1], found[2]);
+  }
+
+  async export() {
+    const done = await this.server.act("export");
+    if (!done) return;
+    const left = Object.keys(done["left out"]);
+    const without = left.length ? `; without ${left.join(", ")}, which need more to be installed` : "";
+    this.toolbar.say(`exported to ${done.folder}: ${done.formats.join(", ")}${without}`);
+  }
+
+  fail(why) {
+    this.toolbar.fail(why);
+  }
+}
+
+function startEditor() {
+  const stage = document.getElementById("stage");
+  try {
+    window.grafuEditor = new Editor(stage);
+  } catch (error) {
+    goWithout(stage, error.message || error);
+  }
+}
+
+startEditor();

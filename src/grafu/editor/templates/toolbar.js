@@ -1,0 +1,50 @@
+// The buttons above the view and the lines below them: what is being built, what went wrong, what was exported.
+
+class Toolbar {
+  constructor(actions) {
+    this.actions = actions;
+    this.progress = document.getElementById("progress");
+    this.fault = document.getElementById("fault");
+    document.querySelectorAll("[data-do]").forEach((button) =>
+      button.addEventListener("click", () => this.do(button.dataset.do)));
+  }
+
+  button(name) {
+    return document.querySelector(`[data-do="${name}"]`);
+  }
+
+  do(name) {
+    if (!this.button(name).disabled && !this.button(name).hidden) this.actions[name]();
+  }
+
+  // Shows how things are.
+  show({ stage, error, undo, redo, build, seconds }) {
+    const busy = Boolean(stage);
+    this.button("undo").disabled = !undo;
+    this.button("redo").disabled = !redo;
+    for (const name of ["anew", "export"]) this.button(name).disabled = !build && !error;
+    this.button("stop").hidden = !busy;
+    document.getElementById("bar").hidden = !busy;
+    document.body.toggleAttribute("data-busy", busy);
+    if (busy) this.progress.textContent = `${STAGES[stage] ?? stage} ...`;
+    else if (!this.said) this.progress.textContent = build ? `built in ${seconds.toFixed(2)} s; every choice is saved` : "";
+    if (busy) this.said = false;
+    this.fail(error);
+  }
+
+  // States something that stays until the next build.
+  say(text) {
+    this.said = true;
+    this.progress.textContent = text;
+  }
+
+  fail(why) {
+    this.fault.hidden = !why;
+    this.fault.textContent = why;
+  }
+
+  doubtful(count) {
+    this.button("next").disabled = !count;
+    this.button("next").textContent = count ? `Next doubtful joint (${count})` : "No doubtful joint";
+  }
+}
