@@ -35,7 +35,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         help="where the results of models go: DIR/<name>/ (default: results)",
     )
     parser.add_argument("--no-browser", action="store_true", help="print the address alone, and open no browser")
-    parser.add_argument("--port", type=_port, default=0, metavar="N", help="the port of this machine (default: a free one)")
+    parser.add_argument(
+        "--port", type=_port, default=0, metavar="N", help="the port of this machine (default: a free one)"
+    )
     add_input_options(parser)
     add_limit_option(parser)
     parser.set_defaults(run=run)

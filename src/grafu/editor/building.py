@@ -29,6 +29,7 @@ from grafu.export.files import write_files
 from grafu.export.formats import FORMATS, exporter_for
 from grafu.geometry.transform import transform_points
 from grafu.joints.motion_choice import TURNING_SIDES, axis_of_motion, choice_in_words
+from grafu.metrics.collision import TOLERANT, CollisionConfig, first_collisions
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_choices import motions_of
 from grafu.pipeline.report import report_of
@@ -150,6 +151,16 @@ class Shown:
         }
 
     @property
+    def collisions(self) -> dict[str, dict[str, Any]]:
+        """By part, of joints that collide: at which value first (radians or metres), and which visuals it cuts into."""
+        counted = CollisionConfig(tolerance=TOLERANT.tolerance, moving_bodies=True)
+        clashing = {done.joint: done.moving for done in self.made.report.installed if done.collision_share > 0}
+        found = first_collisions(
+            self.made.object, clashing, CollisionConfig(tolerance=TOLERANT.tolerance, moving_bodies=True)
+        )
+        return {clashing[joint]: {"value": one.value, "others": list(one.others)} for joint, one in found.items()}
+
+    @property
     def sides(self) -> dict[str, list[str]]:
         """By part the borders that it can turn about."""
         return self.cache.value("sides", sides_of, self.made.asset)
@@ -182,6 +193,7 @@ def write_page(shown: Shown, folder: Path) -> dict[str, Any]:
         "motions": shown.motions,
         "sides": shown.sides,
         "compartments": shown.compartments,
+        "collisions": shown.collisions,
         **digests,
     }
     (folder / GEOMETRY).write_bytes(page.buffer)

@@ -1,4 +1,4 @@
-"""The questions that the editor asks about a part or the whole piece, each as a change of the settings. It runs nothing.
+"""The questions that the editor asks about a part or the whole piece, each as a change of the settings.
 
 Values are plain JSON; null takes a choice back, so that it is automatic again.
 """

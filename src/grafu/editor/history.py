@@ -16,7 +16,7 @@ class History:
     future: tuple[Settings, ...] = ()
 
     def then(self, settings: Settings) -> "History":
-        """Returns the history after one more choice; what was undone is gone. The same settings again change nothing."""
+        """Returns the history after one more choice; what was undone is gone. The same settings change nothing."""
         return self if settings == self.present else History(settings, (*self.past, self.present))
 
     def undone(self) -> "History":

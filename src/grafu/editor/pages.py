@@ -124,12 +124,13 @@ def _stage() -> Html:
 def _inspector() -> Html:
     pick = tag("label", "Part ", tag("select", id="pick", autocomplete="off"))
     verdict = tag("p", id="certainty", class_="lead")
-    edges = [_motion(word, name, "edge") for word, name in _EDGES]
+    edges = [_motion(word, name, "side") for word, name in _EDGES]
     square = tag("div", *edges, tag("span", "hinge side", class_="inside"), class_="edges", role="group")
     others = tag("div", *(_motion(word, name, "other") for word, name in _OTHERS), class_="others")
     group = tag("div", square, others, role="group", aria_label="How it moves")
     actions = (("accept", "Accept"), ("reject", "Reject"), ("automatic", "Automatic"), ("open", "Open or close"))
     buttons = tag("div", *(tag("button", w, type="button", data_do=k) for k, w in actions), class_="actions")
+    clash = tag("button", "Show the collision", type="button", data_do="collision", hidden=True)
     fields = [
         tag("label", "Opens at most ", _number("opening", 0.1), tag("span", id="unit")),
         _select("template", "Hinge or rail", ()),
@@ -137,7 +138,9 @@ def _inspector() -> Html:
         _select("label", "Category", tuple(PartLabel)),
         tag("label", "Shelves behind it ", _number("shelves", 1), id="shelves-field", hidden=True),
     ]
-    body = tag("div", verdict, buttons, group, tag("div", *fields, class_="fields"), id="about-part", hidden=True)
+    body = tag(
+        "div", verdict, buttons, clash, group, tag("div", *fields, class_="fields"), id="about-part", hidden=True
+    )
     return tag("section", pick, body, id="inspector", class_="panel", aria_label="The part that is chosen")
 
 
@@ -152,7 +155,9 @@ def _whole() -> Html:
         _select("handles", "Handles that are added", handle_styles()),
     )
     left_out = tag("div", id="left-out")
-    return tag("details", tag("summary", "The whole piece"), tag("div", *fields, class_="fields"), left_out, class_="panel")
+    return tag(
+        "details", tag("summary", "The whole piece"), tag("div", *fields, class_="fields"), left_out, class_="panel"
+    )
 
 
 def _keys() -> Html:
@@ -166,6 +171,4 @@ def _select(name: str, label: str, values: Sequence[str]) -> Html:
 
 
 def _number(name: str, step: float) -> Html:
-    return tag(
-        "input", type="number", min=0, step=step, data_choice=name, placeholder="automatic", autocomplete="off"
-    )
+    return tag("input", type="number", min=0, step=step, data_choice=name, placeholder="automatic", autocomplete="off")

@@ -43,7 +43,7 @@ def live_page(
     markup = {
         "header": str(header),
         "panel": str(joint_panel(articulated)),
-        "sections": str(joined(report_sections(report, completion, corrections=False))),
+        "sections": str(joined(report_sections(report, completion, lead=""))),
     }
     tables = {name: table for name, table in scene.tables.items() if name != "textures"}
     return LivePage(markup, tables, list(scene.tables["textures"]), scene.buffer)

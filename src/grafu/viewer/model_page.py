@@ -10,8 +10,10 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.report_schema import FaultRecord, Report, VerdictRecord
+from grafu.pipeline.settings import Settings
 from grafu.pipeline.verdict import verdict_of
 from grafu.render.graph_picture import draw_graph, drawing_svg
+from grafu.viewer import collecting
 from grafu.viewer.pictures import Stills, stills_row
 from grafu.viewer.report_tables import (
     LEAD,
@@ -58,7 +60,7 @@ VIEW_SCRIPTS = (
     "overlay.js", "controls.js", "model.js",
 )  # fmt: skip
 _SCRIPTS = (*VIEW_SCRIPTS, "copy.js", "start.js")
-_SCRIPTS_OF_WORDS = ("copy.js",)
+_SCRIPTS_OF_WORDS = ("scene.js", "copy.js")
 _NAMED = 28  # nodes whose names have room below them; of more the name shows under the pointer
 _HINT = (
     "Select a part to see its name and its axis. Drag to turn; two fingers or Shift to move; click, then wheel to zoom."
@@ -67,25 +69,35 @@ _ROLES = ((VisualRole.HARDWARE, "hardware", "Hardware"), (VisualRole.ADDED, "add
 
 
 def model_page(
-    asset: Asset, articulated: ArticulatedObject, completion: GraphCompletion, report: Report, stills: Stills | None
+    asset: Asset,
+    articulated: ArticulatedObject,
+    completion: GraphCompletion,
+    report: Report,
+    stills: Stills | None,
+    settings: Settings | None = None,
 ) -> str:
     """Returns the page of a model: the input, the result, and its report as text, tables and pictures.
 
-    Without stills it is text and tables, and the graph: no 3D view, no pictures.
+    Without stills it is text and tables, and the graph: no 3D view, no pictures. With the settings that the result was
+    made with, options that are chosen on it are collected as new settings; without, an option can be copied.
     """
+    collects = settings is not None and bool(report.moves)
     shown: list[Html] = []
     data: list[Html] = []
     if stills is not None:
         scene = scene_data(articulated, report)
         shown = [_stage(articulated), section("Before and after", stills_row(stills, report.input.name))]
         data = [json_block("scene", scene.tables), tag("script", Html(scene.packed), type="text/plain", id="geometry")]
+    verdict = verdict_view(report, verdict_of(report), collecting.LINES if collects else _LEAD)
     body = joined([
-        tag("header", tag("h1", report.input.name), verdict_view(report, verdict_of(report)), header_facts(asset, report)),
-        tag("main", *shown, *report_sections(report, completion)),
+        tag("header", tag("h1", report.input.name), verdict, header_facts(asset, report)),
+        tag("main", *shown, *report_sections(report, completion, collecting.LEAD if collects else LEAD)),
+        *([collecting.collected(report, settings)] if settings is not None and collects else []),
         tag("footer", f"grafu {report.version}"),
         *data,
     ])  # fmt: skip
-    return whole_page(report.input.name, body, STYLES, _SCRIPTS if shown else _SCRIPTS_OF_WORDS)
+    scripts = (*(_SCRIPTS if shown else _SCRIPTS_OF_WORDS), *(("collect.js",) if collects else ()))
+    return whole_page(report.input.name, body, STYLES, scripts)
 
 
 def header_facts(asset: Asset, report: Report) -> Html:
@@ -146,12 +158,16 @@ def _switch(key: str, word: str, on: bool) -> Html:
     return tag("label", box, " ", word)
 
 
-def report_sections(report: Report, completion: GraphCompletion, *, corrections: bool = True) -> list[Html]:
-    """Returns the report as sections; with `corrections` each joint has the options that set it right beside it."""
-    moves = report.moves if corrections else {}
+def report_sections(report: Report, completion: GraphCompletion, lead: str) -> list[Html]:
+    """Returns the report as sections.
+
+    Each joint has the options that set it right beside it, and `lead` states above them what a click does; without
+    one there are no options.
+    """
+    moves = report.moves if lead else {}
     options = {joint.part: moves[joint.part] for joint in report.joints if joint.part in moves}
     return [
-        section("Joints", joints_table(report, completion, options), lead=LEAD if options else "", name="joints"),
+        section("Joints", joints_table(report, completion, options), lead=lead if options else "", name="joints"),
         section("What was missing", deficiencies_table(report)),
         section("What was added", added_table(report)),
         section("What was not built", not_built_table(report)),

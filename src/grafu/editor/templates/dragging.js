@@ -4,9 +4,9 @@ const NEAR = 1e-9; // pixels squared for a full motion: less is a motion along t
 const OPENING = 0.45; // seconds
 
 class LiveView extends ModelView {
-  constructor(stage, { chosen, moved }) {
+  constructor(stage, { chosen, moved, movable }) {
     super(stage);
-    Object.assign(this, { told: chosen, moved });
+    Object.assign(this, { told: chosen, moved, movable });
   }
 
   choose(place) {
@@ -16,6 +16,7 @@ class LiveView extends ModelView {
   }
 
   chooseItem(index, seen = false) {
+    this.view.clashing.clear();
     super.chooseItem(index, seen);
     this.told(this.subject(index));
   }
@@ -39,11 +40,26 @@ class LiveView extends ModelView {
     this.redraw();
   }
 
+  // Shows where a part collides first: its joint at that value, what cuts into what in red. Again: as it was before.
+  showCollision({ value, others }) {
+    const { clashing, chosen } = this.view, joint = this.jointOf(chosen), { link } = this.scene.items[chosen];
+    const shown = clashing.size > 0;
+    clashing.clear();
+    this.joints.stop();
+    this.joints.set(joint, shown ? this.joints.joints[joint].lower : value);
+    if (!shown) {
+      this.scene.items.forEach((item, k) => {
+        if (others.includes(item.name) || (item.link === link && item.role === "part")) clashing.add(k);
+      });
+    }
+    this.redraw();
+  }
+
   grab(place) {
     const index = this.renderer.pick(this.camera, this.joints.poses(), this.view, place.x, place.y);
     if (index < 0 || this.view.chosen < 0 || this.subject(index) !== this.subject(this.view.chosen)) return null;
     const item = this.scene.items[index], joint = this.jointOf(index);
-    if (item.role === "added" && item.label === "handle") return this.grabHandle(index, place);
+    if (item.role === "added" && item.label === "handle" && this.movable(item.name)) return this.grabHandle(index, place);
     return joint === null ? null : this.grabJoint(index, this.joints.leader(joint), place);
   }
 

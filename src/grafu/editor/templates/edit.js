@@ -7,6 +7,7 @@ class Editor {
     this.view = new LiveView(stage, {
       chosen: (part) => this.inspector.choosePart(part),
       moved: (handle, by) => this.moveHandle(handle, by),
+      movable: (handle) => this.isOnUprightFront(handle),
     });
     this.inspector = new Inspector({
       choose: (question, part, value) => this.choose(question, part, value),
@@ -17,6 +18,7 @@ class Editor {
       undo: () => this.server.act("undo"), redo: () => this.server.act("redo"), anew: () => this.server.act("anew"),
       stop: () => this.server.act("stop"), export: () => this.export(), next: () => this.next(),
       accept: () => this.about("accept"), reject: () => this.about("reject"),
+      collision: () => this.view.showCollision(this.state.collisions[this.inspector.part]),
       automatic: () => this.about("motion"), open: () => this.view.toggle(this.view.jointOf(this.view.view.chosen)),
     });
     this.server = new Server({ told: (status) => this.hear(status), failed: (why) => this.fail(why) });
@@ -45,7 +47,7 @@ class Editor {
     document.getElementById("joint-panel").innerHTML = state.markup.panel;
     document.getElementById("sections").innerHTML = state.markup.sections;
     this.inspector.show(state);
-    this.toolbar.doubtful(this.inspector.doubtful().length);
+    this.toolbar.doubtful(this.inspector.doubtful(), state.report.verdict.least_confidence);
     this.view.replace(scene, images);
     this.stage.className = "ready";
   }
@@ -66,7 +68,7 @@ class Editor {
   }
 
   next() {
-    const parts = this.inspector.doubtful();
+    const parts = this.inspector.doubtful().map(([part]) => part);
     if (parts.length) this.pick(parts[(parts.indexOf(this.inspector.part) + 1) % parts.length]);
   }
 
@@ -74,6 +76,12 @@ class Editor {
     const { report, settings } = this.state, { link } = report.added.find((one) => one.part === handle);
     const [x, y] = settings.additions.fronts[link]?.offset ?? [0, 0];
     this.choose("handle offset", link, [x + aside, y + up]);
+  }
+
+  // Whether a handle is on a front that stands upright and looks to the front: there X is aside and Z is up.
+  isOnUprightFront(handle) {
+    const sides = this.state.sides[this.state.report.added.find((one) => one.part === handle)?.link] ?? [];
+    return ["left", "right", "top", "bottom"].every((side) => sides.includes(side));
   }
 
   // Applies an option that the tables name, such as `--move door_1=left`.

@@ -61,6 +61,7 @@ class Inspector {
     for (const name of ["accept", "automatic", "open"]) {
       document.querySelector(`[data-do="${name}"]`).disabled = this.isAdded || (name === "open" && !joint);
     }
+    document.querySelector('[data-do="collision"]').hidden = !this.state.collisions[part];
     const choice = settings.joints[part] ?? {}, slides = joint?.type === "prismatic";
     const unit = slides ? "cm" : "degrees", factor = slides ? 100 : 180 / Math.PI;
     const round = (value) => String(Math.round(value * factor * 10) / 10);
@@ -143,12 +144,12 @@ class Inspector {
     else this.choose(name, this.part, text || null);
   }
 
-  // Returns the parts whose motion was guessed and is not decided, the least sure first.
+  // Returns the parts whose motion was guessed and is not decided, each with its confidence, the least first.
   doubtful() {
     const { report, settings } = this.state, least = new Map();
     for (const { part, score } of report.guesses) {
       if (!(part in settings.motions) && !(part in settings.labels)) least.set(part, Math.min(score, least.get(part) ?? 1));
     }
-    return [...least].sort((a, b) => a[1] - b[1]).map(([part]) => part);
+    return [...least].sort((a, b) => a[1] - b[1]);
   }
 }

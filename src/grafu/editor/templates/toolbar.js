@@ -43,8 +43,10 @@ class Toolbar {
     this.fault.textContent = why;
   }
 
-  doubtful(count) {
-    this.button("next").disabled = !count;
-    this.button("next").textContent = count ? `Next doubtful joint (${count})` : "No doubtful joint";
+  // Counts the guesses that are not decided, those below a confidence as doubtful.
+  doubtful(guesses, least) {
+    const count = guesses.filter(([, score]) => score < least).length;
+    this.button("next").disabled = !guesses.length;
+    this.button("next").textContent = count || !guesses.length ? `Next doubtful joint (${count})` : "Next joint to check";
   }
 }
