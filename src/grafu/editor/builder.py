@@ -11,7 +11,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from threading import Lock
-from typing import Any, Final, final
+from typing import Any, Final, Protocol, final, runtime_checkable
 
 from grafu.editor.building import Order
 from grafu.errors import FunctionalizationError
@@ -31,6 +31,19 @@ class Answer:
 
     made: dict[str, Any]
     seconds: float
+
+
+@runtime_checkable
+class Builds(Protocol):
+    """What carries out orders: `Builder`, or what stands in its place."""
+
+    def ask(self, order: Order, on_stage: Callable[[str], None]) -> Answer:
+        """Returns what an order made, or raises `NotBuilt`."""
+        ...
+
+    def stop(self) -> None:
+        """Ends what is being made."""
+        ...
 
 
 @final

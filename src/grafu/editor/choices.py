@@ -167,7 +167,7 @@ def _label(settings: Settings, part: str, value: Any, _: Known) -> Settings:
 def _shelves(settings: Settings, part: str, value: Any, _: Known) -> Settings:
     if value is None:
         return settings.with_compartment(int(part), None)
-    count = _number(value, 0, MOST_PANELS, "shelves")
+    count = _number(value, 0.0, float(MOST_PANELS), "shelves")
     if count != int(count):
         raise OptionError(f"shelves are counted in whole numbers: got {_said(value)}")
     before = settings.additions.compartments.get(int(part), CompartmentChoice())

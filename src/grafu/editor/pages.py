@@ -138,9 +138,8 @@ def _inspector() -> Html:
         _select("label", "Category", tuple(PartLabel)),
         tag("label", "Shelves behind it ", _number("shelves", 1), id="shelves-field", hidden=True),
     ]
-    body = tag(
-        "div", verdict, buttons, clash, group, tag("div", *fields, class_="fields"), id="about-part", hidden=True
-    )
+    about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"))
+    body = tag("div", *about, id="about-part", hidden=True)
     return tag("section", pick, body, id="inspector", class_="panel", aria_label="The part that is chosen")
 
 

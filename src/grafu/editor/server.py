@@ -17,7 +17,7 @@ from starlette.routing import Route
 from grafu.api.saving import MODEL_PAGE
 from grafu.asset.json_files import read_own
 from grafu.editor.access import Guarded
-from grafu.editor.builder import Builder
+from grafu.editor.builder import Builder, Builds
 from grafu.editor.building import GEOMETRY, TEXTURES
 from grafu.editor.pages import model_page_of, wall_page, wall_row
 from grafu.editor.scripts import SCRIPTS, style
@@ -39,7 +39,7 @@ class Desk:
     """All models that are edited, and the builder that they share."""
 
     sessions: tuple[Session, ...]
-    builder: Builder
+    builder: Builds
 
     def session(self, request: Request) -> Session:
         """Returns the session that an address names. Raises OptionError if there is none of its number."""

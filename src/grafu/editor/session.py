@@ -11,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, final
 
-from grafu.editor.builder import Answer, Builder
+from grafu.editor.builder import Answer, Builds
 from grafu.editor.building import STATE, Order
 from grafu.editor.choices import Known, with_choice
 from grafu.editor.decisions import (
@@ -79,7 +79,7 @@ class Session:
     """
 
     workspace: Workspace
-    builder: Builder
+    builder: Builds
     folder: Path
     history: History = field(init=False)
     built: Built | None = None
