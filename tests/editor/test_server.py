@@ -156,6 +156,21 @@ def test_a_result_is_opened_with_its_settings(editing, model, tmp_path):
         assert str(found.settings.motions[DOOR].moves) == "fixed"
 
 
+def test_results_that_cannot_be_edited_are_left_out_of_a_folder(editing, tmp_path):
+    editing.open()
+    editing.post("/m/0/export")
+    results, heard = tmp_path / "out", []
+    (results / "gone").mkdir()
+    report = json.loads((results / "cabinet" / "report.json").read_text())
+    report["input"]["path"] = "gone.glb"
+    (results / "gone" / "report.json").write_text(json.dumps(report))
+    (results / "gone" / "model.glb").write_bytes((results / "cabinet" / "model.glb").read_bytes())
+    assert [one.name for one in open_all([results], tmp_path / "elsewhere", on_left_out=heard.append)] == ["cabinet"]
+    assert "its input is gone" in heard[0]
+    with pytest.raises(UnreadableAsset, match="its input is gone"):
+        open_all([results / "gone"], tmp_path / "elsewhere")
+
+
 def test_a_folder_that_is_not_ours_is_never_written(model, tmp_path):
     (tmp_path / "out" / "cabinet").mkdir(parents=True)
     (tmp_path / "out" / "cabinet" / "thesis.txt").write_text("mine")

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from grafu.cli.input_options import add_input_options, add_limit_option, load_options, with_limits
-from grafu.cli.verb import say
+from grafu.cli.verb import complain, say
 
 _DESCRIPTION = """\
 Opens the page of a result, or of a model, in the browser, where everything can be set right by hand: how a part moves,
@@ -66,7 +66,8 @@ def run(options: argparse.Namespace) -> int:
             raise
         raise OptionError("`grafu edit` needs its extra: pip install 'grafu[edit]'") from None
     reading = with_limits(load_options(options), options)
-    serve(open_all(options.inputs, options.out, reading), _tell, options.port, browser=not options.no_browser)
+    found = open_all(options.inputs, options.out, reading, lambda why: complain(f"left out: {why}"))
+    serve(found, _tell, options.port, browser=not options.no_browser)
     return 0
 
 

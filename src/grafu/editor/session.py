@@ -32,6 +32,8 @@ from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
 
 Event = dict[str, Any]
+WAITING = "wait"
+"""The stage before the builder begins."""
 
 
 @final
@@ -84,7 +86,6 @@ class Session:
     history: History = field(init=False)
     built: Built | None = None
     error: str = ""
-    exported: dict[str, Any] | None = None
     _listeners: set["asyncio.Queue[Event]"] = field(default_factory=set)
     _predictions: dict[Key, Prediction] = field(default_factory=dict)
     _logged: dict[Key, Any] = field(init=False)
@@ -137,7 +138,7 @@ class Session:
 
     def stop(self) -> None:
         """Stops what is being built; the choice that it was for is taken back."""
-        if self.is_building:
+        if self.is_building and self._stage != WAITING:  # else the builder is at another model
             self.builder.stop()
 
     async def finished(self) -> None:
@@ -197,11 +198,11 @@ class Session:
             FunctionalizationError: if it cannot be written.
         """
         await self.finished()
-        answer = await self._ask("export", self.workspace.folder, self.history.present)
-        self._stage = ""
-        self.exported = answer.made
-        self.tell()
-        return answer.made
+        try:
+            return (await self._ask("export", self.workspace.folder, self.history.present)).made
+        finally:
+            self._stage = ""
+            self.tell()
 
     async def _ask(self, do: Any, folder: Path, settings: Settings) -> Answer:
         source, name = self.workspace.source, self.workspace.name
@@ -211,7 +212,7 @@ class Session:
         def on_stage(stage: str) -> None:
             loop.call_soon_threadsafe(self._at_stage, stage)
 
-        self._at_stage("wait")
+        self._at_stage(WAITING)
         return await asyncio.to_thread(self.builder.ask, order, on_stage)
 
     def _at_stage(self, stage: str) -> None:

@@ -1,19 +1,19 @@
 """A model that is edited, and its folder of results: opened, and its settings saved at every step, whole."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import final
 
 from grafu.asset.options import LoadOptions
-from grafu.errors import ExportError, UnreadableAsset
+from grafu.errors import AssetError, ExportError, OptionError, UnreadableAsset
 from grafu.export.files import ExportFiles, require_free, write_files
 from grafu.export.output_names import output_name, same_place, why_not_apart
 from grafu.export.whole_file import clear_remains, write_whole
 from grafu.graph.serialize import dump_json
 from grafu.pipeline.report_schema import Report
-from grafu.pipeline.result_folder import REPORT, SETTINGS, read_report, read_result, read_settings
+from grafu.pipeline.result_folder import REPORT, SETTINGS, read_choices, read_report, read_settings
 from grafu.pipeline.settings import Settings
 
 
@@ -51,18 +51,28 @@ class Workspace:
             write_files(ExportFiles({SETTINGS: text.encode()}), self.folder)
 
 
-def open_all(paths: Sequence[Path], out: Path, reading: LoadOptions = LoadOptions()) -> tuple[Workspace, ...]:
+def _say_nothing(_: str) -> None:
+    """Hears of a result that is left out and does nothing."""
+
+
+def open_all(
+    paths: Sequence[Path],
+    out: Path,
+    reading: LoadOptions = LoadOptions(),
+    on_left_out: Callable[[str], None] = _say_nothing,
+) -> tuple[Workspace, ...]:
     """Returns what is edited, each of its own name and folder: results, folders of results, and models.
 
     `out` is where the results of models go, `out/<name>/`; what an earlier session decided there is taken up again.
-    `reading` is how models are read that have no settings yet.
+    `reading` is how models are read that have no settings yet. Of a folder of results those that cannot be edited are
+    left out; `on_left_out` is called with the reason for each.
 
     Raises:
         AssetError: if an input is not there, is no result, or two would be edited in one folder.
         ExportError: if a folder cannot hold results.
         OptionError: if saved settings are damaged.
     """
-    found = [one for path in paths for one in _opened(path, out, reading)]
+    found = [one for path in paths for one in _opened(path, out, reading, on_left_out)]
     places: dict[str, Workspace] = {}
     for one in found:
         place = same_place(os.path.realpath(one.folder))
@@ -74,20 +84,31 @@ def open_all(paths: Sequence[Path], out: Path, reading: LoadOptions = LoadOption
     return tuple(found)
 
 
-def _opened(path: Path, out: Path, reading: LoadOptions) -> list[Workspace]:
+def _opened(path: Path, out: Path, reading: LoadOptions, on_left_out: Callable[[str], None]) -> list[Workspace]:
     if not os.path.lexists(path):
         raise UnreadableAsset(f"there is no {path}: give a model or a folder of results")
     if (path / REPORT).is_file():
         return [_result(path)]
     inside = sorted(report.parent for report in path.glob(f"*/{REPORT}")) if path.is_dir() else []
-    return [_result(folder) for folder in inside] or [_model(path, out, reading)]
+    return _those_that_can_be(inside, on_left_out) if inside else [_model(path, out, reading)]
+
+
+def _those_that_can_be(folders: Sequence[Path], on_left_out: Callable[[str], None]) -> list[Workspace]:
+    found, why = [], ""
+    for folder in folders:
+        try:
+            found.append(_result(folder))
+        except (AssetError, OptionError) as error:
+            why = str(error)
+            on_left_out(why)
+    if not found:
+        raise UnreadableAsset(f"none of {len(folders)} results can be edited: {why}")
+    return found
 
 
 def _result(folder: Path) -> Workspace:
-    result = read_result(folder)
-    if result.fixed or result.source is None:
-        raise UnreadableAsset(f"{folder}: {result.fixed}")
-    return Workspace(folder.resolve().name, result.source, folder, result.settings, result.report)
+    report, settings, source = read_choices(folder)
+    return Workspace(folder.resolve().name, source, folder, settings, report)
 
 
 def _model(path: Path, out: Path, reading: LoadOptions) -> Workspace:

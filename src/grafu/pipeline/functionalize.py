@@ -202,7 +202,8 @@ def functionalize(
     plan = stages.timed("plan", first)
     turning: frozenset[str] = frozenset()
     if not motion.reads_annotation:
-        plan, turning = shown_by_shape(plan, asset, completion.completed, joints, motions, settings.small_parts)
+        shown = partial(cache.value, "shown by shape", shown_by_shape, plan, asset)
+        plan, turning = shown(completion.completed, joints, motions, settings.small_parts)
     plan = with_stated_bins(plan, asset) if motion.reads_annotation else plan
     plan = with_mechanisms(plan, motions, folds, completion, asset, joints)
     plan = with_choices(plan, settings.joints, asset, gallery, joints.plan)
