@@ -1,4 +1,4 @@
-"""A page from a disk collects what is chosen: one settings.json that says all of it, and one command that uses it."""
+"""A page from a disk collects what is chosen: one settings.json that holds all of it, and one command that uses it."""
 
 import json
 import shlex

@@ -136,7 +136,7 @@ def _inspector() -> Html:
         _select("template", "Hinge or rail", ()),
         _select("handle", "Handle", handle_styles()),
         _select("label", "Category", tuple(PartLabel)),
-        tag("label", "Shelves behind it ", _number("shelves", 1), id="shelves-field", hidden=True),
+        tag("label", "Shelves behind it ", _number("shelves", 1.0), id="shelves-field", hidden=True),
     ]
     about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"))
     body = tag("div", *about, id="about-part", hidden=True)
@@ -170,4 +170,6 @@ def _select(name: str, label: str, values: Sequence[str]) -> Html:
 
 
 def _number(name: str, step: float) -> Html:
-    return tag("input", type="number", min=0, step=step, data_choice=name, placeholder="automatic", autocomplete="off")
+    return tag(
+        "input", type="number", min=0, step=f"{step:g}", data_choice=name, placeholder="automatic", autocomplete="off"
+    )

@@ -52,7 +52,7 @@ def serve(workspaces: Sequence[Workspace], say: Callable[[str], None], port: int
 
         app = application(desk_of(workspaces, Path(scratch)), token, at)
         config = uvicorn.Config(
-            app,  # type: ignore[arg-type]  # an ASGI application with its own name for a scope
+            app,
             log_level="error",
             access_log=False,
             server_header=False,

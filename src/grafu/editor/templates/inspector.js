@@ -111,7 +111,7 @@ class Inspector {
     return { folds: `fold-${side === "top" ? "up" : side}`, lifts: "lift-parallel", tilts: "tilt" }[moves] ?? "";
   }
 
-  // Returns in words what the part is, and how sure its motion is.
+  // Returns in words what the part is, and the confidence of its motion.
   said() {
     const { report, settings } = this.state;
     const added = report.added.find((one) => one.part === this.part);
