@@ -22,6 +22,7 @@ import numpy as np
 
 from grafu.additions.interior.turned import compartments_of
 from grafu.api.saving import files_of
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
 from grafu.errors import ExportError, FunctionalizationError, OptionError
@@ -192,6 +193,7 @@ def write_page(shown: Shown, folder: Path) -> dict[str, Any]:
         "sides": shown.sides,
         "compartments": shown.compartments,
         "collisions": shown.collisions,
+        "sliding": [joint.part for joint in report.joints if motion_kind(joint.type).slides],
         **digests,
     }
     (folder / GEOMETRY).write_bytes(page.buffer)

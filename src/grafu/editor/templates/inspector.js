@@ -44,6 +44,10 @@ class Inspector {
     return this.state.report.joints.find((joint) => joint.part === this.part);
   }
 
+  get slides() {
+    return this.state.sliding.includes(this.part);
+  }
+
   get isAdded() {
     return !(this.part in this.state.sides);
   }
@@ -62,7 +66,7 @@ class Inspector {
       document.querySelector(`[data-do="${name}"]`).disabled = this.isAdded || (name === "open" && !joint);
     }
     document.querySelector('[data-do="collision"]').hidden = !this.state.collisions[part];
-    const choice = settings.joints[part] ?? {}, slides = joint?.type === "prismatic";
+    const choice = settings.joints[part] ?? {}, slides = this.slides;
     const unit = slides ? "cm" : "degrees", factor = slides ? 100 : 180 / Math.PI;
     const round = (value) => String(Math.round(value * factor * 10) / 10);
     const opening = this.field("opening");
@@ -139,7 +143,7 @@ class Inspector {
   answer(field) {
     const name = field.dataset.choice, text = field.value.trim(), number = text === "" ? null : Number(text);
     if (["top", "hinge", "handles"].includes(name)) this.choose(name, "", text || null);
-    else if (name === "opening") this.choose(this.joint.type === "prismatic" ? "slide" : "turn", this.part, number);
+    else if (name === "opening") this.choose(this.slides ? "slide" : "turn", this.part, number);
     else if (name === "shelves") this.choose("shelves", String(this.compartment()), number);
     else this.choose(name, this.part, text || null);
   }
