@@ -86,6 +86,7 @@ class Session:
     history: History = field(init=False)
     built: Built | None = None
     error: str = ""
+    exported: dict[str, Any] | None = None
     _listeners: set["asyncio.Queue[Event]"] = field(default_factory=set)
     _predictions: dict[Key, Prediction] = field(default_factory=dict)
     _logged: dict[Key, Any] = field(init=False)
@@ -126,7 +127,7 @@ class Session:
     def _go_to(self, history: History) -> None:
         if history.present != self.history.present:
             self.workspace.save(history.present)
-        self.history, self.error = history, ""
+        self.history, self.error, self.exported = history, "", None
         self.tell()
         self.build()
 
@@ -199,7 +200,8 @@ class Session:
         """
         await self.finished()
         try:
-            return (await self._ask("export", self.workspace.folder, self.history.present)).made
+            self.exported = (await self._ask("export", self.workspace.folder, self.history.present)).made
+            return self.exported
         finally:
             self._stage = ""
             self.tell()
@@ -232,6 +234,7 @@ class Session:
             "seconds": self.built.seconds if self.built else 0,
             "stage": self._stage,
             "error": self.error,
+            "exported": self.exported,
             "undo": len(self.history.past),
             "redo": len(self.history.future),
         }

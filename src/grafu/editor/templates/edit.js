@@ -16,7 +16,7 @@ class Editor {
     Object.assign(this.inspector, { hinges: this.at.hinges, rails: this.at.rails });
     this.toolbar = new Toolbar({
       undo: () => this.server.act("undo"), redo: () => this.server.act("redo"), anew: () => this.server.act("anew"),
-      stop: () => this.server.act("stop"), export: () => this.export(), next: () => this.next(),
+      stop: () => this.server.act("stop"), export: () => this.server.act("export"), next: () => this.next(),
       accept: () => this.about("accept"), reject: () => this.about("reject"),
       collision: () => this.view.showCollision(this.state.collisions[this.inspector.part]),
       automatic: () => this.about("motion"), open: () => this.view.toggle(this.view.jointOf(this.view.view.chosen)),
@@ -88,14 +88,6 @@ class Editor {
   apply(button) {
     const found = button && /^--move (.+)=([a-z-]+)$/.exec(button.dataset.copy);
     if (found) this.choose("motion", found[1], found[2]);
-  }
-
-  async export() {
-    const done = await this.server.act("export");
-    if (!done) return;
-    const left = Object.keys(done["left out"]);
-    const without = left.length ? `; without ${left.join(", ")}, which need more to be installed` : "";
-    this.toolbar.say(`exported to ${done.folder}: ${done.formats.join(", ")}${without}`);
   }
 
   fail(why) {

@@ -18,7 +18,7 @@ class Toolbar {
   }
 
   // Shows how things are.
-  show({ stage, error, undo, redo, build, seconds }) {
+  show({ stage, error, exported, undo, redo, build, seconds }) {
     const busy = Boolean(stage);
     this.button("undo").disabled = !undo;
     this.button("redo").disabled = !redo;
@@ -27,15 +27,9 @@ class Toolbar {
     document.getElementById("bar").hidden = !busy;
     document.body.toggleAttribute("data-busy", busy);
     if (busy) this.progress.textContent = `${STAGES[stage] ?? stage} ...`;
-    else if (!this.said) this.progress.textContent = build ? `built in ${seconds.toFixed(2)} s; every choice is saved` : "";
-    if (busy) this.said = false;
+    else if (exported) this.progress.textContent = exportedWords(exported);
+    else this.progress.textContent = build ? `built in ${seconds.toFixed(2)} s; every choice is saved` : "";
     this.fail(error);
-  }
-
-  // States something that stays until the next build.
-  say(text) {
-    this.said = true;
-    this.progress.textContent = text;
   }
 
   fail(why) {
@@ -49,4 +43,10 @@ class Toolbar {
     this.button("next").disabled = !guesses.length;
     this.button("next").textContent = count || !guesses.length ? `Next doubtful joint (${count})` : "Next joint to check";
   }
+}
+
+function exportedWords({ folder, formats, "left out": leftOut }) {
+  const left = Object.keys(leftOut);
+  const without = left.length ? `; without ${left.join(", ")}, which need more to be installed` : "";
+  return `exported to ${folder}: ${formats.join(", ")}${without}`;
 }
