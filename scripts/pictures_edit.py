@@ -68,7 +68,7 @@ def part_sheet(step: str) -> Picture:
         browser.run(f"{step}; 1")
         if "choose(" in step:
             browser.wait_for(f"grafuEditor.shown > {number} && !grafuEditor.building")
-        browser.run("grafuEditor.view.joints.setFraction(0, 0.7)")
+        browser.run("((v) => v.joints.setFraction(v.jointOf(v.view.chosen), 0.7))(grafuEditor.view)")
         return taken(browser)
 
 

@@ -11,7 +11,7 @@ from starlette.testclient import TestClient
 from grafu.asset.edit import as_static_object
 from grafu.editor.builder import Answer, NotBuilt
 from grafu.editor.building import Bench, Order
-from grafu.editor.server import Desk, application
+from grafu.editor.server import EditedModels, application
 from grafu.editor.session import Session
 from grafu.editor.workspace import Workspace
 from grafu.errors import FunctionalizationError
@@ -70,7 +70,7 @@ class Editing:
             folder = scratch / str(number)
             folder.mkdir(parents=True)
             self.sessions.append(Session(workspace, builder, folder))
-        app = application(Desk(tuple(self.sessions), builder), TOKEN, PORT)
+        app = application(EditedModels(tuple(self.sessions), builder), TOKEN, PORT)
         self.client = TestClient(app, base_url=f"http://127.0.0.1:{PORT}")
 
     def __enter__(self) -> "Editing":

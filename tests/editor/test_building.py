@@ -7,7 +7,7 @@ from threading import Thread
 
 import pytest
 
-from grafu.editor.builder import STOPPED, Builder, NotBuilt
+from grafu.editor.builder import STOPPED, BuildProcess, NotBuilt
 from grafu.editor.building import GEOMETRY, STATE, TEXTURES, Bench, Order, order_of
 from grafu.joints.motion_choice import FIXED
 from grafu.pipeline.motion_source import MotionSource
@@ -28,7 +28,7 @@ def test_an_order_is_one_line(model, tmp_path):
 
 @pytest.mark.slow
 def test_it_builds_states_faults_and_is_replaced_after_a_stop(model, tmp_path):
-    builder, stages = Builder(), list[str]()
+    builder, stages = BuildProcess(), list[str]()
     try:
         first = builder.ask(order(model, tmp_path), stages.append)
         assert stages[:2] == ["load", "parse"]

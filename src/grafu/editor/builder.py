@@ -35,7 +35,7 @@ class Answer:
 
 @runtime_checkable
 class Builds(Protocol):
-    """What carries out orders: `Builder`, or what stands in its place."""
+    """What carries out orders: `BuildProcess`, or what stands in its place."""
 
     def ask(self, order: Order, on_stage: Callable[[str], None]) -> Answer:
         """Returns what an order made, or raises `NotBuilt`."""
@@ -47,7 +47,7 @@ class Builds(Protocol):
 
 
 @final
-class Builder:
+class BuildProcess:
     """Starts the process, gives it orders and passes on what it tells; not a value. `ask` may run in any thread."""
 
     def __init__(self) -> None:

@@ -17,7 +17,7 @@ from starlette.routing import Route
 from grafu.api.saving import MODEL_PAGE
 from grafu.asset.json_files import read_own
 from grafu.editor.access import Guarded
-from grafu.editor.builder import Builder, Builds
+from grafu.editor.builder import BuildProcess, Builds
 from grafu.editor.building import GEOMETRY, TEXTURES
 from grafu.editor.pages import model_page_of, wall_page, wall_row
 from grafu.editor.scripts import SCRIPTS, style
@@ -35,7 +35,7 @@ Handler = Callable[[Request], Awaitable[Response]]
 
 @final
 @dataclass(frozen=True)
-class Desk:
+class EditedModels:
     """All models that are edited, and the builder that they share."""
 
     sessions: tuple[Session, ...]
@@ -49,61 +49,61 @@ class Desk:
         return self.sessions[number]
 
 
-def desk_of(workspaces: Sequence[Workspace], scratch: Path) -> Desk:
+def models_of(workspaces: Sequence[Workspace], scratch: Path) -> EditedModels:
     """Returns a session for each model; what the pages fetch goes to folders in `scratch`."""
-    builder = Builder()
+    builder = BuildProcess()
     sessions = []
     for number, workspace in enumerate(workspaces):
         folder = scratch / str(number)
         folder.mkdir(parents=True)
         sessions.append(Session(workspace, builder, folder))
-    return Desk(tuple(sessions), builder)
+    return EditedModels(tuple(sessions), builder)
 
 
-def application(desk: Desk, token: str, port: int) -> Guarded:
+def application(models: EditedModels, token: str, port: int) -> Guarded:
     """Returns the server as an ASGI application that answers under `/TOKEN/` alone."""
     model = "/m/{number:int}"
     routes = [
-        Route("/", _start(desk)),
+        Route("/", _start(models)),
         Route("/style.css", _style),
         *(Route(f"/{name}", _script(name)) for name in SCRIPTS),
-        Route("/thumbnail/{number:int}", _plainly(desk, _thumbnail)),
-        Route(f"{model}/", _plainly(desk, _page)),
-        Route(f"{model}/state", _plainly(desk, _state)),
-        Route(f"{model}/geometry", _plainly(desk, _file(GEOMETRY))),
-        Route(f"{model}/textures", _plainly(desk, _file(TEXTURES))),
-        Route(f"{model}/events", _plainly(desk, _events)),
-        *(Route(f"{model}/{name}", _plainly(desk, act), methods=["POST"]) for name, act in _ACTIONS.items()),
+        Route("/thumbnail/{number:int}", _plainly(models, _thumbnail)),
+        Route(f"{model}/", _plainly(models, _page)),
+        Route(f"{model}/state", _plainly(models, _state)),
+        Route(f"{model}/geometry", _plainly(models, _file(GEOMETRY))),
+        Route(f"{model}/textures", _plainly(models, _file(TEXTURES))),
+        Route(f"{model}/events", _plainly(models, _events)),
+        *(Route(f"{model}/{name}", _plainly(models, act), methods=["POST"]) for name, act in _ACTIONS.items()),
     ]
 
     @asynccontextmanager
     async def lifespan(_: Starlette) -> AsyncIterator[None]:
         yield
-        desk.builder.stop()
+        models.builder.stop()
 
     return Guarded(Starlette(routes=routes, lifespan=lifespan), token, port)
 
 
-Act = Callable[[Desk, Session, Request], Awaitable[Response]]
+Act = Callable[[EditedModels, Session, Request], Awaitable[Response]]
 
 
-def _plainly(desk: Desk, act: Act) -> Handler:
+def _plainly(models: EditedModels, act: Act) -> Handler:
     """Returns a handler that states in one line what the user got wrong."""
 
     async def handle(request: Request) -> Response:
         try:
-            return await act(desk, desk.session(request), request)
+            return await act(models, models.session(request), request)
         except FunctionalizationError as error:
             return JSONResponse({"error": " ".join(str(error).split())}, 400)
 
     return handle
 
 
-def _start(desk: Desk) -> Handler:
+def _start(models: EditedModels) -> Handler:
     async def start(_: Request) -> Response:
-        if len(desk.sessions) == 1:
+        if len(models.sessions) == 1:
             return RedirectResponse("m/0/")
-        rows = [_row(number, session) for number, session in enumerate(desk.sessions)]
+        rows = [_row(number, session) for number, session in enumerate(models.sessions)]
         return HTMLResponse(wall_page(rows))
 
     return start
@@ -126,7 +126,7 @@ def _script(name: str) -> Handler:
     return script
 
 
-async def _thumbnail(_: Desk, session: Session, __: Request) -> Response:
+async def _thumbnail(_: EditedModels, session: Session, __: Request) -> Response:
     def picture() -> bytes:
         try:
             return thumbnail_of_page(read_own(session.workspace.folder / MODEL_PAGE, "a page of grafu", _MOST_PAGE))
@@ -137,19 +137,19 @@ async def _thumbnail(_: Desk, session: Session, __: Request) -> Response:
     return Response(data, media_type=MIME) if data else Response(status_code=404)
 
 
-async def _page(desk: Desk, session: Session, request: Request) -> Response:
+async def _page(models: EditedModels, session: Session, request: Request) -> Response:
     session.build()
-    return HTMLResponse(model_page_of(session.workspace.name, request.path_params["number"], len(desk.sessions)))
+    return HTMLResponse(model_page_of(session.workspace.name, request.path_params["number"], len(models.sessions)))
 
 
-async def _state(_: Desk, session: Session, __: Request) -> Response:
+async def _state(_: EditedModels, session: Session, __: Request) -> Response:
     if session.built is None:
         raise OptionError("nothing is built yet")
     return JSONResponse(session.page_state())
 
 
 def _file(name: str) -> Act:
-    async def file(_: Desk, session: Session, __: Request) -> Response:
+    async def file(_: EditedModels, session: Session, __: Request) -> Response:
         if session.built is None:
             raise OptionError("nothing is built yet")
         return FileResponse(session.folder / name, media_type="application/octet-stream")
@@ -157,7 +157,7 @@ def _file(name: str) -> Act:
     return file
 
 
-async def _events(_: Desk, session: Session, __: Request) -> Response:
+async def _events(_: EditedModels, session: Session, __: Request) -> Response:
     async def lines() -> AsyncIterator[str]:
         events = session.events()
         waiting = asyncio.ensure_future(anext(events))
@@ -175,7 +175,7 @@ async def _events(_: Desk, session: Session, __: Request) -> Response:
     return StreamingResponse(lines(), media_type="text/event-stream")
 
 
-async def _choose(_: Desk, session: Session, request: Request) -> Response:
+async def _choose(_: EditedModels, session: Session, request: Request) -> Response:
     body = await _body(request)
     question, part = body.get("question"), body.get("part")
     if not isinstance(question, str) or not isinstance(part, str):
@@ -200,27 +200,27 @@ async def _body(request: Request) -> dict[str, Any]:
     return body
 
 
-async def _undo(_: Desk, session: Session, __: Request) -> Response:
+async def _undo(_: EditedModels, session: Session, __: Request) -> Response:
     session.undo()
     return JSONResponse(session.status())
 
 
-async def _redo(_: Desk, session: Session, __: Request) -> Response:
+async def _redo(_: EditedModels, session: Session, __: Request) -> Response:
     session.redo()
     return JSONResponse(session.status())
 
 
-async def _anew(_: Desk, session: Session, __: Request) -> Response:
+async def _anew(_: EditedModels, session: Session, __: Request) -> Response:
     session.start_anew()
     return JSONResponse(session.status())
 
 
-async def _stop(_: Desk, session: Session, __: Request) -> Response:
+async def _stop(_: EditedModels, session: Session, __: Request) -> Response:
     await run_in_threadpool(session.stop)
     return JSONResponse(session.status())
 
 
-async def _export(_: Desk, session: Session, __: Request) -> Response:
+async def _export(_: EditedModels, session: Session, __: Request) -> Response:
     return JSONResponse(await session.export())
 
 

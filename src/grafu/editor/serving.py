@@ -10,7 +10,7 @@ from typing import Final, final
 import uvicorn
 
 from grafu.editor.access import HOSTS
-from grafu.editor.server import application, desk_of
+from grafu.editor.server import application, models_of
 from grafu.editor.workspace import Workspace
 from grafu.errors import OptionError
 from grafu.processes.lifetime import scratch_folder
@@ -50,7 +50,7 @@ def serve(workspaces: Sequence[Workspace], say: Callable[[str], None], port: int
             if browser:
                 webbrowser.open(address)
 
-        app = application(desk_of(workspaces, Path(scratch)), token, at)
+        app = application(models_of(workspaces, Path(scratch)), token, at)
         config = uvicorn.Config(
             app,
             log_level="error",

@@ -38,7 +38,7 @@ WAITING = "wait"
 
 @final
 @dataclass(frozen=True)
-class Built:
+class LastBuild:
     """One build: its number, the settings that it was built with, and its state as the page gets it."""
 
     number: int
@@ -84,7 +84,7 @@ class Session:
     builder: Builds
     folder: Path
     history: History = field(init=False)
-    built: Built | None = None
+    built: LastBuild | None = None
     error: str = ""
     exported: dict[str, Any] | None = None
     _listeners: set["asyncio.Queue[Event]"] = field(default_factory=set)
@@ -159,7 +159,7 @@ class Session:
         try:
             answer = await self._ask("build", self.folder, settings)
             state = json.loads((self.folder / STATE).read_text(encoding="utf-8"))
-            self.built = Built(self.built.number + 1 if self.built else 1, settings, state, answer.seconds)
+            self.built = LastBuild(self.built.number + 1 if self.built else 1, settings, state, answer.seconds)
         except FunctionalizationError as error:
             self._take_back(settings, str(error))
         else:
@@ -183,7 +183,7 @@ class Session:
         except FunctionalizationError as error:
             self.error = str(error)
 
-    def _log(self, built: Built) -> None:
+    def _log(self, built: LastBuild) -> None:
         now = decided(built.settings)
         predicted = predictions_of(built.report, built.motions)
         self._predictions |= {key: one for key, one in predicted.items() if key not in now}
