@@ -16,7 +16,7 @@ from grafu.pipeline.settings import settings_from_bytes
 pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 AXE = ROOT / "node_modules" / "axe-core" / "axe.min.js"
-LATE = 600.0  # seconds: a first build on a busy machine
+LATE = 300.0  # seconds: a first build on a busy machine
 
 
 class Server:

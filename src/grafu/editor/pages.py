@@ -64,8 +64,8 @@ def wall_page(rows: Sequence[dict[str, Any]]) -> str:
     cards = tag("ul", *(_card(row) for row in rows), id="wall", class_="wall")
     head = tag("header", tag("h1", f"{len(rows)} models"), keys)
     found = tag("p", id="found", class_="note", role="status")
-    tools = tag("div", search, *lights, class_="toolbar", role="group", aria_label="Which models are shown")
-    return _page(f"{len(rows)} models", joined([head, tools, found, tag("main", cards)]), "wall.js")
+    tools = tag("section", search, *lights, found, class_="toolbar", aria_label="Which models are shown")
+    return _page(f"{len(rows)} models", joined([head, tools, tag("main", cards)]), "wall.js")
 
 
 def wall_row(number: int, name: str, report: Report | None, has_picture: bool) -> dict[str, Any]:
@@ -112,8 +112,8 @@ def _toolbar(count: int) -> Html:
     bar = tag("progress", id="bar", hidden=True, aria_label="Building")
     said = tag("p", id="progress", role="status", class_="note")
     fault = tag("p", id="fault", role="alert", class_="flag", hidden=True)
-    tools = tag("div", *wall, *buttons, bar, stop, class_="toolbar", role="toolbar", aria_label="Editing")
-    return tag("div", tools, said, fault)
+    tools = tag("div", *wall, *buttons, bar, stop, class_="toolbar", role="toolbar", aria_label="Actions")
+    return tag("section", tools, said, fault, id="editing", aria_label="Editing")
 
 
 def _stage() -> Html:
