@@ -117,6 +117,14 @@ def test_a_choice_that_cannot_be_built_is_taken_back(editing):
     assert not (session.workspace.folder / DECISIONS).exists()
 
 
+def test_only_the_files_of_the_last_build_are_given(editing):
+    state = editing.open()
+    assert len(editing.get(f"/m/0/geometry?{state['geometry']}").content) > 1000
+    assert editing.get(f"/m/0/textures?{state['textures']}").json() == []
+    for other in ("", "?", f"?{state['textures']}", f"?{state['geometry']}x"):
+        assert editing.get(f"/m/0/geometry{other}").status_code == 400
+
+
 def test_a_hostile_name_stays_text(editing):
     state = editing.open()
     assert ATTACK in {part["source"]["name"] for part in state["report"]["parts"]}

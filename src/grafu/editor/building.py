@@ -41,6 +41,7 @@ from grafu.viewer.live import live_page
 
 Say = Callable[[dict[str, Any]], None]
 STATE, GEOMETRY, TEXTURES = "state.json", "geometry.bin", "textures.json"
+FILES = {"geometry": GEOMETRY, "textures": TEXTURES}
 
 
 @final

@@ -11,14 +11,14 @@ from typing import Any, Final, final
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import FileResponse, HTMLResponse, JSONResponse, RedirectResponse, Response, StreamingResponse
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response, StreamingResponse
 from starlette.routing import Route
 
 from grafu.api.saving import MODEL_PAGE
 from grafu.asset.json_files import read_own
 from grafu.editor.access import Guarded
 from grafu.editor.builder import BuildProcess, Builds
-from grafu.editor.building import GEOMETRY, TEXTURES
+from grafu.editor.building import FILES
 from grafu.editor.pages import model_page_of, wall_page, wall_row
 from grafu.editor.scripts import SCRIPTS, style
 from grafu.editor.session import Session
@@ -70,8 +70,7 @@ def application(models: EditedModels, token: str, port: int) -> Guarded:
         Route("/thumbnail/{number:int}", _plainly(models, _thumbnail)),
         Route(f"{model}/", _plainly(models, _page)),
         Route(f"{model}/state", _plainly(models, _state)),
-        Route(f"{model}/geometry", _plainly(models, _file(GEOMETRY))),
-        Route(f"{model}/textures", _plainly(models, _file(TEXTURES))),
+        *(Route(f"{model}/{name}", _plainly(models, _file(name))) for name in FILES),
         Route(f"{model}/events", _plainly(models, _events)),
         *(Route(f"{model}/{name}", _plainly(models, act), methods=["POST"]) for name, act in _ACTIONS.items()),
     ]
@@ -149,10 +148,10 @@ async def _state(_: EditedModels, session: Session, __: Request) -> Response:
 
 
 def _file(name: str) -> Act:
-    async def file(_: EditedModels, session: Session, __: Request) -> Response:
-        if session.built is None:
-            raise OptionError("nothing is built yet")
-        return FileResponse(session.folder / name, media_type="application/octet-stream")
+    async def file(_: EditedModels, session: Session, request: Request) -> Response:
+        if session.built is None or request.url.query != session.built.state[name]:
+            raise OptionError(f"the {name} that were asked for are not those of the last build")
+        return Response(session.built.files[name], media_type="application/octet-stream")
 
     return file
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, final
 
 from grafu.editor.builder import Answer, Builds
-from grafu.editor.building import STATE, Order
+from grafu.editor.building import FILES, STATE, Order
 from grafu.editor.choices import Known, with_choice
 from grafu.editor.decisions import (
     DECISIONS,
@@ -39,11 +39,15 @@ WAITING = "wait"
 @final
 @dataclass(frozen=True)
 class LastBuild:
-    """One build: its number, the settings that it was built with, and its state as the page gets it."""
+    """One build: its number, the settings that it was built with, and its state as the page gets it.
+
+    `files` are what the page fetches besides, by the names that the state gives their digests.
+    """
 
     number: int
     settings: Settings
     state: dict[str, Any]
+    files: dict[str, bytes]
     seconds: float
 
     @cached_property
@@ -159,7 +163,9 @@ class Session:
         try:
             answer = await self._ask("build", self.folder, settings)
             state = json.loads((self.folder / STATE).read_text(encoding="utf-8"))
-            self.built = LastBuild(self.built.number + 1 if self.built else 1, settings, state, answer.seconds)
+            files = {name: (self.folder / file).read_bytes() for name, file in FILES.items()}
+            number = self.built.number + 1 if self.built else 1
+            self.built = LastBuild(number, settings, state, files, answer.seconds)
         except FunctionalizationError as error:
             self._take_back(settings, str(error))
         else:

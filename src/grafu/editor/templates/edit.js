@@ -1,5 +1,7 @@
 // The page of a model that is edited: brings the view, the choices, the toolbar and the server together.
 
+const AGAIN = 500; // milliseconds until it is asked again
+
 class Editor {
   constructor(stage) {
     this.stage = stage;
@@ -28,19 +30,24 @@ class Editor {
   }
 
   async hear(status) {
+    this.latest = status.build;
     this.toolbar.show(status);
     this.building = Boolean(status.stage);
-    if (status.build === this.shown || this.fetching) return;
-    this.fetching = true;
-    try {
-      await this.show(await this.server.built());
-    } finally {
-      this.fetching = false;
-    }
-    if (status.build > this.shown) this.hear(status);
+    if (!this.fetching) await this.catchUp();
   }
 
-  async show({ state, scene, images }) {
+  // Shows the last build; one that comes meanwhile is shown next.
+  async catchUp() {
+    this.fetching = true;
+    while (this.latest !== this.shown) {
+      const built = await this.server.built().catch(() => null);
+      if (built) this.show(built);
+      else await new Promise((done) => setTimeout(done, AGAIN)); // it was built anew meanwhile, or the server is gone
+    }
+    this.fetching = false;
+  }
+
+  show({ state, scene, images }) {
     this.state = state;
     this.shown = state.build;
     document.getElementById("model-header").innerHTML = state.markup.header;

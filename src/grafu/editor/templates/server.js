@@ -46,7 +46,11 @@ class Server {
   }
 
   async resource(name, digest, read) {
-    if (this.held[name][0] !== digest) this.held[name] = [digest, await read(await fetch(name))];
+    if (this.held[name][0] !== digest) {
+      const answer = await fetch(`${name}?${digest}`);
+      if (!answer.ok) throw new Error("built anew meanwhile");
+      this.held[name] = [digest, await read(answer)];
+    }
     return this.held[name][1];
   }
 }
