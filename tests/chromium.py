@@ -27,7 +27,7 @@ FLAGS = (
     "--hide-scrollbars",
     "--mute-audio",
 )
-PATIENCE = 600.0  # seconds for any one answer: WebGL in software on a busy machine is slow
+PATIENCE = 90.0  # seconds for any one answer: WebGL in software on a busy machine is slow
 
 
 def chromium_path() -> str | None:
