@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pictures_additions
+import pictures_edit
 import pictures_pages
 import pictures_prepare
 import pictures_sheets
@@ -26,7 +27,7 @@ from grafu.templates.gallery import builtin_gallery
 ROOT = Path(__file__).parent.parent
 COLOURS = 256  # a palette is a third of the bytes, and on plain wood the difference is invisible
 BEFORE_AFTER = "before_after"
-SHEETS = {**pictures_additions.SHEETS, **pictures_pages.SHEETS, **pictures_prepare.SHEETS}
+SHEETS = {**pictures_additions.SHEETS, **pictures_edit.SHEETS, **pictures_pages.SHEETS, **pictures_prepare.SHEETS}
 
 
 def main() -> int:

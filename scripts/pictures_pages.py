@@ -29,7 +29,7 @@ def page_sheet() -> Picture:
     Raises:
         RuntimeError: if there is no Chromium.
     """
-    sys.path.insert(0, str(ROOT / "tests" / "viewer"))
+    sys.path.insert(0, str(ROOT / "tests"))
     from chromium import Chromium, chromium_path
 
     path = chromium_path()

@@ -16,6 +16,7 @@ from grafu.metrics.collision import (
     collision_shares,
     connected_joints,
     connectivity,
+    first_collisions,
     largest_gaps,
     mean_collision,
 )
@@ -51,6 +52,15 @@ def test_a_block_pushed_into_the_back_collides_for_the_fraction_of_its_way():
     pushed = slider([0.3, 0.3, 0.3], [0.6, 0.48, 0.6], [0, 1, 0], 1.0)
     ratio = collision_shares(pushed, CollisionConfig(poses=101))["slide"]
     assert ratio == pytest.approx(21 / 101, abs=0.011)
+
+
+def test_the_first_collision_is_where_the_block_meets_the_back():
+    pushed = slider([0.3, 0.3, 0.3], [0.6, 0.48, 0.6], [0, 1, 0], 1.0)
+    first = first_collisions(pushed, ["slide"], CollisionConfig(poses=101))["slide"]
+    assert first.value == pytest.approx(0.5, abs=0.011)
+    assert first.others == ("back",)
+    assert first_collisions(pushed, []) == {}
+    assert first_collisions(slider([0.3, 0.1, 0.3], [0.6, 0.9, 0.6], [0, -1, 0], 0.5), ["slide"]) == {}
 
 
 def test_poses_are_evenly_spaced_and_both_ends_count():

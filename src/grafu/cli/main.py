@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn, final
 
-from grafu.cli import ablate, check, doctor, evaluate, functionalize, inspect, show, synth, templates, train
+from grafu.cli import ablate, check, doctor, edit, evaluate, functionalize, inspect, show, synth, templates, train
 from grafu.cli.input_options import join_directions
 from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, one_line, prepare_verb
@@ -26,6 +26,7 @@ examples:
   grafu show results
   grafu check results/cabinet
   grafu doctor
+  grafu edit results/cabinet
   grafu templates --out gallery
   grafu synth --count 10000 --out data
   grafu train --out runs/base
@@ -105,7 +106,7 @@ def build_parser() -> _Parser:
     )
     parser.add_argument("--version", action="version", version=f"grafu {__version__}")
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
-    for verb in (functionalize, inspect, show, check, templates, doctor, synth, train, ablate, evaluate):
+    for verb in (functionalize, inspect, show, check, edit, templates, doctor, synth, train, ablate, evaluate):
         subparser = verb.add_parser(verbs)
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter
         subparser.set_defaults(parser=subparser)

@@ -12,12 +12,13 @@ The paper counts a part as connected while its distance to the static parts neve
 belongs to the body that it is anchored to; a hinge that floats beside its door connects nothing (docs/metrics.md).
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import rest_to_full
 from grafu.geometry.arrays import Mat4
@@ -148,6 +149,25 @@ def mean_collision(articulated: ArticulatedObject, config: CollisionConfig = STR
 
 
 @final
+@dataclass(frozen=True, slots=True)
+class FirstCollision:
+    """The first pose of a joint in which its body collides: its value (radians or metres), and what it cuts into."""
+
+    value: float
+    others: tuple[str, ...]
+
+
+def first_collisions(
+    articulated: ArticulatedObject, joints: Iterable[str], config: CollisionConfig = TOLERANT
+) -> dict[str, FirstCollision]:
+    """Returns for each of these joints that collides the first pose in which it does; `others` are names of visuals."""
+    scene = _Scene(articulated, config)
+    wanted = set(joints)
+    found = {joint.id: scene.first(joint) for joint in articulated.moving_joints if joint.id in wanted}
+    return {joint: first for joint, first in found.items() if first is not None}
+
+
+@final
 class _Scene:
     """An object prepared for many queries: its static body, and the moving bodies that count as obstacles."""
 
@@ -167,6 +187,30 @@ class _Scene:
         frames = rest_to_full(self._articulated, joint.id, self._config.poses)
         hits = [self._collides(link_poses(self._articulated, frame), joint.child, body) for frame in frames]
         return float(np.mean(hits))
+
+    def first(self, joint: Joint) -> FirstCollision | None:
+        """Returns the first pose of one joint in which its body collides; None where it never does."""
+        mesh = self._mesh(joint.child)
+        if not len(mesh.faces):
+            return None
+        body = SweptBody(mesh, self._depth)
+        for frame in rest_to_full(self._articulated, joint.id, self._config.poses):
+            poses = link_poses(self._articulated, frame)
+            if self._collides(poses, joint.child, body):
+                return FirstCollision(frame[joint.id], self._met(poses, joint.child, body))
+        return None
+
+    def _met(self, poses: dict[str, Mat4], child: str, body: SweptBody) -> tuple[str, ...]:
+        """Returns the visuals of other bodies that a body, as posed, touches."""
+        own = {link.id for link in rigid_body(self._articulated, child)}
+        others = [(link.id, v) for link in self._articulated.links if link.id not in own for v in link.visuals]
+        met = []
+        for link, visual in others:
+            if len(visual.mesh.faces) and (self._config.hardware or visual.role is not VisualRole.HARDWARE):
+                collider = MeshCollider(visual.mesh)
+                collider.place(poses[link])
+                met += [visual.name] if body.touches(collider) else []
+        return tuple(met)
 
     def _mesh(self, link_id: str) -> TriangleMesh:
         links = rigid_body(self._articulated, link_id)

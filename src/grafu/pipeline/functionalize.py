@@ -190,7 +190,7 @@ def functionalize(
         TooComplex: if the budget does not even hold what cannot be left out.
     """
     stages, settings, joints = Stages(on_stage, budget), config.settings, config.joints
-    stated, drawers = len(asset.stated_joints), joints.drawer
+    stated, drawers, knobs = len(asset.stated_joints), joints.drawer, settings.small_parts
     folds = folds_in(settings.motions, asset, at_scale(joints.fold, metre_on(asset.extent)))
     motions = as_turning(settings.motions, folds)
     asset, chosen = _with_source(asset, source, replace(settings, motions=motions), drawers, stages)
@@ -203,7 +203,7 @@ def functionalize(
     plan = stages.timed("plan", partial(cache.value, f"plan by {chosen}", motion.plan, asset, completion, joints.plan))
     turning: frozenset[str] = frozenset()
     if not motion.reads_annotation:
-        plan, turning = shown_by_shape(plan, asset, completion.completed, joints, motions, settings.small_parts)
+        plan, turning = cache.value("shape", shown_by_shape, plan, asset, completion.completed, joints, motions, knobs)
     plan = with_stated_bins(plan, asset) if motion.reads_annotation else plan
     plan = with_mechanisms(plan, motions, folds, completion, asset, joints)
     plan = with_choices(plan, settings.joints, asset, gallery, joints.plan)

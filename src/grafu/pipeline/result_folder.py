@@ -58,6 +58,22 @@ def read_result(folder: Path) -> ResultFolder:
     return ResultFolder(made, report, _settings_of(folder, report), source, _why_fixed(report, source))
 
 
+def read_choices(folder: Path) -> tuple[Report, Settings, Path]:
+    """Returns the report, the settings and the input of a folder of results; the object itself is not read.
+
+    Raises:
+        UnreadableAsset: as `read_result`, and if a change cannot be built from them, with the reason.
+        OptionError: if its settings are wrong.
+    """
+    _require_result(folder)
+    report = read_report(folder)
+    source = _source_of(folder, report)
+    fixed = _why_fixed(report, source)
+    if source is None or fixed:
+        raise UnreadableAsset(f"{folder}: {fixed}")
+    return report, _settings_of(folder, report), source
+
+
 def read_report(folder: Path) -> Report:
     """Returns the report in a folder of results.
 

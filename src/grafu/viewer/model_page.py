@@ -10,8 +10,10 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.report_schema import FaultRecord, Report, VerdictRecord
+from grafu.pipeline.settings import Settings
 from grafu.pipeline.verdict import verdict_of
 from grafu.render.graph_picture import draw_graph, drawing_svg
+from grafu.viewer import collecting
 from grafu.viewer.pictures import Stills, stills_row
 from grafu.viewer.report_tables import (
     LEAD,
@@ -31,12 +33,15 @@ from grafu.viewer.wording import facts, size_words, standing_words, unused_joint
 _LEAD = "A click copies an option: give it to the same command, with --overwrite."
 
 
-def verdict_view(report: Report, verdict: VerdictRecord) -> Html:
-    """Returns the traffic light, the faults with the option that may correct each, and the facts below it."""
+def verdict_view(report: Report, verdict: VerdictRecord, lead: str = _LEAD) -> Html:
+    """Returns the traffic light, the faults with the option that may correct each, and the facts below it.
+
+    `lead` states what a click on an option does.
+    """
     light = tag("p", light_of(verdict.colour), " ", verdict.sentence, class_="verdict")
     rows = [_line(fault, {part.id for part in report.parts}) for fault in verdict.lines]
-    lead = [tag("p", _LEAD, class_="lead")] if any(fault.option for fault in verdict.lines) else []
-    faults = [tag("ul", joined(rows), class_="faults"), *lead] if rows else []
+    said = [tag("p", lead, class_="lead")] if any(fault.option for fault in verdict.lines) else []
+    faults = [tag("ul", joined(rows), class_="faults"), *said] if rows else []
     return joined([light, *faults, tag("p", facts(report))])
 
 
@@ -49,12 +54,13 @@ def _line(fault: FaultRecord, known: set[str]) -> Html:
     return tag("li", joined([tag("span", joined([*phrases, kind, ": ", fault.why]), class_="said"), copy]))
 
 
-_STYLES = ("page.css", "model.css")
-_SCRIPTS = (
+STYLES = ("page.css", "model.css")
+VIEW_SCRIPTS = (
     "matrices.js", "scene.js", "joints.js", "camera.js", "shaders.js", "renderer.js", "view.js", "gestures.js",
-    "overlay.js", "controls.js", "copy.js", "model.js",
+    "overlay.js", "controls.js", "model.js",
 )  # fmt: skip
-_SCRIPTS_OF_WORDS = ("copy.js",)
+_SCRIPTS = (*VIEW_SCRIPTS, "copy.js", "start.js")
+_SCRIPTS_OF_WORDS = ("scene.js", "copy.js")
 _NAMED = 28  # nodes whose names have room below them; of more the name shows under the pointer
 _HINT = (
     "Select a part to see its name and its axis. Drag to turn; two fingers or Shift to move; click, then wheel to zoom."
@@ -63,28 +69,39 @@ _ROLES = ((VisualRole.HARDWARE, "hardware", "Hardware"), (VisualRole.ADDED, "add
 
 
 def model_page(
-    asset: Asset, articulated: ArticulatedObject, completion: GraphCompletion, report: Report, stills: Stills | None
+    asset: Asset,
+    articulated: ArticulatedObject,
+    completion: GraphCompletion,
+    report: Report,
+    stills: Stills | None,
+    settings: Settings | None = None,
 ) -> str:
     """Returns the page of a model: the input, the result, and its report as text, tables and pictures.
 
-    Without stills it is text and tables, and the graph: no 3D view, no pictures.
+    Without stills it is text and tables, and the graph: no 3D view, no pictures. With the settings that the result was
+    made with, options that are chosen on it are collected as new settings; without, an option can be copied.
     """
+    collects = settings is not None and bool(report.moves)
     shown: list[Html] = []
     data: list[Html] = []
     if stills is not None:
         scene = scene_data(articulated, report)
         shown = [_stage(articulated), section("Before and after", stills_row(stills, report.input.name))]
         data = [json_block("scene", scene.tables), tag("script", Html(scene.packed), type="text/plain", id="geometry")]
+    verdict = verdict_view(report, verdict_of(report), collecting.LINES if collects else _LEAD)
     body = joined([
-        tag("header", tag("h1", report.input.name), verdict_view(report, verdict_of(report)), _facts(asset, report)),
-        tag("main", *shown, *_report_sections(report, completion)),
+        tag("header", tag("h1", report.input.name), verdict, header_facts(asset, report)),
+        tag("main", *shown, *report_sections(report, completion, collecting.LEAD if collects else LEAD)),
+        *([collecting.collected(report, settings)] if settings is not None and collects else []),
         tag("footer", f"grafu {report.version}"),
         *data,
     ])  # fmt: skip
-    return whole_page(report.input.name, body, _STYLES, _SCRIPTS if shown else _SCRIPTS_OF_WORDS)
+    scripts = (*(_SCRIPTS if shown else _SCRIPTS_OF_WORDS), *(("collect.js",) if collects else ()))
+    return whole_page(report.input.name, body, STYLES, scripts)
 
 
-def _facts(asset: Asset, report: Report) -> Html:
+def header_facts(asset: Asset, report: Report) -> Html:
+    """Returns what was read, in a line."""
     phrases = (
         f"{report.input.parts} parts",
         size_words(asset.box.size.tolist()),
@@ -97,6 +114,11 @@ def _facts(asset: Asset, report: Report) -> Html:
 
 def _stage(articulated: ArticulatedObject) -> Html:
     """Returns the 3D view and what stands beside it; everything is disabled until the script has it."""
+    return tag("section", tag("div", *view_box()), joint_panel(articulated), id="stage", aria_label="3D view")
+
+
+def view_box() -> tuple[Html, ...]:
+    """Returns the 3D view, and the lines below it that state what is chosen or why nothing is shown."""
     canvas = tag("canvas", tabindex=0, role="img", aria_label="3D view: arrow keys turn, + and − zoom, Home resets")
     lines_over = tag("svg", class_="overlay", aria_hidden="true", hidden=True)
     label = tag("div", class_="label", hidden=True)
@@ -104,10 +126,11 @@ def _stage(articulated: ArticulatedObject) -> Html:
     noscript = tag("noscript", tag("p", "The 3D view needs JavaScript; the pictures below do not.", class_="note"))
     note = tag("p", id="view-note", class_="note", role="status")
     hint = tag("p", _HINT, id="chosen", data_empty=_HINT, aria_live="polite")
-    return tag("section", tag("div", view, hint, note, noscript), _panel(articulated), id="stage", aria_label="3D view")
+    return view, hint, note, noscript
 
 
-def _panel(articulated: ArticulatedObject) -> Html:
+def joint_panel(articulated: ArticulatedObject) -> Html:
+    """Returns the buttons, the sliders and the switches beside the 3D view."""
     joints = articulated.moving_joints
     actions = (("open", "Open all"), ("close", "Close all"), ("play", "Play"))
     buttons = [tag("button", word, type="button", data_action=action, disabled=True) for action, word in actions]
@@ -135,10 +158,16 @@ def _switch(key: str, word: str, on: bool) -> Html:
     return tag("label", box, " ", word)
 
 
-def _report_sections(report: Report, completion: GraphCompletion) -> list[Html]:
-    options = {joint.part: report.moves[joint.part] for joint in report.joints if joint.part in report.moves}
+def report_sections(report: Report, completion: GraphCompletion, lead: str) -> list[Html]:
+    """Returns the report as sections.
+
+    Each joint has the options that set it right beside it, and `lead` states above them what a click does; without
+    one there are no options.
+    """
+    moves = report.moves if lead else {}
+    options = {joint.part: moves[joint.part] for joint in report.joints if joint.part in moves}
     return [
-        section("Joints", joints_table(report, completion, options), lead=LEAD if options else "", name="joints"),
+        section("Joints", joints_table(report, completion, options), lead=lead if options else "", name="joints"),
         section("What was missing", deficiencies_table(report)),
         section("What was added", added_table(report)),
         section("What was not built", not_built_table(report)),

@@ -24,6 +24,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.pipeline.report_schema import Report
+from grafu.processes.cache import NO_CACHE, Cache
 from grafu.render.picture import CATEGORY_COLORS, box_of, opened_values, posed_visuals
 from grafu.viewer.pictures import texture_uris
 
@@ -152,17 +153,20 @@ class SceneData:
         return b64encode(zlib.compress(self.buffer, _COMPRESSION)).decode()
 
 
-def scene_data(articulated: ArticulatedObject, report: Report) -> SceneData:
-    """Returns an object with what its report states about its joints and parts, as data for the page."""
-    return _Packer(articulated, report).data()
+def scene_data(articulated: ArticulatedObject, report: Report, cache: Cache = NO_CACHE) -> SceneData:
+    """Returns an object with what its report states about its joints and parts, as data for the page.
+
+    Surfaces that the `cache` holds are not packed again.
+    """
+    return _Packer(articulated, report, cache).data()
 
 
 @final
 class _Packer:
     """Fills the tables of one scene; equal meshes, materials and images are stored once."""
 
-    def __init__(self, articulated: ArticulatedObject, report: Report) -> None:
-        self._object, self._report = articulated, report
+    def __init__(self, articulated: ArticulatedObject, report: Report, cache: Cache) -> None:
+        self._object, self._report, self._cache = articulated, report, cache
         self._sources = {part.id: part.source.name for part in report.parts if part.source.name != part.id}
         self._meshes: dict[PackedMesh, int] = {}
         self._materials: dict[tuple[Material, bool], int] = {}
@@ -252,7 +256,7 @@ class _Packer:
 
     def _piece(self, surface: Surface) -> Table:
         textured = surface.material.base_color_texture is not None and surface.uv is not None
-        packed = pack_surface(surface, textured)
+        packed = self._cache.value("surface", pack_surface, surface, textured)
         material = self._materials.setdefault((surface.material, textured), len(self._materials))
         if textured and surface.material.base_color_texture is not None:
             self._textures.setdefault(surface.material.base_color_texture, len(self._textures))

@@ -79,7 +79,7 @@ HEAD_BYTES = 4096
 
 def whole_page(title: str, body: Html, styles: tuple[str, ...], scripts: tuple[str, ...]) -> str:
     """Returns a page; `styles` and `scripts` are names of files beside the templates, used in this order."""
-    style, script = _read(styles), '(() => {\n"use strict";\n' + _read(scripts) + "})();\n"
+    style, script = template_text(styles), in_one_scope(template_text(scripts))
     policy = (
         f"default-src 'none'; img-src data:; style-src '{_hash(style)}'; script-src '{_hash(script)}'; "
         "base-uri 'none'; form-action 'none'"
@@ -110,8 +110,14 @@ def section(title: str, *content: str, lead: str = "", name: str = "") -> Html:
     return tag("section", tag("h2", title), lead_text, joined(content), id=name or None)
 
 
+def in_one_scope(scripts: str) -> str:
+    """Returns scripts as one that leaves no names behind."""
+    return '(() => {\n"use strict";\n' + scripts + "})();\n"
+
+
 @cache
-def _read(names: tuple[str, ...]) -> str:
+def template_text(names: tuple[str, ...]) -> str:
+    """Returns the files of these names beside the templates, one after another."""
     folder = files("grafu.viewer") / "templates"
     return "".join((folder / name).read_text(encoding="utf-8") for name in names)
 

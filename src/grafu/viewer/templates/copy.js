@@ -2,12 +2,12 @@
 
 const SAID = 1500; // milliseconds for which a button states that it copied
 
-document.querySelectorAll("[data-copy]").forEach((button) =>
-  button.addEventListener("click", async () => {
-    if (!(await copied(button))) return;
-    button.toggleAttribute("data-copied", true);
-    setTimeout(() => button.toggleAttribute("data-copied", false), SAID);
-  }));
+document.addEventListener("click", async ({ target }) => {
+  const button = target.closest("[data-copy]");
+  if (!button || !(await copied(button))) return;
+  button.toggleAttribute("data-copied", true);
+  setTimeout(() => button.toggleAttribute("data-copied", false), SAID);
+});
 
 async function copied(button) {
   try {

@@ -4,8 +4,8 @@ const STEP = 0.12; // radians a key press
 const SLACK = 5; // pixels that a click may move
 
 class Gestures {
-  constructor(canvas, camera, { changed, pointed, clicked }) {
-    Object.assign(this, { canvas, camera, changed, pointed, clicked });
+  constructor(canvas, camera, { changed, pointed, clicked, grabbed }) {
+    Object.assign(this, { canvas, camera, changed, pointed, clicked, grabbed });
     this.pointers = new Map();
     this.moved = 0;
     canvas.addEventListener("pointerdown", (event) => this.down(event));
@@ -32,7 +32,9 @@ class Gestures {
   down(event) {
     this.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    if (this.pointers.size === 1) this.moved = 0;
+    if (this.pointers.size !== 1) return;
+    this.moved = 0;
+    this.drag = event.button === 0 && !event.shiftKey ? this.grabbed(this.place(event)) : null;
   }
 
   move(event) {
@@ -50,6 +52,8 @@ class Gestures {
       if (before > 0 && this.spread() > 0) this.camera.zoom(before / this.spread());
     } else if (event.buttons & 6 || event.shiftKey) {
       this.camera.pan(dx / height, dy / height);
+    } else if (this.drag) {
+      if (this.moved >= SLACK) this.drag(this.place(event));
     } else {
       this.camera.orbit((dx / height) * 4, (dy / height) * 4);
     }
@@ -60,6 +64,7 @@ class Gestures {
     const alone = this.pointers.size === 1;
     this.pointers.delete(event.pointerId);
     if (alone && this.moved < SLACK) this.clicked(this.place(event));
+    if (alone) this.drag = null;
   }
 
   // Returns how far two fingers are apart.

@@ -97,6 +97,17 @@ class Joints {
     this.run = { stages, open, seconds, again, at: 0, time: 0, from: null };
   }
 
+  // Moves one joint to open (true) or closed; a coupled one moves with its leader.
+  moveOne(index, open, seconds) {
+    this.run = { stages: [[this.leader(index)]], open, seconds, again: () => this.stop(), at: 0, time: 0, from: null };
+  }
+
+  // Returns the joint that a coupled one follows in the end, or itself.
+  leader(index) {
+    const { coupling } = this.joints[index];
+    return coupling ? this.leader(coupling[0]) : index;
+  }
+
   stop() {
     this.run = null;
   }

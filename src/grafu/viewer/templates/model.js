@@ -1,18 +1,5 @@
 // The page of one model: brings data, picture, gestures and controls together.
 
-async function startModel() {
-  const stage = document.getElementById("stage");
-  if (!stage) return;
-  try {
-    const scene = await loadScene();
-    const images = await Promise.all(scene.textures.map(loadImage));
-    window.grafu = new ModelView(stage, scene, images);
-    stage.classList.add("ready");
-  } catch (error) {
-    goWithout(stage, error.message || error);
-  }
-}
-
 function goWithout(stage, why) {
   stage.className = "without";
   document.getElementById("view-note").textContent =
@@ -20,34 +7,49 @@ function goWithout(stage, why) {
 }
 
 class ModelView {
-  constructor(stage, scene, images) {
-    this.scene = scene;
+  constructor(stage) {
     this.canvas = stage.querySelector("canvas");
     this.label = stage.querySelector(".label");
     this.said = document.getElementById("chosen");
-    this.camera = new OrbitCamera(scene.reach);
+    this.renderer = new Renderer(this.canvas);
+    this.overlay = new Overlay(stage.querySelector("svg.overlay"));
+    this.frames = 0;
+    document.addEventListener("click", ({ target }) => {
+      const button = target.closest("[data-part]");
+      if (button && this.scene) this.chooseItem(this.itemNamed(button.dataset.part), true);
+    });
+    this.canvas.addEventListener("webglcontextlost", () => goWithout(stage, "the graphics card went away"));
+  }
+
+  // Takes a scene in the place of the one before; the camera stays where it was.
+  show(scene, images) {
+    const isFirst = !this.scene;
+    this.scene = scene;
+    this.overlay.scene = scene;
+    this.renderer.show(scene, images);
+    this.controls?.playing(false);
     this.joints = new Joints(scene);
-    this.view = new View(scene);
-    this.renderer = new Renderer(this.canvas, scene, images);
-    this.overlay = new Overlay(stage.querySelector("svg.overlay"), scene);
-    const changed = () => this.redraw();
+    this.view = Object.assign(new View(scene), { shadow: this.view?.shadow ?? 0.5 });
+    this.pointer = null;
+    if (isFirst) this.begin();
     this.controls = new Controls(document, this.joints, this.view, {
-      changed,
+      changed: () => this.redraw(),
       focused: (joint) => this.focus(joint),
     });
-    this.gestures = new Gestures(this.canvas, this.camera, {
-      changed,
-      pointed: (place) => this.point(place),
-      clicked: (place) => this.choose(place),
-    });
-    this.frames = 0;
-    new ResizeObserver(() => this.resize()).observe(this.canvas);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.theme());
-    document.querySelectorAll("[data-part]").forEach((button) =>
-      button.addEventListener("click", () => this.chooseItem(this.itemNamed(button.dataset.part), true)));
-    this.canvas.addEventListener("webglcontextlost", () => goWithout(stage, "the graphics card went away"));
     this.theme();
     this.resize();
+  }
+
+  begin() {
+    this.camera = new OrbitCamera(this.scene.reach);
+    this.gestures = new Gestures(this.canvas, this.camera, {
+      changed: () => this.redraw(),
+      pointed: (place) => this.point(place),
+      clicked: (place) => this.choose(place),
+      grabbed: (place) => this.grab(place),
+    });
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.theme());
   }
 
   theme() {
@@ -109,6 +111,11 @@ class ModelView {
     this.chooseItem(found === this.view.chosen ? -1 : found);
   }
 
+  // Returns what moves with the pointer from a place on, or nothing: then the camera turns.
+  grab() {
+    return null;
+  }
+
   // Marks an item and states what it is and which joint moves it; its axes are drawn.
   chooseItem(index, seen = false) {
     this.view.chosen = index;
@@ -141,5 +148,3 @@ class ModelView {
     return this.joints.poses()[this.scene.links.findIndex((link) => link.id === linkId)];
   }
 }
-
-startModel();

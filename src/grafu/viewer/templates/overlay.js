@@ -1,9 +1,8 @@
 // Lines over the 3D view: of one joint the axis as it was stated (dashed) and as it was built, with an arrow.
 
 class Overlay {
-  constructor(svg, scene) {
+  constructor(svg) {
     this.svg = svg;
-    this.scene = scene;
     this.lines = ["stated", "built", "head"].map((name) => {
       const shape = document.createElementNS("http://www.w3.org/2000/svg", name === "head" ? "polygon" : "line");
       shape.setAttribute("class", `axis ${name}`);

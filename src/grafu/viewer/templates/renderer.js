@@ -4,21 +4,32 @@ const SHADOW_SIDE = 2048;
 const ATTRIBUTES = ["position", "normal", "uv", "color"];
 
 class Renderer {
-  constructor(canvas, scene, images) {
+  constructor(canvas) {
     this.gl = canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
     if (!this.gl) throw new Error("no WebGL 2");
     this.canvas = canvas;
-    this.scene = scene;
     this.paint = this.program(VERTEX, FRAGMENT);
     this.depth = this.program(VERTEX, DEPTH_FRAGMENT);
     this.floor = this.program(FLOOR_VERTEX, FLOOR_FRAGMENT);
-    this.meshes = scene.meshes.map((mesh) => this.upload(mesh));
-    this.images = images.map((image) => image && this.texture(image));
     this.blank = this.texture(null);
     this.lampMap = this.shadowMap();
     this.picked = this.pickTarget();
+    this.meshes = [];
+    this.images = [];
+  }
+
+  // Takes a scene and its images in the place of those before.
+  show(scene, images) {
+    const gl = this.gl;
+    this.meshes.forEach(({ array, buffers }) => {
+      gl.deleteVertexArray(array);
+      buffers.forEach((buffer) => gl.deleteBuffer(buffer));
+    });
+    this.images.forEach((image) => image && gl.deleteTexture(image));
+    this.scene = scene;
+    this.meshes = scene.meshes.map((mesh) => this.upload(mesh));
+    this.images = images.map((image) => image && this.texture(image));
     this.pieces = scene.items.flatMap((item, index) => item.pieces.map((piece) => ({ ...piece, item: index })));
-    this.closedBox = scene.closed;
   }
 
   program(vertex, fragment) {
@@ -41,9 +52,11 @@ class Renderer {
   }
 
   upload(mesh) {
-    const gl = this.gl, array = gl.createVertexArray();
+    const gl = this.gl, array = gl.createVertexArray(), buffers = [];
     const store = (target, data) => {
-      gl.bindBuffer(target, gl.createBuffer());
+      const buffer = gl.createBuffer();
+      buffers.push(buffer);
+      gl.bindBuffer(target, buffer);
       gl.bufferData(target, data, gl.STATIC_DRAW);
     };
     gl.bindVertexArray(array);
@@ -61,7 +74,7 @@ class Renderer {
     store(gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
     gl.bindVertexArray(null);
     const wide = mesh.indices instanceof Uint32Array;
-    return { array, count: mesh.indices.length, kind: wide ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT };
+    return { array, buffers, count: mesh.indices.length, kind: wide ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT };
   }
 
   texture(image) {

@@ -9,10 +9,10 @@ async function inflated(id) {
   return new Response(stream).arrayBuffer();
 }
 
+const loadScene = async () => cutScene(readJson("scene"), await inflated("geometry"));
+
 // Returns the scene with its buffer cut into typed arrays, ready for upload.
-async function loadScene() {
-  const scene = readJson("scene");
-  const buffer = await inflated("geometry");
+function cutScene(scene, buffer) {
   scene.meshes = scene.meshes.map((mesh) => ({
     vertices: new Uint8Array(buffer, ...mesh.vertices),
     indices: mesh.bits === 32

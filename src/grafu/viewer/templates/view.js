@@ -12,6 +12,7 @@ class View {
     this.hovered = -1;
     this.chosen = -1;
     this.joint = null;
+    this.clashing = new Set(); // items that are shown in red
     this.shadow = 0.5;
     this.accent = [0.05, 0.3, 0.75];
   }
@@ -34,6 +35,7 @@ class View {
 
   // Returns a colour to mix in, and how much of it.
   mark(piece) {
+    if (this.clashing.has(piece.item)) return [0.8, 0.01, 0.01, 0.65];
     const lit = piece.item === this.chosen ? 0.5 : piece.item === this.hovered ? 0.32 : 0;
     return [...this.accent, lit];
   }

@@ -105,8 +105,37 @@ class Chromium:
         answer = self.ask("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
         return base64.b64decode(answer["data"])
 
-    def complaints(self) -> list[str]:
-        """Returns errors and warnings of the console, exceptions, and requests for anything but the file itself."""
+    def go(self, address: str, size: tuple[int, int] = (1280, 900)) -> None:
+        """Opens an address and waits until it is loaded; what was logged before is forgotten."""
+        self.ask("Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1, mobile=False)
+        self.ask("Page.navigate", url="about:blank")
+        self.events.clear()
+        self.ask("Page.navigate", url=address)
+        self.wait_for("document.readyState === 'complete' && location.protocol !== 'about:'")
+
+    def press(self, key: str, code: str = "", control: bool = False) -> None:
+        """Presses and lets go of a key."""
+        stated = {"key": key, "code": code or key, "modifiers": 2 if control else 0}
+        text = {} if control or len(key) > 1 else {"text": key}
+        self.ask("Input.dispatchKeyEvent", type="keyDown", **stated, **text)
+        self.ask("Input.dispatchKeyEvent", type="keyUp", **stated)
+
+    def drag(self, *places: tuple[float, float]) -> None:
+        """Presses the mouse at the first place, moves over the others and lets go; one place is a click."""
+        for kind, at in (
+            ("mousePressed", places[:1]),
+            ("mouseMoved", places[1:]),
+            ("mouseReleased", places[-1:]),
+        ):
+            for x, y in at:
+                held = {"button": "left", "buttons": 0 if kind == "mouseReleased" else 1, "clickCount": 1}
+                self.ask("Input.dispatchMouseEvent", type=kind, x=x, y=y, **held)
+
+    def complaints(self, *own: str) -> list[str]:
+        """Returns errors and warnings of the console, exceptions, and requests for anything but the file itself.
+
+        What begins with one of `own` may be asked for, too.
+        """
         self.run("1")
         found = []
         for event in self.events:
@@ -119,7 +148,7 @@ class Chromium:
                 found.append(params["entry"]["text"])
             elif method == "Network.requestWillBeSent":
                 url = params["request"]["url"]
-                if not url.startswith(("file:", "data:", "blob:", "about:")):
+                if not url.startswith(("file:", "data:", "blob:", "about:", *own)):
                     found.append(f"a request to {url}")
         return found
 

@@ -1,0 +1,259 @@
+"""The process that builds for the editor: `python -m grafu.editor.building`. It stays warm from one choice to the next.
+
+Every line on stdin is a JSON object, see `Order`. It answers on stdout with lines of JSON, `{"stage": NAME}` as a
+stage begins, then `{"done": ...}` or `{"error": WHY}`, where `done` is what the order made. What a choice does not
+touch comes from the cache. When its input ends it ends at once, whatever it is doing.
+"""
+
+import json
+import os
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
+from hashlib import blake2b
+from pathlib import Path
+from queue import Queue
+from threading import Thread
+from time import perf_counter
+from typing import Any, Literal, TextIO, final
+
+import numpy as np
+
+from grafu.additions.interior.turned import compartments_of
+from grafu.api.saving import files_of
+from grafu.articulation.motion_kind import motion_kind
+from grafu.asset.load import load_asset
+from grafu.asset.part import Asset
+from grafu.errors import ExportError, FunctionalizationError, OptionError
+from grafu.export.files import write_files
+from grafu.export.formats import FORMATS, exporter_for
+from grafu.geometry.transform import transform_points
+from grafu.joints.motion_choice import TURNING_SIDES, axis_of_motion, choice_in_words
+from grafu.metrics.collision import TOLERANT, CollisionConfig, first_collisions
+from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.motion_choices import motions_of
+from grafu.pipeline.report import report_of
+from grafu.pipeline.settings import Settings, settings_from_json
+from grafu.processes.cache import CACHED_VALUES, Cache
+from grafu.templates.gallery import builtin_gallery
+from grafu.viewer.live import live_page
+
+Say = Callable[[dict[str, Any]], None]
+STATE, GEOMETRY, TEXTURES = "state.json", "geometry.bin", "textures.json"
+FILES = {"geometry": GEOMETRY, "textures": TEXTURES}
+
+
+@final
+@dataclass(frozen=True)
+class Order:
+    """What is asked for: `build` writes what the page shows into `folder`, `export` the results into it.
+
+    `source` is the input, `name` that of the results, `settings` are as in `settings.json`.
+    """
+
+    do: Literal["build", "export"]
+    source: Path
+    name: str
+    folder: Path
+    settings: dict[str, Any]
+
+    def line(self) -> str:
+        """Returns the order as a line of JSON."""
+        return json.dumps({**asdict(self), "source": str(self.source), "folder": str(self.folder)})
+
+
+def order_of(line: str) -> Order:
+    """Returns the order that a line of JSON states."""
+    stated = json.loads(line)
+    return Order(**{**stated, "source": Path(stated["source"]), "folder": Path(stated["folder"])})
+
+
+@final
+@dataclass
+class Bench:
+    """What stays from one order to the next: assets as they were read, and the cache; not a value."""
+
+    say: Say
+    cache: Cache = field(default_factory=lambda: Cache(CACHED_VALUES))
+    _read: tuple[object, Asset] | None = None
+
+    def carry_out(self, order: Order) -> dict[str, Any]:
+        """Does what is asked for and returns what it made, as JSON values.
+
+        Raises:
+            FunctionalizationError: if the input, a setting or the folder is at fault.
+        """
+        settings = settings_from_json(order.settings)
+        made = self.made(order.source, settings)
+        if order.do == "export":
+            return self._export(order, made, settings)
+        self._tell("write")
+        return write_page(Shown(made, order.name, self.cache), order.folder)
+
+    def made(self, source: Path, settings: Settings) -> Functionalized:
+        """Returns what the settings make of an input, which is read once."""
+        asset = self._asset(source, settings)
+        config = PipelineConfig(settings)
+        return functionalize(asset, settings.motion, builtin_gallery(), config, self._tell, self.cache)
+
+    def _asset(self, source: Path, settings: Settings) -> Asset:
+        key = (source, settings.reading)
+        if self._read is None or self._read[0] != key:
+            self._tell("load")
+            self._read = (key, load_asset(source, settings.reading))
+        return self._read[1]
+
+    def _export(self, order: Order, made: Functionalized, settings: Settings) -> dict[str, Any]:
+        self._tell("export")
+        formats, left_out = formats_here()
+        saved = files_of(made, order.name, formats, settings)
+        self._tell("write")
+        write_files(saved.files, order.folder, overwrite=True)
+        return {"folder": str(order.folder), "formats": list(formats), "left out": left_out}
+
+    def _tell(self, stage: str) -> None:
+        self.say({"stage": stage})
+
+
+def formats_here() -> tuple[tuple[str, ...], dict[str, str]]:
+    """Returns the formats that can be written here, and why each of the others cannot."""
+    left_out: dict[str, str] = {}
+    for name in FORMATS:
+        try:
+            exporter_for(name)
+        except ExportError as error:
+            left_out[name] = str(error)
+    return tuple(name for name in FORMATS if name not in left_out), left_out
+
+
+@final
+@dataclass(frozen=True)
+class Shown:
+    """One build, as the page shows it."""
+
+    made: Functionalized
+    name: str
+    cache: Cache
+
+    @cached_property
+    def compartments(self) -> list[dict[str, Any]]:
+        """By number the corners of the compartments (metres, object frame), and the moving bodies before each."""
+        found, T = compartments_of(self.made.before_panels)
+        corners = (np.round(transform_points(T, one.box.corners()), 6).tolist() for one in found)
+        return [{"corners": eight, "behind": list(one.behind)} for eight, one in zip(corners, found, strict=True)]
+
+    @property
+    def motions(self) -> dict[str, dict[str, Any]]:
+        """How the parts move, as far as a choice can state it."""
+        motions = motions_of(self.made.object)
+        return {
+            part: {"moves": str(choice.moves), "side": choice.side and str(choice.side), "inwards": choice.inwards}
+            for part, choice in motions.items()
+        }
+
+    @property
+    def collisions(self) -> dict[str, dict[str, Any]]:
+        """By part, of joints that collide: at which value first (radians or metres), and which visuals it cuts into."""
+        counted = CollisionConfig(tolerance=TOLERANT.tolerance, moving_bodies=True)
+        clashing = {done.joint: done.moving for done in self.made.report.installed if done.collision_share > 0}
+        found = first_collisions(self.made.object, clashing, counted)
+        return {clashing[joint]: {"value": one.value, "others": list(one.others)} for joint, one in found.items()}
+
+    @property
+    def sides(self) -> dict[str, list[str]]:
+        """By part the borders that it can turn about."""
+        return self.cache.value("sides", sides_of, self.made.asset)
+
+
+def sides_of(asset: Asset) -> dict[str, list[str]]:
+    """Returns by part the borders that it can turn about, as words."""
+    return {part.id: [side for side in TURNING_SIDES if _can_turn(part.id, side, asset)] for part in asset.parts}
+
+
+def _can_turn(part: str, side: str, asset: Asset) -> bool:
+    try:
+        axis_of_motion(asset.part(part), choice_in_words(side), asset.box)
+    except OptionError:
+        return False
+    return True
+
+
+def write_page(shown: Shown, folder: Path) -> dict[str, Any]:
+    """Writes what the page shows into a folder; returns the digests of what it need not fetch again if it has it."""
+    made = shown.made
+    report = report_of(made, shown.name)
+    page = live_page(made.asset, made.object, made.completion, report, shown.cache)
+    textures = json.dumps(page.textures).encode()
+    digests = {"geometry": _digest(page.buffer), "textures": _digest(textures)}
+    state = {
+        "markup": page.markup,
+        "scene": page.scene,
+        "report": report.to_json(),
+        "motions": shown.motions,
+        "sides": shown.sides,
+        "compartments": shown.compartments,
+        "collisions": shown.collisions,
+        "sliding": [joint.part for joint in report.joints if motion_kind(joint.type).slides],
+        **digests,
+    }
+    (folder / GEOMETRY).write_bytes(page.buffer)
+    (folder / TEXTURES).write_bytes(textures)
+    (folder / STATE).write_text(json.dumps(state, ensure_ascii=True, allow_nan=False), encoding="utf-8")
+    return digests
+
+
+def _digest(data: bytes) -> str:
+    return blake2b(data, digest_size=16).hexdigest()
+
+
+def serve(lines: Iterable[str], say: Say) -> None:
+    """Carries out one order after another; what is at fault is an answer, too."""
+    bench = Bench(say)
+    for line in lines:
+        started = perf_counter()
+        try:
+            done = bench.carry_out(order_of(line))
+            say({"done": done, "seconds": round(perf_counter() - started, 3)})
+        except FunctionalizationError as error:
+            say({"error": " ".join(str(error).split())})
+
+
+def _lines() -> Iterator[str]:
+    """Yields lines as they come; a thread reads them, so that their end ends the process even amid work."""
+    lines: Queue[str] = Queue()
+
+    def read() -> None:
+        for line in sys.stdin:
+            lines.put(line)
+        os._exit(0)
+
+    Thread(target=read, daemon=True).start()
+    while True:
+        yield lines.get()
+
+
+def _own_output() -> TextIO:
+    """Returns what answers go to; whatever libraries print goes to stderr from then on."""
+    own = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    return own
+
+
+def main() -> None:
+    """Serves until its input ends; a fault of ours is one line, and ends it."""
+    output = _own_output()
+
+    def say(values: dict[str, Any]) -> None:
+        output.write(json.dumps(values, ensure_ascii=True) + "\n")
+        output.flush()
+
+    try:
+        serve(_lines(), say)
+    except Exception as error:
+        say({"error": f"internal fault: {type(error).__name__}: {' '.join(str(error).split())}"})
+        os._exit(1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,264 @@
+"""One model while it is edited: what is chosen, what was built of it, and what the page hears of both.
+
+All of it runs on the server's event loop; only what the builder does runs in a thread.
+"""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, final
+
+from grafu.editor.builder import Answer, Builds
+from grafu.editor.building import FILES, STATE, Order
+from grafu.editor.choices import Known, with_choice
+from grafu.editor.decisions import (
+    DECISIONS,
+    Key,
+    Prediction,
+    append_lines,
+    decided,
+    decided_before,
+    decision_lines,
+    predictions_of,
+)
+from grafu.editor.history import History
+from grafu.editor.workspace import Workspace
+from grafu.errors import FunctionalizationError
+from grafu.joints.motion_choice import MotionChoice, Moves, Side
+from grafu.pipeline.report_schema import Report
+from grafu.pipeline.settings import Settings
+
+Event = dict[str, Any]
+WAITING = "wait"
+"""The stage before the builder begins."""
+
+
+@final
+@dataclass(frozen=True)
+class LastBuild:
+    """One build: its number, the settings that it was built with, and its state as the page gets it.
+
+    `files` are what the page fetches besides, by the names that the state gives their digests.
+    """
+
+    number: int
+    settings: Settings
+    state: dict[str, Any]
+    files: dict[str, bytes]
+    seconds: float
+
+    @cached_property
+    def report(self) -> Report:
+        """The report."""
+        return Report.model_validate(self.state["report"])
+
+    @cached_property
+    def motions(self) -> dict[str, MotionChoice]:
+        """How the parts move, as far as a choice can state it."""
+        return {
+            part: MotionChoice(Moves(m["moves"]), m["side"] and Side(m["side"]), m["inwards"])
+            for part, m in self.state["motions"].items()
+        }
+
+    @property
+    def known(self) -> Known:
+        """What choices may be about."""
+        return Known(
+            frozenset(part.id for part in self.report.parts),
+            frozenset(added.part for added in self.report.added),
+            frozenset(joint.part for joint in self.report.joints),
+            self.motions,
+            len(self.state["compartments"]),
+        )
+
+
+@final
+@dataclass
+class Session:
+    """A model that is edited; not a value.
+
+    `folder` is where the builder puts what the page fetches. A choice is saved before it is built; one that cannot be
+    built is taken back, and one line states why.
+    """
+
+    workspace: Workspace
+    builder: Builds
+    folder: Path
+    history: History = field(init=False)
+    built: LastBuild | None = None
+    error: str = ""
+    exported: dict[str, Any] | None = None
+    _listeners: set["asyncio.Queue[Event]"] = field(default_factory=set)
+    _predictions: dict[Key, Prediction] = field(default_factory=dict)
+    _logged: dict[Key, Any] = field(init=False)
+    _task: "asyncio.Task[None] | None" = None
+    _stage: str = ""
+
+    def __post_init__(self) -> None:
+        self.history = History(self.workspace.settings)
+        self._logged = decided_before(self.workspace.folder / DECISIONS, self.workspace.name)
+
+    @property
+    def is_building(self) -> bool:
+        """Whether something is being built."""
+        return self._task is not None and not self._task.done()
+
+    def choose(self, question: str, part: str, value: Any) -> None:
+        """Answers a question and has the model built anew.
+
+        Raises:
+            OptionError: if there is no such question, part or answer.
+            ExportError: if the settings cannot be saved.
+        """
+        known = self.built.known if self.built else Known(frozenset())
+        self._go_to(self.history.then(with_choice(self.history.present, question, part, value, known)))
+
+    def undo(self) -> None:
+        """Goes one choice back. Raises ExportError if the settings cannot be saved."""
+        self._go_to(self.history.undone())
+
+    def redo(self) -> None:
+        """Goes one choice on again. Raises ExportError if the settings cannot be saved."""
+        self._go_to(self.history.redone())
+
+    def start_anew(self) -> None:
+        """Takes back every choice, as one step. Raises ExportError if the settings cannot be saved."""
+        self._go_to(self.history.then(self.workspace.untouched))
+
+    def _go_to(self, history: History) -> None:
+        if history.present != self.history.present:
+            self.workspace.save(history.present)
+        self.history, self.error, self.exported = history, "", None
+        self.tell()
+        self.build()
+
+    def build(self) -> None:
+        """Has the model built as it is chosen, unless it is, or is at it."""
+        if not self.is_building and not self._is_up_to_date:
+            self.error = ""
+            self._task = asyncio.get_running_loop().create_task(self._build_all())
+
+    def stop(self) -> None:
+        """Stops what is being built; the choice that it was for is taken back."""
+        if self.is_building and self._stage != WAITING:  # else the builder is at another model
+            self.builder.stop()
+
+    async def finished(self) -> None:
+        """Waits until nothing is being built."""
+        if self._task is not None:
+            await asyncio.wait([self._task])
+
+    @property
+    def _is_up_to_date(self) -> bool:
+        return self.built is not None and self.built.settings == self.history.present
+
+    async def _build_all(self) -> None:
+        while not self._is_up_to_date and not self.error:
+            await self._build(self.history.present)
+
+    async def _build(self, settings: Settings) -> None:
+        try:
+            answer = await self._ask("build", self.folder, settings)
+            state = json.loads((self.folder / STATE).read_text(encoding="utf-8"))
+            files = {name: (self.folder / file).read_bytes() for name, file in FILES.items()}
+            number = self.built.number + 1 if self.built else 1
+            self.built = LastBuild(number, settings, state, files, answer.seconds)
+        except FunctionalizationError as error:
+            self._take_back(settings, str(error))
+        else:
+            self._log(self.built)
+        self._stage = ""
+        self.tell()
+
+    def _take_back(self, settings: Settings, why: str) -> None:
+        """States why a choice cannot be built, and goes back to what was; a later choice stays, and is built next."""
+        if self.history.present != settings:
+            return
+        self.error = why
+        if self.built is not None:
+            self.history = self.history.back_to(self.built.settings)
+            self._say_fault(lambda: self.workspace.save(self.history.present))
+
+    def _say_fault(self, write: Callable[[], None]) -> None:
+        """Writes something; where that fails, the page states why."""
+        try:
+            write()
+        except FunctionalizationError as error:
+            self.error = str(error)
+
+    def _log(self, built: LastBuild) -> None:
+        now = decided(built.settings)
+        predicted = predictions_of(built.report, built.motions)
+        self._predictions |= {key: one for key, one in predicted.items() if key not in now}
+        lines = decision_lines(self.workspace.name, self._logged, now, self._predictions)
+        if lines:
+            self._say_fault(lambda: append_lines(self.workspace.folder / DECISIONS, lines))
+        self._logged = now
+
+    async def export(self) -> dict[str, Any]:
+        """Writes every format that can be written here into the folder of results; returns what was written.
+
+        Raises:
+            FunctionalizationError: if it cannot be written.
+        """
+        await self.finished()
+        try:
+            self.exported = (await self._ask("export", self.workspace.folder, self.history.present)).made
+            return self.exported
+        finally:
+            self._stage = ""
+            self.tell()
+
+    async def _ask(self, do: Any, folder: Path, settings: Settings) -> Answer:
+        source, name = self.workspace.source, self.workspace.name
+        order = Order(do, source, name, folder, settings.to_json())
+        loop = asyncio.get_running_loop()
+
+        def on_stage(stage: str) -> None:
+            loop.call_soon_threadsafe(self._at_stage, stage)
+
+        self._at_stage(WAITING)
+        return await asyncio.to_thread(self.builder.ask, order, on_stage)
+
+    def _at_stage(self, stage: str) -> None:
+        self._stage = stage
+        self.tell()
+
+    def tell(self) -> None:
+        """Tells every open page how things are."""
+        event = self.status()
+        for listener in self._listeners:
+            listener.put_nowait(event)
+
+    def status(self) -> Event:
+        """Returns how things are, as JSON values."""
+        return {
+            "build": self.built.number if self.built else 0,
+            "seconds": self.built.seconds if self.built else 0,
+            "stage": self._stage,
+            "error": self.error,
+            "exported": self.exported,
+            "undo": len(self.history.past),
+            "redo": len(self.history.future),
+        }
+
+    async def events(self) -> AsyncIterator[Event]:
+        """Yields how things are now, and every time that they change."""
+        queue: asyncio.Queue[Event] = asyncio.Queue()
+        self._listeners.add(queue)
+        try:
+            yield self.status()
+            while True:
+                yield await queue.get()
+        finally:
+            self._listeners.discard(queue)
+
+    def page_state(self) -> dict[str, Any]:
+        """Returns all that the page shows of the last build, and what is chosen."""
+        assert self.built is not None
+        settings = self.history.present
+        chosen = {**settings.to_json(), "words": [[*key, value] for key, value in decided(settings).items()]}
+        return {**self.built.state, "build": self.built.number, "settings": chosen}

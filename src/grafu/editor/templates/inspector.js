@@ -1,0 +1,159 @@
+// What can be chosen about one part, and about the whole piece: it shows what holds, and tells what the user chooses.
+
+class Inspector {
+  constructor({ choose, picked }) {
+    Object.assign(this, { choose, picked });
+    this.part = "";
+    this.pick = document.getElementById("pick");
+    this.about = document.getElementById("about-part");
+    this.pick.addEventListener("change", () => picked(this.pick.value));
+    document.querySelectorAll("[data-motion]").forEach((button) =>
+      button.addEventListener("click", () => this.motion(button.dataset.motion)));
+    document.querySelectorAll("[data-choice]").forEach((field) =>
+      field.addEventListener("change", () => this.answer(field)));
+    document.getElementById("left-out").addEventListener("click", ({ target }) => {
+      if (target.dataset.restore) choose("restore", target.dataset.restore, true);
+    });
+  }
+
+  show(state) {
+    this.state = state;
+    const { report, settings } = state;
+    const moving = report.joints.map((joint) => joint.part);
+    const still = report.parts.map((part) => part.id).filter((part) => !moving.includes(part));
+    const groups = { "Moving parts": moving, "Other parts": still, "Added parts": report.added.map((one) => one.part) };
+    const options = Object.entries(groups).filter(([, parts]) => parts.length).map(([label, parts]) => {
+      const group = Object.assign(document.createElement("optgroup"), { label });
+      group.append(...[...new Set(parts)].map((part) => new Option(part, part)));
+      return group;
+    });
+    this.pick.replaceChildren(new Option("choose a part", ""), ...options);
+    this.showWhole(settings);
+    this.choosePart(this.part);
+  }
+
+  choosePart(part) {
+    const known = [...this.pick.options].some((option) => option.value === part);
+    this.part = known ? part : "";
+    this.pick.value = this.part;
+    this.about.hidden = !this.part;
+    if (this.part) this.showPart();
+  }
+
+  get joint() {
+    return this.state.report.joints.find((joint) => joint.part === this.part);
+  }
+
+  get slides() {
+    return this.state.sliding.includes(this.part);
+  }
+
+  get isAdded() {
+    return !(this.part in this.state.sides);
+  }
+
+  showPart() {
+    const { settings, sides } = this.state, { part, joint } = this;
+    document.getElementById("certainty").textContent = this.said();
+    const word = this.word();
+    document.querySelectorAll("[data-motion]").forEach((button) => {
+      const side = button.dataset.motion;
+      const borders = ["left", "right", "top", "bottom", "front", "back"];
+      button.setAttribute("aria-pressed", String(side === word));
+      button.disabled = this.isAdded || (borders.includes(side) && !sides[part].includes(side));
+    });
+    for (const name of ["accept", "automatic", "open"]) {
+      document.querySelector(`[data-do="${name}"]`).disabled = this.isAdded || (name === "open" && !joint);
+    }
+    document.querySelector('[data-do="collision"]').hidden = !this.state.collisions[part];
+    const choice = settings.joints[part] ?? {}, slides = this.slides;
+    const unit = slides ? "cm" : "degrees", factor = slides ? 100 : 180 / Math.PI;
+    const round = (value) => String(Math.round(value * factor * 10) / 10);
+    const opening = this.field("opening");
+    opening.value = choice.opening ? round(choice.opening) : "";
+    opening.placeholder = joint ? round(joint.upper) : "automatic";
+    document.getElementById("unit").textContent = unit;
+    this.field("template").replaceChildren(
+      new Option(joint ? `automatic (${joint.template})` : "automatic", ""),
+      ...(slides ? this.rails : this.hinges).map((id) => new Option(id, id)));
+    this.field("template").value = choice.template ?? "";
+    this.field("handle").value = settings.additions.fronts[part]?.style ?? "";
+    this.field("label").value = settings.labels[part] ?? "";
+    ["opening", "template", "handle"].forEach((name) => (this.field(name).disabled = !joint));
+    this.field("label").disabled = this.isAdded;
+    const number = this.compartment(), shelves = this.field("shelves");
+    document.getElementById("shelves-field").hidden = number < 0;
+    shelves.value = settings.additions.compartments[number]?.shelves ?? "";
+  }
+
+  showWhole(settings) {
+    const { additions } = settings, { top, handles, grips } = additions;
+    this.field("top").value = !top ? "none" : top.shape === "rectangle" ? "" : top.shape;
+    this.field("hinge").value = settings.hinge;
+    this.field("handles").value = !handles && !grips ? "none" : handles?.style ?? "";
+    const buttons = additions.rejected.map((part) => {
+      const button = Object.assign(document.createElement("button"), { type: "button", textContent: `Restore ${part}` });
+      button.dataset.restore = part;
+      return button;
+    });
+    document.getElementById("left-out").replaceChildren(...buttons);
+  }
+
+  field(name) {
+    return document.querySelector(`[data-choice="${name}"]`);
+  }
+
+  // Returns the word for how the part moves: as chosen, else as built.
+  word() {
+    const chosen = this.state.settings.words.find(([part, question]) => part === this.part && question === "motion");
+    if (chosen) return chosen[2];
+    const built = this.state.motions[this.part];
+    if (!this.joint || !built) return this.joint || this.isAdded ? "" : "fixed";
+    const { moves, side } = built;
+    if (moves === "turns") return side;
+    if (moves === "slides") return ["left", "right", "top"].includes(side) ? `slide-${side === "top" ? "up" : side}` : "pull";
+    return { folds: `fold-${side === "top" ? "up" : side}`, lifts: "lift-parallel", tilts: "tilt" }[moves] ?? "";
+  }
+
+  // Returns in words what the part is, and the confidence of its motion.
+  said() {
+    const { report, settings } = this.state;
+    const added = report.added.find((one) => one.part === this.part);
+    if (this.isAdded) return `${this.part}: ${added ? added.category : "added"}, added. Reject leaves it out.`;
+    const category = report.parts.find((one) => one.id === this.part)?.category ?? "";
+    const guesses = report.guesses.filter((guess) => guess.part === this.part && guess.question !== "label");
+    const skipped = report.skipped.find((skip) => skip.request === this.part);
+    const sure = this.part in settings.motions ? ["decided by hand"] : guesses.map((guess) => {
+      const second = guess.runner_up ? ` (${guess.runner_up} ${Math.round(100 * guess.runner_up_score)} %)` : "";
+      return `${guess.choice} ${Math.round(100 * guess.score)} %${second}`;
+    });
+    const static_ = this.joint ? [] : [skipped ? skipped.detail : "does not move"];
+    return `${this.part}: ${[category, ...static_, ...sure].join("; ")}`;
+  }
+
+  // Returns the number of the compartment that the part stands before, or -1.
+  compartment() {
+    return this.state.compartments.findIndex((one) => one.behind.includes(this.part));
+  }
+
+  motion(word) {
+    if (this.part && word !== this.word()) this.choose("motion", this.part, word);
+  }
+
+  answer(field) {
+    const name = field.dataset.choice, text = field.value.trim(), number = text === "" ? null : Number(text);
+    if (["top", "hinge", "handles"].includes(name)) this.choose(name, "", text || null);
+    else if (name === "opening") this.choose(this.slides ? "slide" : "turn", this.part, number);
+    else if (name === "shelves") this.choose("shelves", String(this.compartment()), number);
+    else this.choose(name, this.part, text || null);
+  }
+
+  // Returns the parts whose motion was guessed and is not decided, each with its confidence, the least first.
+  doubtful() {
+    const { report, settings } = this.state, least = new Map();
+    for (const { part, score } of report.guesses) {
+      if (!(part in settings.motions) && !(part in settings.labels)) least.set(part, Math.min(score, least.get(part) ?? 1));
+    }
+    return [...least].sort((a, b) => a[1] - b[1]);
+  }
+}

@@ -1,0 +1,52 @@
+// The buttons above the view and the lines below them: what is being built, what went wrong, what was exported.
+
+class Toolbar {
+  constructor(actions) {
+    this.actions = actions;
+    this.progress = document.getElementById("progress");
+    this.fault = document.getElementById("fault");
+    document.querySelectorAll("[data-do]").forEach((button) =>
+      button.addEventListener("click", () => this.do(button.dataset.do)));
+  }
+
+  button(name) {
+    return document.querySelector(`[data-do="${name}"]`);
+  }
+
+  do(name) {
+    if (!this.button(name).disabled && !this.button(name).hidden) this.actions[name]();
+  }
+
+  // Shows how things are.
+  show({ stage, error, exported, undo, redo, build, seconds }) {
+    const busy = Boolean(stage);
+    this.button("undo").disabled = !undo;
+    this.button("redo").disabled = !redo;
+    for (const name of ["anew", "export"]) this.button(name).disabled = !build && !error;
+    this.button("stop").hidden = !busy;
+    document.getElementById("bar").hidden = !busy;
+    document.body.toggleAttribute("data-busy", busy);
+    if (busy) this.progress.textContent = `${STAGES[stage] ?? stage} ...`;
+    else if (exported) this.progress.textContent = exportedWords(exported);
+    else this.progress.textContent = build ? `built in ${seconds.toFixed(2)} s; every choice is saved` : "";
+    this.fail(error);
+  }
+
+  fail(why) {
+    this.fault.hidden = !why;
+    this.fault.textContent = why;
+  }
+
+  // Counts the guesses that are not decided, those below a confidence as doubtful.
+  doubtful(guesses, least) {
+    const count = guesses.filter(([, score]) => score < least).length;
+    this.button("next").disabled = !guesses.length;
+    this.button("next").textContent = count || !guesses.length ? `Next doubtful joint (${count})` : "Next joint to check";
+  }
+}
+
+function exportedWords({ folder, formats, "left out": leftOut }) {
+  const left = Object.keys(leftOut);
+  const without = left.length ? `; without ${left.join(", ")}, which need more to be installed` : "";
+  return `exported to ${folder}: ${formats.join(", ")}${without}`;
+}

@@ -1,0 +1,38 @@
+"""What a page from a disk collects: the motions that the user chooses, as one settings.json and one whole command.
+
+It writes nothing: the browser saves the file where its downloads go.
+"""
+
+from typing import Final
+
+from grafu.joints.motion_choice import choice_in_words
+from grafu.pipeline.report_schema import Report
+from grafu.pipeline.settings import Settings
+from grafu.viewer.shell import Html, joined, json_block, tag
+
+LEAD: Final = (
+    "One is wrong? Choose what is right, of as many parts as need it: the box at the end of the page then holds one "
+    "settings.json and one command for all of them."
+)
+LINES: Final = "A click on an option chooses it; the box at the end of the page makes one command of all."
+
+
+def collected(report: Report, settings: Settings) -> Html:
+    """Returns the box that fills as options are chosen, and the data that its script needs."""
+    words = {option.rpartition("=")[2] for options in report.moves.values() for option in options}
+    choices = {word: choice_in_words(word) for word in sorted(words)}
+    data = {
+        "settings": settings.to_json(),
+        "input": report.input.path,
+        "words": {
+            word: {"moves": str(choice.moves), "side": choice.side and str(choice.side), "inwards": choice.inwards}
+            for word, choice in choices.items()
+        },
+    }
+    save = tag("button", "Download settings.json", type="button", id="collected-save")
+    copy = tag("button", "", type="button", class_="copy", id="collected-command", title="Copy", data_copy="")
+    steps = tag("ol", tag("li", save), tag("li", "Run this, with the path of that file: ", copy))
+    head = tag("h2", "Chosen")
+    said = tag("p", "", id="collected-said", role="status", class_="lead")
+    box = tag("section", head, said, steps, id="collected", class_="panel", hidden=True, aria_label="Chosen")
+    return joined([box, json_block("collecting", data)])

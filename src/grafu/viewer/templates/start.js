@@ -1,0 +1,17 @@
+// The page of a disk: its data stand in it.
+
+async function startModel() {
+  const stage = document.getElementById("stage");
+  if (!stage) return;
+  try {
+    const scene = await loadScene();
+    const images = await Promise.all(scene.textures.map(loadImage));
+    window.grafu = new ModelView(stage);
+    window.grafu.show(scene, images);
+    stage.classList.add("ready");
+  } catch (error) {
+    goWithout(stage, error.message || error);
+  }
+}
+
+startModel();

@@ -1,0 +1,183 @@
+"""`grafu edit` in a real browser: a wrong hinge is set right, undone, the server is killed, opened again, exported."""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from editing import DOOR
+
+from chromium import Chromium, chromium_path
+from grafu.pipeline.settings import settings_from_bytes
+
+pytestmark = pytest.mark.slow
+ROOT = Path(__file__).parents[2]
+AXE = ROOT / "node_modules" / "axe-core" / "axe.min.js"
+LATE = 300.0  # seconds: a first build on a busy machine
+
+
+class Server:
+    """`grafu edit` in a process of its own."""
+
+    def __init__(self, *arguments: str) -> None:
+        command = [sys.executable, "-m", "grafu", "edit", *arguments, "--no-browser"]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ})
+        assert self.process.stdout is not None
+        self.address = self.process.stdout.readline().split()[-1]
+        assert self.address.startswith("http://127.0.0.1:")
+
+    def kill(self) -> None:
+        self.process.kill()
+        self.process.wait()
+        assert self.process.stdout is not None
+        self.process.stdout.close()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Chromium]:
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no Chromium here")
+    try:
+        browser = Chromium(path)
+    except (AssertionError, OSError) as error:
+        pytest.skip(f"Chromium does not start: {error}")
+    yield browser
+    browser.close()
+
+
+@pytest.fixture
+def out(tmp_path: Path) -> Path:
+    return tmp_path / "out"
+
+
+@pytest.fixture
+def server(model: Path, out: Path) -> Iterator[Server]:
+    server = Server(str(model), "--out", str(out))
+    yield server
+    server.kill()
+
+
+def wait(browser: Chromium, condition: str) -> None:
+    end = time.monotonic() + LATE
+    while not browser.run(condition):
+        assert time.monotonic() < end, f"never came true: {condition}"
+        time.sleep(0.1)
+
+
+def opened(browser: Chromium, server: Server) -> None:
+    browser.go(server.address)
+    wait(browser, "document.getElementById('stage').className !== ''")
+    if browser.run("document.getElementById('stage').className") == "without":
+        pytest.skip("no WebGL here")
+    settled(browser)
+
+
+def settled(browser: Chromium, build: int = 1) -> None:
+    """Waits until the page shows a build of this number, or a later one, and nothing more is built."""
+    wait(browser, f"grafuEditor.shown >= {build} && !grafuEditor.building")
+
+
+def shown(browser: Chromium) -> int:
+    return browser.run("grafuEditor.shown")
+
+
+def side(browser: Chromium) -> str:
+    return browser.run(f"grafuEditor.state.motions[{DOOR!r}]?.side ?? ''")
+
+
+def place_of(browser: Chromium, part: str) -> tuple[float, float]:
+    """Returns where the middle of a part is seen, pixels of the window."""
+    x, y = browser.run(
+        "((view, part) => {document.querySelector('canvas').scrollIntoView({block: 'center'});"
+        "const b = view.canvas.getBoundingClientRect(), [x, y] = view.onScreen(view.itemNamed(part));"
+        f"return [b.x + x * b.width, b.y + y * b.height]}})(grafuEditor.view, {part!r})"
+    )
+    return x, y
+
+
+def saved(out: Path):
+    return settings_from_bytes((out / "cabinet" / "settings.json").read_bytes(), "settings")
+
+
+def test_a_wrong_hinge_is_set_right_undone_and_survives_the_server(browser, server, model, out):
+    opened(browser, server)
+    before = side(browser)
+    other = "right" if before == "left" else "left"
+    browser.drag(place_of(browser, DOOR))
+    wait(browser, f"document.getElementById('pick').value === {DOOR!r}")
+    wait(browser, "grafuEditor.view.joints.fraction(grafuEditor.view.jointOf(grafuEditor.view.view.chosen)) > 0.99")
+
+    number = shown(browser)
+    browser.run(f"document.querySelector('[data-motion={other}]').click()")
+    settled(browser, number + 1)
+    assert side(browser) == other
+    assert browser.run(f"document.querySelector('[data-motion={other}]').getAttribute('aria-pressed')") == "true"
+    browser.press("z", "KeyZ", control=True)
+    settled(browser, number + 2)
+    assert side(browser) == before
+    assert saved(out).motions == {}
+    browser.press("y", "KeyY", control=True)
+    settled(browser, number + 3)
+    assert str(saved(out).motions[DOOR].side) == other
+    assert browser.complaints(server.address) == []
+
+    server.kill()
+    again = Server(str(model), "--out", str(out))
+    try:
+        opened(browser, again)
+        assert side(browser) == other
+        browser.run("document.querySelector('[data-do=export]').click()")
+        wait(browser, "document.getElementById('progress').textContent.startsWith('exported')")
+        assert (out / "cabinet" / "model.urdf").is_file()
+        assert browser.run("window.hurt ?? null") is None
+        assert browser.complaints(again.address) == []
+    finally:
+        again.kill()
+
+
+def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, server):
+    opened(browser, server)
+    browser.press("n", "KeyN")
+    part = browser.run("grafuEditor.inspector.part")
+    assert part
+    number = shown(browser)
+    browser.press("a", "KeyA")
+    settled(browser, number + 1)
+    assert browser.run(f"{part!r} in grafuEditor.state.settings.motions")
+    browser.press("Escape")
+    assert browser.run("grafuEditor.inspector.part") == ""
+
+    browser.run(f"grafuEditor.pick({DOOR!r})")
+    x, y = place_of(browser, DOOR)
+    fraction = "grafuEditor.view.joints.fraction(grafuEditor.view.jointOf(grafuEditor.view.view.chosen))"
+    assert browser.run(fraction) == 0
+    along = browser.run(
+        "((view) => view.screenMotion(view.view.chosen, view.jointOf(view.view.chosen)))(grafuEditor.view)"
+    )
+    length = (along[0] ** 2 + along[1] ** 2) ** 0.5
+    step = [60 * component / length for component in along]
+    browser.drag((x, y), *((x + k / 6 * step[0], y + k / 6 * step[1]) for k in range(1, 7)))
+    assert 0 < browser.run(fraction) < 1
+    browser.press("o", "KeyO")
+    wait(browser, f"[0, 1].includes({fraction})")
+    assert browser.complaints(server.address) == []
+
+
+def test_without_the_token_a_browser_sees_nothing(browser, server):
+    host = server.address.split("/")[2]
+    browser.go(f"http://{host}/")
+    assert "403" in browser.run("document.body.textContent")
+
+
+@pytest.mark.skipif(not AXE.is_file(), reason="axe-core comes by npm install")
+def test_axe_finds_nothing(browser, server):
+    opened(browser, server)
+    browser.run(f"grafuEditor.pick({DOOR!r})")
+    browser.run("document.querySelectorAll('details').forEach((one) => (one.open = true))")
+    browser.run(AXE.read_text() + ";1")
+    found = browser.run("axe.run().then((r) => r.violations.map((v) => [v.id, v.nodes.map((n) => n.html)]))")
+    assert found == []
