@@ -35,7 +35,7 @@ _WORLD = "world"
 @final
 @dataclass(frozen=True, slots=True)
 class SdfConfig(ShortRepr):
-    """What goes into an SDF file. `fixed` holds the root to the world, wherever the model is placed in it, unless its base is free."""
+    """What goes into an SDF file. `fixed` holds the root to the world, wherever a world places it, unless it is free."""
 
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)
     crease_angle: float = CREASE_ANGLE
