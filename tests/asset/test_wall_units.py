@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.asset.part import Asset, Frame
 from grafu.asset.wall_units import hangs_on_wall
 from grafu.pipeline.settings import Settings
@@ -29,8 +29,8 @@ def cabinet(name: str, height: float = 0.7, hanging: float = 0.0, aside: float =
 )
 def test_a_name_says_so(name):
     assert "name" in hangs_on_wall(cabinet(name))
-    assert base_of(cabinet(name), Settings()) is Base.WALL
-    assert base_of(cabinet(name), Settings(base=Base.FREE)) is Base.FREE
+    assert base_of(cabinet(name), Settings()) is BaseKind.WALL
+    assert base_of(cabinet(name), Settings(base=BaseKind.FREE)) is BaseKind.FREE
 
 
 def test_names_of_most_parts_say_so_and_of_some_do_not():

@@ -17,7 +17,7 @@ from grafu.api.request import (
     require_word,
 )
 from grafu.api.result import Result
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.asset.load import endings_in, load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
@@ -163,12 +163,12 @@ def functionalize(
     return Result.of(Request(asset, settings, foreign, folder))
 
 
-def _base(word: str | None) -> Base | None:
+def _base(word: str | None) -> BaseKind | None:
     if word is None:
         return None
-    if require_word(word, "base", "`free`, `fixed`, `wall` or None") not in {known.value for known in Base}:
-        raise OptionError(f"`base` must be one of {', '.join(Base)}: got {word!r}")
-    return Base(word)
+    if require_word(word, "base", "`free`, `fixed`, `wall` or None") not in {known.value for known in BaseKind}:
+        raise OptionError(f"`base` must be one of {', '.join(BaseKind)}: got {word!r}")
+    return BaseKind(word)
 
 
 def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, LoadOptions]:

@@ -11,7 +11,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.joint_values import Coupling as Coupling
 from grafu.articulation.joint_values import JointLimits as JointLimits
@@ -144,7 +144,7 @@ class Joint:
 @final
 @dataclass(frozen=True, repr=False)
 class ArticulatedObject:
-    """A tree of links under one static root. `base` is what holds the root; None: nobody stated it.
+    """A tree of links under one static root. `base` is what holds the root; None: it is not stated.
 
     Raises:
         ArticulationError: if ids repeat, a joint names a link that is not there, a link has two parents, a cycle
@@ -158,7 +158,7 @@ class ArticulatedObject:
     links: tuple[Link, ...]
     joints: tuple[Joint, ...] = ()
     grasps: tuple[GraspFrame, ...] = ()
-    base: Base | None = None
+    base: BaseKind | None = None
 
     def __repr__(self) -> str:
         return f"<ArticulatedObject {self.name}: {len(self.links)} links, {len(self.joints)} joints>"

@@ -3,7 +3,7 @@
 from enum import StrEnum
 
 
-class Base(StrEnum):
+class BaseKind(StrEnum):
     """What holds the static root link."""
 
     FREE = "free"

@@ -86,7 +86,7 @@ def physics_of(articulated: ArticulatedObject, config: PhysicsConfig = DEFAULT_P
 
 
 def physics_known(articulated: ArticulatedObject) -> PhysicsModel | None:
-    """Returns the physics that was found last of an object; None: nobody has asked for it."""
+    """Returns the physics that was found last of an object; None: there is none yet."""
     known = _LATEST.get(articulated)
     return None if known is None else known[1]
 

@@ -11,7 +11,6 @@ from math import inf
 from typing import final
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
@@ -131,6 +130,8 @@ def standing_points(
 
 def _polygon(points: Points, least_side: float) -> np.ndarray | None:
     """Returns the corners (x, y) of the convex polygon around points, counter-clockwise; None: it has no width."""
+    from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and a GLB alone needs no hull
+
     if len(points) < 3:
         return None
     try:

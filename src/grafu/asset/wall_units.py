@@ -1,4 +1,4 @@
-"""Whether a piece hangs on a wall: its name says so, or the input drew it hanging above its own floor.
+"""Whether a piece hangs on a wall: its name states it, or the input drew it hanging above its own floor.
 
 Shape alone is no evidence: many floor units are drawn without their feet.
 """
@@ -62,7 +62,7 @@ def hangs_on_wall(asset: Asset, config: WallUnitConfig = DEFAULT_WALL_UNIT_CONFI
     if float(asset.box.size[2]) > config.tallest:
         return ""
     if _says_so(asset.name):
-        return "its name says that it hangs on a wall"
+        return "its name states that it hangs on a wall"
     named = [part for part in asset.parts if _says_so(part.source.name)]
     if 2 * len(named) > len(asset.parts):
         return "the names of its parts say that it hangs on a wall"

@@ -3,7 +3,7 @@
 import argparse
 from typing import TYPE_CHECKING
 
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.errors import OptionError
 from grafu.pipeline.motion_source import SourceOption, parse_motion
 from grafu.vocabulary import MOTION_WORDS
@@ -80,10 +80,10 @@ def add_base_option(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _base(text: str) -> Base:
-    if text not in {known.value for known in Base}:
-        raise argparse.ArgumentTypeError(f"must be one of {', '.join(Base)}: got {text!r}")
-    return Base(text)
+def _base(text: str) -> BaseKind:
+    if text not in {known.value for known in BaseKind}:
+        raise argparse.ArgumentTypeError(f"must be one of {', '.join(BaseKind)}: got {text!r}")
+    return BaseKind(text)
 
 
 TOP_SHAPES = ("rectangle", "rounded", "chamfered")

@@ -13,7 +13,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.kinematics import with_coupled
 from grafu.articulation.mass import MassProperties
@@ -92,7 +92,7 @@ class _MjcfWriter:
         self._used: set[str] = set()
         self._geoms, self._sites = NameBook(case_counts=True), NameBook(case_counts=True)
         self._bodies = _names([link.id for link in articulated.links], taken="world")
-        self._is_free = articulated.base is Base.FREE
+        self._is_free = articulated.base is BaseKind.FREE
         self._joints = _names([joint.id for joint in articulated.joints], taken=_FREE_JOINT if self._is_free else "")
         self._moving: list[Joint] = []
         self._springs = MjcfSprings(articulated, self._physics, self._joints)

@@ -12,7 +12,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
@@ -35,7 +35,7 @@ _WORLD = "world"
 @final
 @dataclass(frozen=True, slots=True)
 class SdfConfig(ShortRepr):
-    """What goes into an SDF file. `fixed` holds the root to the world, wherever a world places it, unless it is free."""
+    """What goes into an SDF file. `fixed` holds the root to the world, wherever a world has it, unless it is free."""
 
     physics: PhysicsConfig = field(default_factory=PhysicsConfig)
     crease_angle: float = CREASE_ANGLE
@@ -75,7 +75,7 @@ class _SdfWriter:
         for name, grasp in self._grasps:
             frame = ET.SubElement(model, "frame", name=name, attached_to=self._links[grasp.link])
             _add_pose(frame, grasp.position - self._physics.origins[grasp.link], grasp.rotation)
-        if self._config.fixed and self._object.base is not Base.FREE:
+        if self._config.fixed and self._object.base is not BaseKind.FREE:
             _add_joint(model, ROOT_JOINT, "fixed", _WORLD, self._links[self._object.root])
         for joint in self._object.joints:
             self._add_joint(model, joint)

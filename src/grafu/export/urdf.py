@@ -12,7 +12,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
@@ -69,7 +69,7 @@ class _UrdfWriter:
         if self._config.mujoco:
             compiler = {"strippath": "false", "discardvisual": "true"}
             ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", compiler)
-        if self._object.base in (Base.FIXED, Base.WALL):
+        if self._object.base in (BaseKind.FIXED, BaseKind.WALL):
             self._add_world(robot)
         for link in self._object.links_from_root:
             self._add_link(robot, link)
@@ -83,7 +83,7 @@ class _UrdfWriter:
         return ExportFiles({"model.urdf": text} | meshes, notes=self._physics.notes)
 
     def _add_world(self, robot: ET.Element) -> None:
-        """Adds the link that Drake, Gazebo and MoveIt know to stand still, and the joint that holds the root to it."""
+        """Adds the link that Drake, Gazebo and MoveIt know to be static, and the joint that holds the root to it."""
         taken = NameBook()
         for name in (*(link.id for link in self._object.links), *(joint.id for joint in self._object.joints)):
             taken.unique(name)

@@ -4,7 +4,7 @@ from typing import Any
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.visible import short_repr
 
 
@@ -45,7 +45,7 @@ class StabilityRecord(ReportRecord):
 class BaseRecord(ReportRecord):
     """What holds the piece in a simulator."""
 
-    kind: Base = Field(description="free: nothing, fixed: to the world, wall: it hangs on a wall")
+    kind: BaseKind = Field(description="free: nothing, fixed: to the world, wall: it hangs on a wall")
     why: str = Field(description="as asked for, by default, or the evidence that it hangs on a wall")
     stability: StabilityRecord | None = Field(
         default=None, description="null: no format with masses was written, or it has no base to stand on"

@@ -15,7 +15,7 @@ from pydantic import TypeAdapter, ValidationError
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
 from grafu.errors import AssetError, OptionError
@@ -52,7 +52,7 @@ class Settings(ShortRepr):
     weights: Path | None = None
     hinge: str = ""
     stays: bool = True
-    base: Base | None = None
+    base: BaseKind | None = None
 
     def __post_init__(self) -> None:
         if self.motion.is_foreign:

@@ -3,7 +3,7 @@
 from math import isfinite
 
 from grafu.articulation.articulated_object import ArticulatedObject
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.articulation.physics import physics_known
 from grafu.articulation.stability import Stability, stability_of
 from grafu.asset.part import Asset
@@ -16,23 +16,23 @@ from grafu.pipeline.verdict import with_notes
 _DIGITS = 4
 
 
-def base_of(asset: Asset, settings: Settings) -> Base | None:
+def base_of(asset: Asset, settings: Settings) -> BaseKind | None:
     """Returns what holds a piece: as the user states, on the wall where it is known to hang there, else None."""
-    return settings.base or (Base.WALL if hangs_on_wall(asset) else None)
+    return settings.base or (BaseKind.WALL if hangs_on_wall(asset) else None)
 
 
 def base_record(asset: Asset, articulated: ArticulatedObject) -> BaseRecord:
     """Returns what holds a piece, and why."""
     evidence, base = hangs_on_wall(asset), articulated.base
     if base is None:
-        return BaseRecord(kind=Base.FIXED, why="by default")
-    return BaseRecord(kind=base, why=evidence if base is Base.WALL and evidence else "as asked for")
+        return BaseRecord(kind=BaseKind.FIXED, why="by default")
+    return BaseRecord(kind=base, why=evidence if base is BaseKind.WALL and evidence else "as asked for")
 
 
 def with_stability(report: Report, articulated: ArticulatedObject) -> Report:
     """Returns the report with what tips the piece over, where masses and shapes were worked out for a format.
 
-    Of a piece that is to stand freely and does not bear the usual pulls a note says so.
+    Of a piece that is to stand freely and does not bear the usual pulls a note states it.
     """
     physics = physics_known(articulated)
     if physics is None or report.base is None:
@@ -40,7 +40,7 @@ def with_stability(report: Report, articulated: ArticulatedObject) -> Report:
     found = stability_of(articulated, physics.masses, physics.shapes)
     record = report.base.model_copy(update={"stability": None if found is None else _record(found)})
     stated = report.model_copy(update={"base": record})
-    return with_notes(stated, *_notes(record)) if report.base.kind is Base.FREE else stated
+    return with_notes(stated, *_notes(record)) if report.base.kind is BaseKind.FREE else stated
 
 
 def _record(found: Stability) -> StabilityRecord:

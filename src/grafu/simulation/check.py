@@ -9,7 +9,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.errors import UnreadableAsset
 from grafu.geometry.mesh import TriangleMesh
 from grafu.pipeline.report_schema import Report
@@ -55,15 +55,15 @@ def check_folder(folder: Path, config: CheckConfig = DEFAULT_CHECK_CONFIG) -> Ch
 
 
 def _check_file(path: Path, report: Report, meshes: Meshes, config: CheckConfig, recording: Recording) -> FileCheck:
-    kind = report.base.kind if report.base else Base.FIXED
+    kind = report.base.kind if report.base else BaseKind.FIXED
     try:
-        world = World(path, kind is Base.FREE, config)
+        world = World(path, kind is BaseKind.FREE, config)
         tried = [joint for joint in world.joints if not _is_driven(report, joint)]
         joints = tuple(
             check_joint(world, joint, _before(world, report, joint), _of(world, joint, meshes), config, recording)
             for joint in tried
         )
-        on_feet = None if kind is Base.WALL else World(path, True, config)
+        on_feet = None if kind is BaseKind.WALL else World(path, True, config)
     except UnreadableAsset as error:
         return FileCheck(file=path.name, error=str(error), joints=(), stands=None, stands_open=None)
     stands = on_feet and _stands(on_feet, (), config)

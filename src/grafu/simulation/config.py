@@ -30,7 +30,7 @@ class CheckConfig:
     settling: float = 2.0
     """How long a piece is watched at rest."""
     still: float = 0.01
-    """A free piece stands still if it moves no farther than this ..."""
+    """A free piece is at rest if it moves no farther than this ..."""
     tilt: float = 0.05
     """... and tilts no more than this."""
     cube: float = 0.05

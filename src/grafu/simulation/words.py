@@ -28,7 +28,7 @@ def _sentence(file: FileCheck) -> str:
         return file.error
     good = sum(joint.works for joint in file.joints)
     said = [f"{good} of {counted(len(file.joints), 'joint')} open and close when they are pulled"]
-    states = {True: "stands still", False: "does not stand still"}
+    states = {True: "stays at rest", False: "does not stay at rest"}
     if file.stands is not None:
         said.append(f"it {states[file.stands]} on a floor")
     if file.stands_open is not None:

@@ -105,9 +105,9 @@ class World:
         T = self.pose(joint.body)
         point = T[:3, :3] @ grip + T[:3, 3]
         axis, anchor = self.data.xaxis[joint.index], self.data.xanchor[joint.index]
-        way = axis if joint.slides else np.cross(axis, point - anchor)
-        arm = float(np.linalg.norm(way))
-        pulled = force * way / max(arm, 1e-9)
+        along = axis if joint.slides else np.cross(axis, point - anchor)
+        arm = float(np.linalg.norm(along))
+        pulled = force * along / max(arm, 1e-9)
         self.data.xfrc_applied[:] = 0.0
         self.data.xfrc_applied[joint.body, :3] = pulled
         self.data.xfrc_applied[joint.body, 3:] = np.cross(point - self.data.xipos[joint.body], pulled)

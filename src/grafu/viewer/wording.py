@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from math import acos, degrees
 
 from grafu.additions.step import DeficiencyKind
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.articulation.motion_kind import motion_kind
 from grafu.pipeline.report_schema import AxisRecord, DeficiencyRecord, JointRecord, Report, Vector
 from grafu.pipeline.standing import stability_words
@@ -135,9 +135,9 @@ def _mended(lack: DeficiencyRecord, report: Report) -> bool:
 
 
 _HELD = {
-    Base.FREE: "It stands freely on the floor",
-    Base.FIXED: "It is fixed to the world",
-    Base.WALL: "It hangs on a wall",
+    BaseKind.FREE: "It stands freely on the floor",
+    BaseKind.FIXED: "It is fixed to the world",
+    BaseKind.WALL: "It hangs on a wall",
 }
 
 
@@ -147,7 +147,7 @@ def standing_words(report: Report) -> list[str]:
         return []
     held = f"{_HELD[report.base.kind]} ({report.base.why})."
     found = report.base.stability
-    if found is None or report.base.kind is Base.WALL:
+    if found is None or report.base.kind is BaseKind.WALL:
         return [held]
     words = stability_words(found)
     return [held, f"On its own feet: {words}."]

@@ -11,7 +11,7 @@ import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade
 
 from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint, Link, Visual
-from grafu.articulation.base import Base
+from grafu.articulation.base import BaseKind
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.motion_kind import MotionKind
@@ -54,7 +54,7 @@ class _StageBuilder:
         for link in self._object.links_from_root:
             self._add_link(link)
         UsdGeom.Scope.Define(self._stage, self._top.AppendChild("joints"))
-        if self._object.base is not Base.FREE:
+        if self._object.base is not BaseKind.FREE:
             self._add_root_joint()
         for joint in self._object.joints:
             self._add_joint(joint)

@@ -62,7 +62,7 @@ def test_what_works_passes_and_all_is_written_and_listed(result, tmp_path, capsy
     page = (folder / "report.html").read_text()
     assert page.count("<!-- check -->") == 1
     assert all(joint.joint in page[page.index("<!-- check -->") :] for joint in report.files[0].joints)
-    assert "stands still" in capsys.readouterr().out
+    assert "stays at rest" in capsys.readouterr().out
 
 
 def test_a_joint_that_needs_more_than_a_hand_does_not_open(result, tmp_path):
