@@ -76,10 +76,10 @@ def test_what_is_not_changed_is_read(cases):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("first", range(0, 300, 100))
+@pytest.mark.parametrize("first", range(0, 180, 60))
 def test_no_case_breaks_a_rule(first):
-    plan = Plan(15, tuple(range(first, first + 100)))
+    plan = Plan(15, tuple(range(first, first + 60)))
     answers = run_cases(plan)
-    assert len(answers) == 100
+    assert len(answers) == 60
     assert [repeat_line(plan, answer) for answer in answers if answer.broken] == []
     assert {answer.outcome for answer in answers} == {"read", "done", "refused"}

@@ -12,6 +12,8 @@ from grafu.network.grafu import GraFu
 from grafu.network.stored import start_from, stored_weights
 from random_graphs import TINY, graph, tiny_network
 
+pytestmark = pytest.mark.slow  # beside test_onnx, whose file it shares
+
 
 @pytest.mark.parametrize(("half", "precision"), [(False, 0.0), (True, 2e-3)])
 def test_every_weight_is_found_by_its_name(files: dict[bool, bytes], half: bool, precision: float) -> None:
