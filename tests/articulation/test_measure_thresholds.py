@@ -19,6 +19,7 @@ EFFORT = "after how many tries a search ends, or how much is done in a simpler w
 UNIT = "a unit, a constant of mathematics, or a row of a table"
 MEASURE = "the definition of a measure, as the paper, docs/metrics.md or docs/evaluation.md state it"
 PHYSICS = "a constant of physics, or the density of a material"
+GRIPPER = "a size of the gripper whose grasp frames docs/conventions.md describes"
 
 REASONS = {
     "articulation": {
@@ -28,6 +29,9 @@ REASONS = {
         "collision_shapes.py": {"_DENSE": EFFORT},
         "convex_pieces.py": {"_DIRECTIONS": SAMPLES, "_HULL_CORNERS": SAMPLES, "_GRID": SAMPLES, "_TRIES": EFFORT},
         "coupled_weight.py": {"_STEP": SAMPLES, "_EXACT": TOLERANCE, "_AT": SAMPLES},
+        "finger_fit.py": dict.fromkeys(("_ACROSS", "_LEVELS", "_ON_FINGER", "_PLACES"), SAMPLES),
+        "grasp_frame.py": dict.fromkeys(("FINGER_GAP", "FINGER_REACH", "FINGER_THICKNESS", "FINGER_WIDTH"), GRIPPER)
+        | {"_RIGHT_ANGLE": TOLERANCE},
         "floor_clearance.py": {"_LEVEL": TOLERANCE, "_NOTHING": TOLERANCE},
         "grip_point.py": {"_EDGE": TOLERANCE},
         "kinematics.py": {"_ALIKE": TOLERANCE},

@@ -51,7 +51,7 @@ def test_a_front_that_runs_gets_a_box(free):
 def test_the_box_of_a_front_that_got_no_joint_is_taken_back(free):
     boards = {a.part.id for a in free.body.additions if a.part.carried_by}
     root = Link(free.object.root, tuple(v for link in free.object.links for v in link.visuals))
-    still = replace(free.object, links=(root,), joints=())
+    still = replace(free.object, links=(root,), joints=(), grasps=())
     body, realized = without_idle(free.body, Realized(still, free.report, free.fittings.scene))
     assert boards
     assert not boards & {a.part.id for a in body.additions}

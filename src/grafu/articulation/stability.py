@@ -157,9 +157,10 @@ def _pulls(articulated: ArticulatedObject, joint: Joint, config: StabilityConfig
         return []
     usual = config.turning_pull if joint.kind.turns else config.sliding_pull
     before = values_before(articulated, joint.id)
+    others = {other.id: before[other.id] for other in articulated.free_joints}
     found = []
     for value in (joint.limits.lower, joint.limits.upper):
-        grip = grip_point(articulated, joint, {**before, joint.id: value})
+        grip = grip_point(articulated, joint, {**others, joint.id: value})
         if np.linalg.norm(grip.direction) > 0:
             found.append(_Pull(joint.id, grip.point, grip.direction, usual))
     return found
