@@ -60,6 +60,14 @@ def test_a_drawer_keeps_a_lap_on_its_rails():
     assert (outcome.count, outcome.mechanism) == (2, MechanismClass.CENTRE)
 
 
+def test_a_drawer_that_is_stated_to_come_out_further_keeps_a_shorter_lap():
+    asset = drawer()
+    stated = replace(asset, joints=(sliding("drawer", (0.0, -1.0, 0.0), upper=0.38),))
+    outcome = installed(realized(stated))["drawer"]
+    assert outcome.opening == pytest.approx(0.9 * 0.95 * 0.4, rel=0.01)
+    assert (outcome.count, outcome.restricted) == (2, False)
+
+
 def test_a_board_before_a_drawer_ends_its_travel():
     board = box("board", (-0.1, -0.33, 0.05), (0.1, -0.3, 0.1))
     asset = drawer()

@@ -199,7 +199,7 @@ def place_rails(search: DrawerSearch, gallery: Gallery) -> Placement | None:
 def _with_hardware(model: RailModel, spot: RailSpot, region: BodyRegion, search: DrawerSearch) -> Placement | None:
     """Returns the placement of both rails at a spot; None where one finds no hold or gets in the way."""
     template = model.build(spot.size)
-    upper = search.travel(search.reach if search.is_leaf else template.range)
+    upper = search.travel(search.reach if search.is_leaf else search.reach_on(template))
     if upper < search.config.least_opening * search.wanted:
         return None
     track = _track(template, model, upper) if search.is_leaf else template.static

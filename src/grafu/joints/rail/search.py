@@ -28,6 +28,7 @@ from grafu.joints.rail.spots import front_only_region
 from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.border import SNAP, part_axes
 from grafu.scene.scene import Obstacle, Scene
+from grafu.templates.template import RailTemplate
 from grafu.vocabulary import PartLabel
 
 
@@ -103,12 +104,21 @@ class DrawerSearch:
     def reach(self) -> float:
         """The travel that rails could give, metres: over the container's depth, or the depth behind a mere front.
 
+        A travel that is stated has them lap less, see `RailConfig`.
         Tracks of a sliding door give what is asked for, or its own width, as far as it is free and stays beside the
         static body.
         """
         depth = max(self.frame.depth, self.region.length if self.region else 0.0)
-        usual = self.config.rail.travel * depth
+        usual = max(self.config.rail.travel * depth, min(self._stated, self.config.rail.stated_travel * depth))
         return max(usual, self._free_beside) if self.is_leaf else usual
+
+    def reach_on(self, rail: RailTemplate) -> float:
+        """Returns how far a rail lets the drawer travel, metres: further than usual where that is stated."""
+        return max(rail.range, min(self._stated, self.config.rail.most_of_rail * rail.size.length))
+
+    @property
+    def _stated(self) -> float:
+        return self.request.reference or 0.0
 
     @cached_property
     def _free_beside(self) -> float:
