@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pictures_additions
 import pictures_edit
+import pictures_motions
 import pictures_pages
 import pictures_prepare
 import pictures_sheets
@@ -27,7 +28,8 @@ from grafu.templates.gallery import builtin_gallery
 ROOT = Path(__file__).parent.parent
 COLOURS = 256  # a palette is a third of the bytes, and on plain wood the difference is invisible
 BEFORE_AFTER = "before_after"
-SHEETS = {**pictures_additions.SHEETS, **pictures_edit.SHEETS, **pictures_pages.SHEETS, **pictures_prepare.SHEETS}
+MODULES = pictures_additions, pictures_edit, pictures_motions, pictures_pages, pictures_prepare
+SHEETS = {name: draw for module in MODULES for name, draw in module.SHEETS.items()}
 
 
 def main() -> int:
