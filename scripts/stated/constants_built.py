@@ -145,6 +145,7 @@ def joints() -> Iterator[Sentence]:
     yield page, "2 hinges up to {} m and one more per {} m", (hinge.two_up_to, hinge.one_more_per)
     yield page, "length {} of the body", (BUILT.rail_ratio,)
     yield page, "Travel: {} of the rail", (TRAVEL,)
+    yield page, "up to {} where that much is stated", (BUILT.rail.most_of_rail,)
     yield page, "| {} % of the side |", (per_cent(BUILT.max_trim),)
     yield page, "shrunk on all sides | {} % of its volume |", (per_cent(BUILT.max_carve),)
     yield page, "cut out of a static part | {} % of its surface or volume |", (per_cent(BUILT.max_carve),)

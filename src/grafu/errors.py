@@ -84,5 +84,9 @@ class ExportError(FunctionalizationError):
     """A format cannot express the object, or the output cannot be written."""
 
 
+class NotBuilt(FunctionalizationError):
+    """The editor's process could not build what was asked for, or was stopped."""
+
+
 class TooComplex(FunctionalizationError):
     """Work on a part, or on the whole, would take more time or memory than its budget allows."""

@@ -22,7 +22,8 @@ from grafu.additions.top.config import (
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
-from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, RailConfig, RailFootingConfig
+from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, RailConfig
+from grafu.joints.rail_footing_config import RailFootingConfig
 
 CONFIGS = (
     BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, ClearanceConfig, CutoutConfig, DrawerBoxConfig,

@@ -9,12 +9,12 @@ from typing import Any
 from starlette.testclient import TestClient
 
 from grafu.asset.edit import as_static_object
-from grafu.editor.builder import Answer, NotBuilt
+from grafu.editor.builder import Answer
 from grafu.editor.building import Bench, Order
 from grafu.editor.server import EditedModels, application
 from grafu.editor.session import Session
 from grafu.editor.workspace import Workspace
-from grafu.errors import FunctionalizationError
+from grafu.errors import FunctionalizationError, NotBuilt
 from grafu.export.glb import export_glb
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case

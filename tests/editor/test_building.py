@@ -7,8 +7,9 @@ from threading import Thread
 
 import pytest
 
-from grafu.editor.builder import STOPPED, BuildProcess, NotBuilt
+from grafu.editor.builder import STOPPED, BuildProcess
 from grafu.editor.building import GEOMETRY, STATE, TEXTURES, Bench, Order, order_of
+from grafu.errors import NotBuilt
 from grafu.joints.motion_choice import FIXED
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings

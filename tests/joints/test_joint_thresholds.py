@@ -31,8 +31,8 @@ from grafu.joints.rail_config import (
     DrawerConfig,
     FlankConfig,
     RailConfig,
-    RailFootingConfig,
 )
+from grafu.joints.rail_footing_config import RailFootingConfig
 from grafu.joints.stay_config import StayConfig
 from grafu.joints.swivel_mirrors import MirrorConfig
 from grafu.joints.tilting_fronts import TiltConfig

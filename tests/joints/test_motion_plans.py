@@ -121,7 +121,9 @@ def test_a_completed_graph_and_the_annotation_build_the_same(kind):
     plan = plan_from_completion(completion, bare)
     assert {r.moving: r.type for r in plan.joints} == {j.part: j.type for j in asset.joints}
     assert {r.source for r in plan.joints} == {completion.source}
-    from_graph, stated = installed(realize(plan, bare, GALLERY)), installed(realized(asset))
+    annotated, usual = plan_from_annotation(asset), {r.moving: r.reference for r in plan.joints}
+    as_far = replace(annotated, joints=tuple(replace(r, reference=usual[r.moving]) for r in annotated.joints))
+    from_graph, stated = (installed(realize(built, bare, GALLERY)) for built in (plan, as_far))
     for part, outcome in from_graph.items():
         assert (outcome.mechanism, outcome.template) == (stated[part].mechanism, stated[part].template)
         assert outcome.opening == pytest.approx(stated[part].opening, abs=1e-3)

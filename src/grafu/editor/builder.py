@@ -14,14 +14,10 @@ from threading import Lock
 from typing import Any, Final, Protocol, final, runtime_checkable
 
 from grafu.editor.building import Order
-from grafu.errors import FunctionalizationError
+from grafu.errors import NotBuilt
 
 PRIVATE: Final = {"ORT_DISABLE_TELEMETRY": "1"}
 STOPPED: Final = "it was stopped"
-
-
-class NotBuilt(FunctionalizationError):
-    """What was asked for could not be built; the message is for the user."""
 
 
 @final

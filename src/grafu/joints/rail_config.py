@@ -5,6 +5,7 @@ from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.joints.rail_footing_config import RailFootingConfig
 from grafu.visible import ShortRepr
 
 
@@ -233,26 +234,6 @@ class BehindConfig:
 
 @final
 @dataclass(frozen=True)
-class RailFootingConfig:
-    """Sizes of the blocks between a rail and what carries it, and how far they reach.
-
-    Raises:
-        ValueError: if a fraction is not between 0 and 1.
-    """
-
-    wall: float = 0.98
-    """Side of a block or divider between a rail and the wall (fraction of the rail's)."""
-    side: float = 0.9
-    """Side of a block towards the drawer, or on a rail's other sides (fraction of that side's)."""
-    drawer_reach: float = 0.2
-    """Longest block between a rail and its drawer (fraction of the drawer's width)."""
-
-    def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
-
-
-@final
-@dataclass(frozen=True)
 class RailConfig(ShortRepr):
     """Sizes of rails and of the dividers that carry them.
 
@@ -281,8 +262,6 @@ class RailConfig(ShortRepr):
     """A shallow drawer before a space so many times as deep is a front with its pull, not a container (ratio)."""
     travel: float = 0.77
     """Fraction of the depth that a drawer travels: what rails over 0.9 of a body travel with a lap of 15 %."""
-    stated_travel: float = 0.855
-    """Fraction of the depth that a drawer travels at most where so much is stated: with a lap of 5 %."""
     most_of_rail: float = 0.95
     """Fraction of a rail's length that it gives at most, where more is stated than its template gives."""
     least_travel: float = 1e-3
@@ -300,4 +279,4 @@ class RailConfig(ShortRepr):
 
     def __post_init__(self) -> None:
         require_positive(self, *(set(self.__dataclass_fields__) - {"footing", "flank", "behind"}))
-        require_ratios(self, "dynamic_reach", "most_inset", "travel", "stated_travel", "most_of_rail", "around")
+        require_ratios(self, "dynamic_reach", "most_inset", "travel", "most_of_rail", "around")

@@ -27,7 +27,7 @@ from grafu.joints.plan import Supports
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
 from grafu.joints.rail.search import DrawerSearch
 from grafu.joints.rail.spots import RailSpot, flank_gaps, rail_spots
-from grafu.joints.rail_config import RailFootingConfig
+from grafu.joints.rail_footing_config import RailFootingConfig
 from grafu.joints.report import Placement
 from grafu.joints.support_block import Footing, block, nearest_part, shortest_bridge
 from grafu.scene.scene import Obstacle

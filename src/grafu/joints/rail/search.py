@@ -109,7 +109,8 @@ class DrawerSearch:
         static body.
         """
         depth = max(self.frame.depth, self.region.length if self.region else 0.0)
-        usual = max(self.config.rail.travel * depth, min(self._stated, self.config.rail.stated_travel * depth))
+        most = self.config.rail_ratio * self.config.rail.most_of_rail
+        usual = max(self.config.rail.travel * depth, min(self._stated, most * depth))
         return max(usual, self._free_beside) if self.is_leaf else usual
 
     def reach_on(self, rail: RailTemplate) -> float:
