@@ -23,6 +23,7 @@ from grafu.synth.openings.window import drawn_window, make_window
 from grafu.synth.sampling.chance import between, chance
 from grafu.synth.tables.drop_leaf import drawn_drop_leaf_table, drawn_supported_table, make_drop_leaf_table
 from grafu.synth.tables.extending import ExtendingTable, make_extending_table
+from grafu.synth.truth.check import faults_of
 from grafu.vocabulary import PartLabel
 
 Maker = Callable[[np.random.Generator, str], Asset]
@@ -63,24 +64,26 @@ Wanted = Callable[[Asset, AnnotatedJoint], bool]
 
 
 def _of_families(families: tuple[str, ...], wanted: Wanted) -> Maker:
-    """Returns a maker that draws pieces of the generator's families until one has such a joint."""
+    """Returns a maker that draws pieces of the generator's families until one has such a joint, and no fault."""
 
     def make(rng: np.random.Generator, name: str) -> Asset:
         while True:
             asset = draw_made(rng, families[int(rng.integers(len(families)))])[1]
-            if any(wanted(asset, joint) for joint in (*asset.joints, *asset.small_joints)):
+            has_it = any(wanted(asset, joint) for joint in (*asset.joints, *asset.small_joints))
+            if has_it and not faults_of(asset):
                 return replace(asset, name=name)
 
     return make
 
 
 def _drawn(words: str, families: tuple[str, ...]) -> Maker:
-    """Returns a maker that draws pieces of families until the spec, or a part of one, is called so."""
+    """Returns a maker that draws pieces of families until the spec, or a part of one, is called so; without faults."""
 
     def make(rng: np.random.Generator, name: str) -> Asset:
         while True:
             made, asset = draw_made(rng, families[int(rng.integers(len(families)))])
-            if words in repr(made.spec) or any(part.id == words for part in asset.parts):
+            has_it = words in repr(made.spec) or any(part.id == words for part in asset.parts)
+            if has_it and not faults_of(asset):
                 return replace(asset, name=name)
 
     return make

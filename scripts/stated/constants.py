@@ -9,7 +9,7 @@ from math import degrees
 from grafu.asset import loose
 from grafu.asset.foreign import matching
 from grafu.cli import evaluate, limit_options
-from grafu.completion.config import DecodeConfig
+from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig
 from grafu.completion.session import SHIPPED_WEIGHTS
 from grafu.data.corruption.config import PAPER as CORRUPTION

@@ -5,7 +5,7 @@ from math import log
 import numpy as np
 import pytest
 
-from grafu.completion.config import DecodeConfig
+from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig
 from grafu.completion.network import label_parts
 from grafu.geometry.box import Box

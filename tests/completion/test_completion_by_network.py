@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grafu.completion.config import ADDABLE, DecodeConfig
+from grafu.completion.decode_config import ADDABLE, DecodeConfig
 from grafu.completion.doors import hang_door
 from grafu.completion.drawers import run_drawer
 from grafu.completion.features import FeatureConfig, GraphFeatures, Scores

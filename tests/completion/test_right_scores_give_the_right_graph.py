@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from grafu.completion.config import ADDABLE
+from grafu.completion.decode_config import ADDABLE
 from grafu.completion.features import FeatureConfig, GraphFeatures, Scores
 from grafu.completion.network import complete_by_network
 from grafu.completion.session import GraphNetwork

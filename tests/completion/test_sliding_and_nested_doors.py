@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from grafu.completion.config import DecodeConfig
+from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig
 from grafu.completion.network import complete_by_network
 from grafu.geometry.box import Box

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from typing import final
 
 from grafu.completion.answers import move_parts
-from grafu.completion.config import DecodeConfig
+from grafu.completion.columns import agreed_borders
+from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.doors import slide_door
 from grafu.completion.probabilities import Probabilities
 from grafu.completion.rule_scene import RuleScene
-from grafu.completion.selection import choose_hinge, choose_parent, choose_rails
+from grafu.completion.selection import borders_of, choose_hinge, choose_parent, choose_rails
 from grafu.completion.slots import NewPart
 from grafu.completion.view import GraphView
 from grafu.graph.completion import Decision, GraphCompletion
@@ -80,9 +81,11 @@ def complete_decoded(
     """
     view = decoded.view
     scene = RuleScene(view.graph)
+    doors = [node for node in view.graph.labelled(PartLabel.DOOR) if node.id in view.given]
+    agreed = agreed_borders(doors, {door.id: borders_of(door, view, scene) for door in doors}, view.config.columns)
     motions = move_parts(
         scene,
-        lambda door: choose_hinge(door, view, scene),
+        lambda door: choose_hinge(door, view, scene, agreed.get(door.id, 1.0)),
         lambda drawer: choose_rails(drawer, view, scene),
         lambda door, other: slide_door(door, other, scene),
     )

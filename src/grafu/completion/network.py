@@ -14,8 +14,8 @@ import numpy as np
 from jaxtyping import Bool, Int
 
 from grafu.completion.answers import decision_of
-from grafu.completion.config import DecodeConfig
 from grafu.completion.decode import complete_decoded, decode_graph
+from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.session import GraphNetwork

@@ -85,17 +85,37 @@ def parent_ratios(slot: int, slots: Indices, view: GraphView) -> tuple[Scalars, 
     return chosen[:-1] * (view.config.some_parent + view.probabilities.edge[slot, slots, ATTACHED]), float(chosen[-1])
 
 
-def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene) -> MotionAnswer:
+def borders_of(door: PartNode, view: GraphView, scene: RuleScene) -> Scalars:
+    """Returns what a door's choice among its four borders weighs, seen for itself; all 0 without supports."""
+    if not len(view.supports):
+        return np.zeros(len(BORDERS))
+    motion = np.einsum("k,kbs->bs", *_hinges(door, _carriers(door, view), view))
+    return np.asarray(leaned_motion(door, motion, view.config.outward, scene).sum(axis=1))
+
+
+def _carriers(door: PartNode, view: GraphView) -> Indices:
+    """Returns the slots of what may carry a door: supports within reach, and doors that it likely hangs on."""
+    return np.concatenate([view.within_reach(door, view.supports), view.hinged_doors(door)])
+
+
+def _hinges(door: PartNode, slots: Indices, view: GraphView) -> tuple[Scalars, np.ndarray]:
+    """Returns how likely each slot carries a door, and on each the table of border and sign (k, 4, 2)."""
+    slot = view.place[door.id]
+    mounts = softmax(view.probabilities.mount[slot, slots]) * view.probabilities.edge[slot, slots, HINGE]
+    return mounts, view.probabilities.hinge[slot, slots]
+
+
+def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene, agreed: Scalars | float = 1.0) -> MotionAnswer:
     """Returns the hinge of a door, or its slide, with the confidence of each choice, or why it gets none.
 
     The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
     missing it never saw any, and the rule hangs them on what there is. Where it is of two minds, the door opens
     outwards. `scene` is the same graph with its handles attached: where they sit states which face is the front.
+    `agreed` multiplies the borders' probabilities in the choice, see `agreed_borders`.
     """
     if not len(view.supports):
         return Refusal(door.id, Reason.NO_MOTION, _NO_SUPPORT)
-    slot, slots = view.place[door.id], view.within_reach(door, view.supports)
-    slots = np.concatenate([slots, view.hinged_doors(door)])
+    slot, slots = view.place[door.id], _carriers(door, view)
     hinged, slid = (view.probabilities.edge[slot, slots, kind] for kind in (HINGE, SLIDE))
     if slid.max() >= view.config.slides and slid.max() > hinged.max():
         return _choose_slide(door, slots, slid, view)
@@ -105,11 +125,10 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene) -> MotionAns
         return Refusal(
             door.id, Reason.NO_MOTION, f"the network sees no part that carries it: hinges at most {hinged.max():.2f}"
         )
-    mounts = softmax(view.probabilities.mount[slot, slots]) * hinged
-    motions = view.probabilities.hinge[slot, slots]
+    mounts, motions = _hinges(door, slots, view)
     motion = np.einsum("k,kbs->bs", mounts, motions)
     leaned = leaned_motion(door, motion, view.config.outward, scene)
-    border = chosen_of(BORDERS, motion.sum(axis=1), leaned.sum(axis=1))
+    border = chosen_of(BORDERS, motion.sum(axis=1), leaned.sum(axis=1) * agreed)
     flap = _plain_flap(door, border.choice, scene)
     border = flap or border
     sign = chosen_of(SIGNS, motion[border.choice], leaned[border.choice])

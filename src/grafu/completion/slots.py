@@ -6,7 +6,7 @@ from typing import final
 import numpy as np
 
 from grafu.completion.answers import decision_of
-from grafu.completion.config import ADDABLE
+from grafu.completion.decode_config import ADDABLE
 from grafu.completion.features import object_frame
 from grafu.completion.selection import parent_ratios
 from grafu.completion.view import GraphView

@@ -7,7 +7,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Int64
 
-from grafu.completion.config import DecodeConfig
+from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.probabilities import Probabilities
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.arrays import HINGE
