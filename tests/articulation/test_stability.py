@@ -12,7 +12,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint, Join
 from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.counterbalance import GRAVITY
 from grafu.articulation.mass import MassProperties
-from grafu.articulation.stability import Stability, stability_of
+from grafu.articulation.stability import Stability, stability_of, standing_points
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -126,3 +126,10 @@ def test_what_leans_on_a_wall_tips_while_it_is_closed():
     assert found.margin == pytest.approx(-0.15 - (5.0 * -0.21) / 25.0)
     assert found.tipping_force == 0.0
     assert found.weight_needed > 0
+
+
+@pytest.mark.parametrize(("apart", "depth"), [(0.008, 0.4), (0.02, 0.05)])
+def test_feet_a_little_apart_in_height_are_leaned_onto_and_others_hang(apart, depth):
+    front, rear = shape((-0.5, -0.2, 0.0, 0.5, -0.15, 0.1)), shape((-0.5, 0.15, apart, 0.5, 0.2, 0.1))
+    points = standing_points({"case": (*front, *rear, *shape((-0.5, -0.2, 0.1, 0.5, 0.2, 1.0)))})
+    assert float(np.ptp(points[:, 1])) == pytest.approx(depth)

@@ -35,8 +35,9 @@ class StabilityConfig:
         ValueError: if a number is not above 0.
     """
 
-    on_floor: float = 0.005
-    """What reaches no higher than this above the lowest point stands on the floor."""
+    on_floor: float = 0.012
+    """What reaches no higher than this above the lowest point stands on the floor: feet are drawn up to a centimetre
+    apart, and the piece leans until they meet it."""
     turning_pull: float = 20.0
     """The pull at a door's grip that must not tip the piece ..."""
     sliding_pull: float = 30.0
