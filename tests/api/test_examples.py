@@ -9,6 +9,17 @@ import pytest
 
 ROOT = Path(__file__).parent.parent.parent
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+WITH_MUJOCO = [path for path in EXAMPLES if "import mujoco" in path.read_text()]
+OTHERS = [path for path in EXAMPLES if path not in WITH_MUJOCO]
+
+# In one process the package is imported once; each example has a folder and a namespace of its own
+RUN = """
+import contextlib, os, runpy, sys
+for path in sys.argv[1:]:
+    os.chdir(os.path.join(START, os.path.splitext(os.path.basename(path))[0]))
+    with open("said.txt", "w") as said, contextlib.redirect_stdout(said):
+        runpy.run_path(path, run_name="__main__")
+"""
 
 
 def test_the_table_lists_each_example_once() -> None:
@@ -17,15 +28,18 @@ def test_the_table_lists_each_example_once() -> None:
     assert len(EXAMPLES) == 6
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_an_example_runs_as_it_stands(path: Path, tmp_path: Path) -> None:
-    if "import mujoco" in path.read_text():
+@pytest.mark.parametrize("paths", [OTHERS, WITH_MUJOCO], ids=["package alone", "with MuJoCo"])
+def test_examples_run_as_they_stand(paths: list[Path], tmp_path: Path) -> None:
+    assert paths
+    if paths == WITH_MUJOCO:
         pytest.importorskip("mujoco")
-    (tmp_path / "samples").symlink_to(ROOT / "samples")
+    for path in paths:
+        (tmp_path / path.stem).mkdir()
+        (tmp_path / path.stem / "samples").symlink_to(ROOT / "samples")
     environment = {**os.environ, "PYTHONWARNINGS": "error"}
-    done = subprocess.run(
-        [sys.executable, str(path)], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
-    )
+    command = [sys.executable, "-c", f"START = {str(tmp_path)!r}\n{RUN}", *map(str, paths)]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    assert done.stdout.strip()
-    assert (tmp_path / "results").exists() is (".save(" in path.read_text())
+    for path in paths:
+        assert (tmp_path / path.stem / "said.txt").read_text().strip(), path.name
+        assert (tmp_path / path.stem / "results").exists() is (".save(" in path.read_text()), path.name

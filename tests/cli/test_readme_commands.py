@@ -51,14 +51,21 @@ def test_no_line_writes_where_an_earlier_one_of_the_page_did(page: str) -> None:
     assert len(set(written)) == len(written)
 
 
-@pytest.mark.parametrize("page", PAGES)
 def test_the_commands_of_a_page_run_one_after_another_in_one_folder(
-    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "samples").symlink_to(ROOT / "samples")
-    for line in filter(is_short, PAGES[page]):
-        assert main([*arguments_of(line), *(["--no-page"] if "functionalize" in line else [])]) == 0, line
+    """A command that stands twice, but for the folder that it writes, runs once."""
+    done = set()
+    for page, lines in PAGES.items():
+        folder = tmp_path / Path(page).stem
+        folder.mkdir()
+        monkeypatch.chdir(folder)
+        (folder / "samples").symlink_to(ROOT / "samples")
+        for line in filter(is_short, lines):
+            if (what := re.sub(r" --out \S+", "", line).strip()) not in done:
+                assert main([*arguments_of(line), *(["--no-page"] if "functionalize" in line else [])]) == 0, line
+            done.add(what)
+    assert len(done) >= 10
 
 
 def test_the_python_runs_as_it_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

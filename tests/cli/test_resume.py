@@ -178,7 +178,7 @@ def test_a_page_that_holds_no_picture_costs_no_model(copied: Job, what: str) -> 
         SPOILS[what](path)
     else:
         bomb = BytesIO()
-        Image.new("L", (16_000, 12_000)).save(bomb, "WEBP", quality=1, method=0)
+        Image.new("L", (4_000, 3_000)).save(bomb, "WEBP", quality=1, method=0)
         path.write_text(page.format("AAA" if what == "no picture" else b64encode(bomb.getvalue()).decode()))
 
     assert small_picture_in(copied.folder) == b""

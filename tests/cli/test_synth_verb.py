@@ -15,25 +15,25 @@ from grafu.cli.main import main
 from grafu.data import write
 from grafu.data.write import models_written
 
-FEW = ["synth", "--points", "8", "--models-per-shard", "10"]
+FEW = ["synth", "--points", "8", "--models-per-shard", "4"]
 
 pytestmark = pytest.mark.usefixtures("remembered")
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    """The files of a run of 30 models that nothing stopped."""
+    """The files of a run of 12 models that nothing stopped."""
     folder = tmp_path_factory.mktemp("runs") / "whole"
-    assert main([*FEW, "--count", "30", "--jobs", "1", "--out", str(folder)]) == 0
+    assert main([*FEW, "--count", "12", "--jobs", "1", "--out", str(folder)]) == 0
     return contents(folder)
 
 
 def test_jobs_change_no_byte(whole: dict[str, bytes], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([*FEW, "--count", "30", "--jobs", "2", "--out", str(tmp_path)]) == 0
+    assert main([*FEW, "--count", "12", "--jobs", "2", "--out", str(tmp_path)]) == 0
     assert contents(tmp_path) == whole
     said = capsys.readouterr().out
-    assert "30 models" in said
-    assert "30 made in" in said
+    assert "12 models" in said
+    assert "12 made in" in said
     assert f"written to {tmp_path}" in said
 
 
@@ -42,24 +42,24 @@ def test_an_interrupted_run_says_how_to_go_on(
 ) -> None:
     def interrupted(items: Iterable[object], total: int, word: str) -> Iterator[object]:
         for place, item in enumerate(items):
-            if place == 17:
+            if place == 7:
                 raise KeyboardInterrupt
             yield item
 
-    command = [*FEW, "--count", "30", "--jobs", "1", "--out", str(tmp_path)]
+    command = [*FEW, "--count", "12", "--jobs", "1", "--out", str(tmp_path)]
     with monkeypatch.context() as patch:
         patch.setattr("grafu.cli.terminal.with_progress", interrupted)
         assert main(command) == 130
     said = capsys.readouterr().err
     assert said.count("\n") == 1
-    assert "10 models stand in whole files" in said
+    assert "4 models stand in whole files" in said
 
     assert main(command) == 0
-    assert "20 made in" in (again := capsys.readouterr().out)
-    assert "10 were there before" in again
+    assert "8 made in" in (again := capsys.readouterr().out)
+    assert "4 were there before" in again
     assert contents(tmp_path) == whole
     assert main(command) == 0
-    assert "nothing to make: 30 models are there" in capsys.readouterr().out
+    assert "nothing to make: 12 models are there" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -87,9 +87,9 @@ def test_a_killed_run_goes_on(
     assert sent is signal.SIGKILL or said.count(b"\n") == 1
 
     kept = models_written(folder)
-    assert kept % 10 == 0
+    assert kept % 4 == 0
     assert kept or awaited == "dataset.json"
-    assert main([*FEW, "--count", str(max(kept, 30)), "--jobs", "1", "--out", str(folder)]) == 0
+    assert main([*FEW, "--count", str(max(kept, 12)), "--jobs", "1", "--out", str(folder)]) == 0
     assert whole.items() <= contents(folder).items()
 
 

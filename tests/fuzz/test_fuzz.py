@@ -76,9 +76,9 @@ def test_what_is_not_changed_is_read(cases):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("first", range(0, 180, 60))
-def test_no_case_breaks_a_rule(first):
-    plan = Plan(15, tuple(range(first, first + 60)))
+def test_no_case_breaks_a_rule():
+    """The first of them: `make fuzz` runs as many as one likes."""
+    plan = Plan(15, tuple(range(60)))
     answers = run_cases(plan)
     assert len(answers) == 60
     assert [repeat_line(plan, answer) for answer in answers if answer.broken] == []

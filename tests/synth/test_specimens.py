@@ -49,10 +49,10 @@ def test_numbers_are_not_negative(seed: int, index: int) -> None:
 
 
 def test_specimens_are_sound() -> None:
-    judged = specimens()[::3]  # as exported: before that, no specimen with a fault is kept
+    judged = specimens()[::5]  # as exported: before that, no specimen with a fault is kept
     found = {s.id: faults for s in judged if (faults := faults_in(s))}
 
-    assert len(found) <= 0.01 * NUMBER, found
+    assert found == {}
 
 
 def test_specimens_keep_their_promises() -> None:

@@ -28,6 +28,9 @@ LITTLE = replace(
 )
 
 
+SMALL = (1, 4, 17)  # the first models of seed 3 that have 4 to 16 parts: to look for them takes longer than a run
+
+
 @final
 @dataclass(frozen=True)
 class FewModels:
@@ -49,9 +52,9 @@ class FewModels:
 
 @lru_cache(maxsize=2)
 def few_pairs(seed: int) -> tuple[GraphPair, ...]:
-    pairs = (record_pair(record_of(make_specimen(seed, index, 64))) for index in range(40))
-    small = (pair for pair in pairs if 4 <= len(pair.input.nodes) <= 16)
-    return tuple(next(small) for _ in range(3))
+    pairs = tuple(record_pair(record_of(make_specimen(seed, index, 64))) for index in SMALL)
+    assert all(4 <= len(pair.input.nodes) <= 16 for pair in pairs)
+    return pairs
 
 
 def little(steps: int = 4, **changes: object) -> TrainingConfig:
