@@ -35,7 +35,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.fixture(scope="module")
 def remembered() -> Iterator[None]:
-    """Streams and writers of this process take their specimens from `remembered`, where each is made once."""
+    """Streams, writers and training take their specimens from `remembered`, where each is made once a process."""
     from remembered import remember
 
     with pytest.MonkeyPatch.context() as patch:

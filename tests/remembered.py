@@ -7,6 +7,7 @@ import pytest
 from grafu.data import stream, write, write_plan
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
+from grafu.training import source
 
 
 @cache
@@ -16,6 +17,6 @@ def specimen(seed: int, index: int, points: int) -> Specimen:
 
 
 def remember(patch: pytest.MonkeyPatch) -> None:
-    """Lets streams and writers of this process take their specimens from here; other processes still make theirs."""
-    for module in (stream, write, write_plan):
+    """Lets streams, writers and training take their specimens from here; other processes still make theirs."""
+    for module in (stream, write, write_plan, source):
         patch.setattr(module, "make_specimen", specimen)

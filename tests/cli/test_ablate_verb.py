@@ -11,9 +11,11 @@ from grafu.training.ablation import FOLDS_TRIED, KINDS
 
 TINY = ["--config", "tiny", "--steps", "2", "--jobs", "1"]
 
+pytestmark = pytest.mark.usefixtures("remembered")
+
 
 @pytest.fixture(scope="module")
-def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def done(tmp_path_factory: pytest.TempPathFactory, remembered: None) -> Path:
     folder = tmp_path_factory.mktemp("ablations") / "folds"
     assert main(["ablate", "folds", *TINY, "--out", str(folder)]) == 0
     return folder

@@ -56,7 +56,16 @@ def out(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def server(model: Path, out: Path) -> Iterator[Server]:
+    """A server that the test may kill."""
     server = Server(str(model), "--out", str(out))
+    yield server
+    server.kill()
+
+
+@pytest.fixture(scope="module")
+def lasting(model: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    """A server that the other tests share, with what was changed before."""
+    server = Server(str(model), "--out", str(tmp_path_factory.mktemp("lasting") / "out"))
     yield server
     server.kill()
 
@@ -139,8 +148,8 @@ def test_a_wrong_hinge_is_set_right_undone_and_survives_the_server(browser, serv
         again.kill()
 
 
-def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, server):
-    opened(browser, server)
+def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, lasting):
+    opened(browser, lasting)
     browser.press("n", "KeyN")
     part = browser.run("grafuEditor.inspector.part")
     assert part
@@ -164,18 +173,18 @@ def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, server):
     assert 0 < browser.run(fraction) < 1
     browser.press("o", "KeyO")
     wait(browser, f"[0, 1].includes({fraction})")
-    assert browser.complaints(server.address) == []
+    assert browser.complaints(lasting.address) == []
 
 
-def test_without_the_token_a_browser_sees_nothing(browser, server):
-    host = server.address.split("/")[2]
+def test_without_the_token_a_browser_sees_nothing(browser, lasting):
+    host = lasting.address.split("/")[2]
     browser.go(f"http://{host}/")
     assert "403" in browser.run("document.body.textContent")
 
 
 @pytest.mark.skipif(not AXE.is_file(), reason="axe-core comes by npm install")
-def test_axe_finds_nothing(browser, server):
-    opened(browser, server)
+def test_axe_finds_nothing(browser, lasting):
+    opened(browser, lasting)
     browser.run(f"grafuEditor.pick({DOOR!r})")
     browser.run("document.querySelectorAll('details').forEach((one) => (one.open = true))")
     browser.run(AXE.read_text() + ";1")

@@ -12,6 +12,7 @@ from judging import deepest_cut, hardware, installed, made_kind, realized_kind, 
 
 CUT = 0.001  # of the object's largest side: what hardware is inset by where there is no room
 TOUCH = 0.0008  # of the object's largest side: more is a collision
+UNTOUCHED = [kind for kind in TIDY if not kind.startswith("drawers tight")]
 
 
 @pytest.fixture(scope="module", params=KINDS)
@@ -87,14 +88,14 @@ def test_the_report_says_what_the_judge_finds(kind):
         assert outcome.source == "annotation"
 
 
-@pytest.mark.parametrize("kind", [kind for kind in TIDY if not kind.startswith("drawers tight")])
-def test_tidy_furniture_is_left_as_it_was(kind):
+def test_nothing_is_cut_but_what_the_report_names_and_of_tidy_furniture_nothing(kind):
     asset, result = made_kind(kind), realized_kind(kind)
     before = {v.name: v.surfaces for v in as_static_object(asset).links[0].visuals}
-    assert not any(outcome.clearances for outcome in result.report.installed)
+    named = {clearance.part for outcome in result.report.installed for clearance in outcome.clearances}
+    assert not named or kind not in UNTOUCHED
     for link in result.object.links:
         for visual in link.visuals:
-            assert visual.role is VisualRole.HARDWARE or visual.surfaces == before[visual.name]
+            assert visual.role is VisualRole.HARDWARE or visual.name in named or visual.surfaces == before[visual.name]
 
 
 def test_the_judge_sees_a_door_that_turns_into_its_case():

@@ -21,7 +21,7 @@ from grafu.training.workers import Workers
 ALONE = Workers(0, 1, torch.device("cpu"))
 OFTEN = RunOptions(log_every=1)
 
-pytestmark = pytest.mark.usefixtures("one_thread")
+pytestmark = pytest.mark.usefixtures("one_thread", "remembered")
 
 
 def run(
