@@ -17,7 +17,7 @@ RUN = """
 import contextlib, os, runpy, sys
 for path in sys.argv[1:]:
     os.chdir(os.path.join(START, os.path.splitext(os.path.basename(path))[0]))
-    with open("said.txt", "w") as said, contextlib.redirect_stdout(said):
+    with open("output.txt", "w") as said, contextlib.redirect_stdout(said):
         runpy.run_path(path, run_name="__main__")
 """
 
@@ -41,5 +41,5 @@ def test_examples_run_as_they_stand(paths: list[Path], tmp_path: Path) -> None:
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     for path in paths:
-        assert (tmp_path / path.stem / "said.txt").read_text().strip(), path.name
+        assert (tmp_path / path.stem / "output.txt").read_text().strip(), path.name
         assert (tmp_path / path.stem / "results").exists() is (".save(" in path.read_text()), path.name

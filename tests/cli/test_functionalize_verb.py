@@ -10,6 +10,8 @@ from grafu.cli.main import main
 from grafu.graph.serialize import completion_from_json
 from grafu.pipeline.report_schema import Report
 
+LEAST = ("--formats", "urdf", "--no-page")
+
 
 @pytest.fixture(scope="module")
 def result(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -50,7 +52,7 @@ def test_joints_in_the_report_are_those_of_the_urdf(result: Path) -> None:
 
 
 def test_the_summary_tells_what_opened(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "urdf"])
+    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), *LEAST])
     said = capsys.readouterr().out
 
     assert "°" in said
@@ -59,7 +61,7 @@ def test_the_summary_tells_what_opened(tmp_path: Path, capsys: pytest.CaptureFix
 
 
 def test_formats_are_a_choice(tmp_path: Path) -> None:
-    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "GLB"])
+    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "GLB", "--no-page"])
 
     names = {p.name for p in (tmp_path / "out" / "cabinet").iterdir()}
     assert "model.glb" in names
@@ -84,13 +86,13 @@ def test_a_page_for_each_model_and_one_for_several(
 
 
 def test_pages_can_be_left_out(tmp_path: Path) -> None:
-    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--no-page"])
+    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), *LEAST])
 
     assert "report.html" not in {p.name for p in (tmp_path / "out" / "cabinet").iterdir()}
 
 
 def test_overwrite_replaces_an_earlier_result(tmp_path: Path) -> None:
-    arguments = ["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "urdf"]
+    arguments = ["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), *LEAST]
     assert main(arguments) == 0
     assert main(arguments) == 2
     assert main([*arguments, "--overwrite"]) == 0
@@ -117,7 +119,7 @@ def test_wrong_choices_write_nothing(
 
 def test_without_an_annotation_nothing_moves_and_the_report_says_so(tmp_path: Path) -> None:
     source, out = str(write_cabinet(tmp_path)), tmp_path / "out"
-    assert main(["functionalize", source, "--out", str(out), "--motion", "annotation"]) == 0
+    assert main(["functionalize", source, "--out", str(out), "--motion", "annotation", *LEAST]) == 0
     report = Report.model_validate_json((out / "cabinet" / "report.json").read_text())
 
     assert report.joints == ()

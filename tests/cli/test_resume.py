@@ -113,9 +113,9 @@ def test_results_without_a_marker_are_not_taken_for_ours(part_of_it: Job) -> Non
 
 
 def test_a_model_that_was_mended_by_hand_is_done(done: Job, tmp_path: Path) -> None:
-    arguments = ["functionalize", str(done.input), "--out", str(tmp_path), "--formats", "urdf"]
+    arguments = ["functionalize", str(done.input), "--out", str(tmp_path), "--formats", "urdf", "--no-page"]
     assert main([*arguments, "--move", "door=right"]) == 0
-    result = run_job(Job(done.input, done.name, JobOptions(tmp_path, formats=("urdf",), resume=True)))
+    result = run_job(Job(done.input, done.name, JobOptions(tmp_path, formats=("urdf",), page=False, resume=True)))
 
     assert isinstance(result, Succeeded)
     assert result.earlier

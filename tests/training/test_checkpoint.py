@@ -71,7 +71,7 @@ def test_a_missing_key_is_named(folder: Path, name: str, key: str) -> None:
 
 
 @pytest.mark.parametrize(("name", "key"), ALL_KEYS)
-@pytest.mark.parametrize("value", [None, "text", [1], {1: 2}])
+@pytest.mark.parametrize("value", [None, [1], {1: 2}])
 def test_a_value_of_another_type_is_named(folder: Path, name: str, key: str, value: object) -> None:
     assert key in changed(folder, name, lambda state: state.update({key: value}))
 
