@@ -1,6 +1,7 @@
 """Every example runs, from the root of a checkout, and is listed in the table of examples."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 ROOT = Path(__file__).parent.parent.parent
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 WITH_MUJOCO = [path for path in EXAMPLES if "import mujoco" in path.read_text()]
+TWO = ("chest.glb", "sideboard.glb")  # for an example that takes all there are
 OTHERS = [path for path in EXAMPLES if path not in WITH_MUJOCO]
 
 # In one process the package is imported once; each example has a folder and a namespace of its own
@@ -34,8 +36,10 @@ def test_examples_run_as_they_stand(paths: list[Path], tmp_path: Path) -> None:
     if paths == WITH_MUJOCO:
         pytest.importorskip("mujoco")
     for path in paths:
-        (tmp_path / path.stem).mkdir()
-        (tmp_path / path.stem / "samples").symlink_to(ROOT / "samples")
+        samples = tmp_path / path.stem / "samples"
+        samples.mkdir(parents=True)
+        for name in re.findall(r"samples/(\w+\.glb)", path.read_text()) or TWO:
+            (samples / name).symlink_to(ROOT / "samples" / name)
     environment = {**os.environ, "PYTHONWARNINGS": "error"}
     command = [sys.executable, "-c", f"START = {str(tmp_path)!r}\n{RUN}", *map(str, paths)]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)

@@ -61,7 +61,8 @@ def test_the_summary_tells_what_opened(tmp_path: Path, capsys: pytest.CaptureFix
 
 
 def test_formats_are_a_choice(tmp_path: Path) -> None:
-    main(["functionalize", str(write_cabinet(tmp_path)), "--out", str(tmp_path / "out"), "--formats", "GLB", "--no-page"])
+    source, out = str(write_cabinet(tmp_path)), str(tmp_path / "out")
+    main(["functionalize", source, "--out", out, "--formats", "GLB", "--no-page"])
 
     names = {p.name for p in (tmp_path / "out" / "cabinet").iterdir()}
     assert "model.glb" in names
