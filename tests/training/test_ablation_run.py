@@ -17,7 +17,7 @@ from grafu.training.ablation_run import AblationRun, begin_ablation, do_run, do_
 from grafu.training.checkpoint import load_best
 from spoiled_files import DAMAGED, SPOILS
 
-pytestmark = pytest.mark.usefixtures("remembered")
+pytestmark = pytest.mark.usefixtures("one_thread", "remembered")
 
 
 def a_run(folder: Path, name: str = "full", steps: int = 2, seed: int = 1) -> AblationRun:
