@@ -50,6 +50,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return 0
     options = _parsed(parser, words)
+    if begin := getattr(options, "on_begin", None):
+        begin(options)
     keep_private()
     with end_requests_heard() as requests:
         code = exit_code(options, _supervised_or_here if arguments is None else _here)
