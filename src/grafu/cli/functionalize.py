@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.asset.regular_files import read_head
+from grafu.cli.format_option import add_formats_option
 from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.part_options import (
@@ -20,7 +21,6 @@ from grafu.cli.stated_settings import MOST_SETTINGS, stated_settings
 from grafu.cli.telling import add_telling_options, clear_line, show_at_once
 from grafu.cli.verb import complain
 from grafu.errors import OptionError
-from grafu.export.formats import DEFAULT_FORMATS, known_formats
 
 if TYPE_CHECKING:
     from grafu.cli.job import JobOptions, JobResult
@@ -60,12 +60,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "for each name (default: auto)",
     )
     parser.add_argument("--move", action="append", type=part_move, default=[], metavar="PART=HOW", help=MOVE_HELP)
-    parser.add_argument(
-        "--formats",
-        default=",".join(DEFAULT_FORMATS),
-        metavar="LIST",
-        help=f"what to write, separated by commas: {known_formats()} (default: {','.join(DEFAULT_FORMATS)})",
-    )
+    add_formats_option(parser)
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")
     parser.add_argument(

@@ -11,13 +11,15 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from datetime import datetime
+from io import TextIOWrapper
 from pathlib import Path
-from typing import Any, Final, TextIO, final
+from typing import Any, Final, TypeAlias, final
 
 from grafu.errors import OptionError
 from grafu.version import __version__
 from grafu.visible import visible
 
+_Shown: TypeAlias = Any  # a text stream, or what pytest, rich or a notebook has put in its place
 _STEERING: Final = re.compile(r"\x1b(?:\[[0-9;?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\))")  # colours, links, titles
 
 
@@ -40,7 +42,7 @@ def add_telling_options(parser: argparse.ArgumentParser, each: str, stages: bool
 class _Stream:
     """A stream in place of stdout or stderr: lines are copied into the log, and shown unless it is silenced."""
 
-    def __init__(self, beneath: TextIO, log: TextIO | None, shown: bool) -> None:
+    def __init__(self, beneath: _Shown, log: TextIOWrapper | None, shown: bool) -> None:
         self.beneath = beneath
         self._log, self._shown = log, shown
         self._begun = ""  # of a line that has not ended
@@ -69,7 +71,7 @@ class _Stream:
         return getattr(self.beneath, name)
 
 
-def beneath(stream: TextIO) -> TextIO:
+def beneath(stream: _Shown) -> _Shown:
     """Returns the stream that is written to past the log."""
     return stream.beneath if isinstance(stream, _Stream) else stream
 
@@ -126,7 +128,7 @@ def telling(options: argparse.Namespace) -> Iterator[None]:
             sys.stdout, sys.stderr = before
 
 
-def _opened(path: Path) -> TextIO:
+def _opened(path: Path) -> TextIOWrapper:
     try:
         log = path.open("a", encoding="utf-8", buffering=1)
     except OSError as error:
