@@ -101,7 +101,7 @@ def sixel(picture: "Picture") -> str:
 
     opaque = np.asarray(picture)[..., 3] >= 128
     image = Image.fromarray(np.asarray(picture)[..., :3]).quantize(_COLOURS, dither=Image.Dither.NONE)
-    index = np.where(opaque, np.asarray(image), -1)
+    index = np.where(opaque, np.asarray(image).astype(np.int64), -1)
     colours = np.array(image.getpalette(), np.int64).reshape(-1, 3) * 100 // 255
     height, width = index.shape
     index = np.pad(index, ((0, -height % 6), (0, 0)), constant_values=-1)
