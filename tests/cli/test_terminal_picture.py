@@ -95,7 +95,7 @@ def test_sixels_decode_to_the_picture_and_leave_what_is_transparent(picture: np.
     shown = decoded(sixel(picture))
     opaque = picture[..., 3] > 0
     assert (shown[~opaque] == -1).all()
-    assert (np.abs(shown[opaque] - picture[opaque][:, :3] * 100 / 255) <= 1.0).all()
+    assert (np.abs(shown[opaque] - picture[opaque][:, :3].astype(float) * 100 / 255) <= 1.0).all()
 
 
 def test_half_blocks_hold_two_pixels_each(picture: np.ndarray) -> None:
