@@ -17,7 +17,7 @@ SHELLS = ("bash", "zsh", "fish")
 
 
 def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> argparse.ArgumentParser:
-    """Adds the verb and returns its parser."""
+    """Adds the verb and returns its parser; the parser of the whole command is to be its default `command`."""
     parser = verbs.add_parser(
         "completion",
         help="print a script by which bash, zsh or fish completes",
@@ -33,9 +33,7 @@ def run(options: argparse.Namespace) -> int:
     """Prints the script and returns 0."""
     import sys
 
-    from grafu.cli.main import build_parser
-
-    sys.stdout.write(script(build_parser(), options.shell) + "\n")
+    sys.stdout.write(script(options.command, options.shell) + "\n")
     return 0
 
 

@@ -154,6 +154,7 @@ def build_parser() -> _Parser:
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter
         subparser.set_defaults(parser=subparser)
         subparser.add_argument("--debug", action="store_true", help="print the traceback of an internal error")
+    verbs.choices["completion"].set_defaults(command=parser)
     return parser
 
 
