@@ -34,7 +34,7 @@ SEED = 22
         ({"TERM": "xterm-256color"}, "blocks"),
         ({}, "blocks"),
         ({"TERM": "tmux-256color", "KITTY_WINDOW_ID": "1"}, "blocks"),
-        ({"TERM": "xterm-256color", "TERM_PROGRAM": "iTerm.app", "TMUX": "/tmp/tmux"}, "blocks"),
+        ({"TERM": "xterm-256color", "TERM_PROGRAM": "iTerm.app", "TMUX": "socket,1,0"}, "blocks"),
     ],
 )
 def test_the_environment_states_the_protocol(environment: dict[str, str], protocol: str) -> None:
