@@ -60,7 +60,12 @@ def check_result(folder: Path, as_json: bool = False) -> "CheckReport":
     from grafu.simulation.check import check_folder
     from grafu.simulation.words import sentences
 
-    checked = check_folder(folder)
+    try:
+        checked = check_folder(folder)
+    except FunctionalizationError as error:
+        if as_json:
+            print_json({**_named(folder), "works": False, "findings": [], "error": one_line(str(error))})
+        raise
     _write(folder, checked.report, checked.clip)
     found = sentences(checked.report)
     for line in found:
@@ -82,8 +87,6 @@ def check_results(folders: Sequence[Path], as_json: bool = False) -> bool:
             works &= check_result(folder, as_json).works
         except FunctionalizationError as error:
             complain(f"{folder}: {error}")
-            if as_json:
-                print_json({**_named(folder), "works": False, "findings": [], "error": one_line(str(error))})
             works = False
     return works
 
