@@ -7,6 +7,7 @@
 #   make fuzz    damaged and hostile files through every reader: COUNT cases of SEED, or one again: SEED=15 CASE=1234
 #   make bench   speed, memory, growth
 #   make figures  every figure that docs/ states, printed anew; FIGURES="--list" says which, --only, --page, --write
+#   make site    docs/ as a site in build/site, with a search; a broken link is an error
 #   make blender   build the Blender extension: a zip in dist/
 #   make clean   remove what these made
 
@@ -14,7 +15,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 SAMPLE := samples/sideboard.glb
 
-.PHONY: demo train-deps test check format fuzz bench figures blender clean help
+.PHONY: demo train-deps test check format fuzz bench figures site blender clean help
 .DEFAULT_GOAL := help
 
 help:
@@ -42,6 +43,16 @@ help:
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check torch
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[train]'
 	@touch $@
+
+# In an environment of its own: nothing else needs it.
+build/docs-env/installed: pyproject.toml
+	$(PYTHON) -m venv build/docs-env
+	build/docs-env/bin/python -m pip install --quiet --disable-pip-version-check $$($(PYTHON) -c \
+	  'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["docs"])')
+	@touch $@
+
+site: build/docs-env/installed
+	NO_MKDOCS_2_WARNING=1 build/docs-env/bin/mkdocs build --strict --site-dir build/site
 
 train-deps: .venv/installed-train
 

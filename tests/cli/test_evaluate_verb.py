@@ -88,10 +88,12 @@ def test_a_model_that_fails_is_said_and_stops_no_other(
     (folder / "broken" / "mobility.urdf").write_text("<robot")
     out.mkdir()
     (out / "rows.jsonl").write_bytes((done / "rows.jsonl").read_bytes())
-    assert main(command(folder, out, "--tables", "motion")) == 1
-    said = capfd.readouterr().err
-    assert "broken" in said
-    assert "Traceback" not in said
+    assert main(command(folder, out, "--tables", "motion", "--json")) == 1
+    said, errors = capfd.readouterr()
+    assert "broken" in errors
+    assert "Traceback" not in errors
+    tasks = [json.loads(line) for line in said.splitlines()]
+    assert {(task["task"], task["model"]) for task in tasks if task["error"]} >= {("model", "broken")}
     assert figures(out, "annotation")["works_fixed"]["value"] == 1.0
     assert "broken" in (out / "tables" / "index.md").read_text()
 

@@ -6,7 +6,10 @@ from pathlib import Path
 import pytest
 from obj_inputs import CABINET, write_cabinet
 
+from grafu.cli.format_option import print_formats
 from grafu.cli.main import main
+from grafu.errors import ExportError
+from grafu.export.formats import FORMATS
 from grafu.graph.serialize import completion_from_json
 from grafu.pipeline.report_schema import Report
 
@@ -154,6 +157,30 @@ def test_one_bad_input_does_not_stop_the_others(tmp_path: Path, capsys: pytest.C
     assert code == 1
     assert "1 of 2 inputs failed" in said.out
     assert str(bad) in said.err
-    assert said.err.count("\n") == 1
+    *ended, why = said.err.splitlines()
+    assert sorted(line.partition(" ")[0] for line in ended) == ["[1/2]", "[2/2]"]
+    assert why.startswith(f"grafu: {bad}: ")
     assert sorted(p.name for p in out.iterdir()) == ["cabinet", "index.html"]
     assert "bad" in (out / "index.html").read_text()
+
+
+@pytest.mark.parametrize("words", [["--formats"], ["--formats", "list"], ["x.glb", "--out", "y", "--formats"]])
+def test_without_a_list_the_formats_are_listed(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["functionalize", *words])
+    assert end.value.code == 0
+    rows = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert set(rows) == {"format", *FORMATS}
+    assert rows["glb"].rstrip().endswith("by default")
+    assert "model.usdc" in rows["usd"]
+
+
+def test_a_format_that_cannot_be_written_here_is_listed_with_its_extra(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def missing(name: str) -> None:
+        raise ExportError(f"{name} needs more")
+
+    monkeypatch.setattr("grafu.export.formats.exporter_for", missing)
+    print_formats()
+    assert "needs pip install 'grafu[usd]'" in capsys.readouterr().out

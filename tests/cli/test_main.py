@@ -9,7 +9,19 @@ from grafu.cli.input_options import join_directions
 from grafu.cli.main import build_parser, main
 from grafu.version import __version__
 
-VERBS = ("functionalize", "inspect", "show", "edit", "templates", "doctor", "synth", "train", "ablate", "evaluate")
+VERBS = (
+    "functionalize",
+    "inspect",
+    "show",
+    "edit",
+    "templates",
+    "doctor",
+    "completion",
+    "synth",
+    "train",
+    "ablate",
+    "evaluate",
+)
 
 
 def test_version(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,5 +1,6 @@
-"""What the README and docs/prepare.md tell a reader to type runs as it stands."""
+"""What the README and the pages for users tell a reader to type runs as it stands."""
 
+import json
 import re
 import shlex
 from pathlib import Path
@@ -10,10 +11,10 @@ from grafu.cli.main import build_parser, main
 
 ROOT = Path(__file__).parent.parent.parent
 README = (ROOT / "README.md").read_text()
-PREPARE = (ROOT / "docs" / "prepare.md").read_text()
+USERS = ("docs/artist.md", "docs/simulation.md", "docs/research.md", "docs/faq.md")  # every command of them is run
 PAGES = {
-    page: re.findall(r"^    (?:\.venv/bin/)?(grafu [^#\n]+)", text, re.MULTILINE)
-    for page, text in (("README.md", README), ("docs/prepare.md", PREPARE))
+    page: re.findall(r"^    (?:\.venv/bin/)?(grafu [^#\n]+)", (ROOT / page).read_text(), re.MULTILINE)
+    for page in ("README.md", "docs/prepare.md", *USERS)
 }
 LINES = [line for lines in PAGES.values() for line in lines]
 
@@ -28,7 +29,8 @@ def test_every_line_is_a_command_on_what_the_checkout_holds() -> None:
     assert len(LINES) >= 14
     for line in LINES:
         words = arguments_of(line)
-        build_parser().parse_args(words)
+        if words[-1] != "--formats":  # it prints a table and ends
+            build_parser().parse_args(words)
         assert all((ROOT / word).exists() for word in words if word.startswith("samples/"))
 
 
@@ -38,6 +40,8 @@ def is_short(line: str) -> bool:
 
 def outputs_of(line: str) -> list[Path]:
     """Returns the folders that a line writes, one for each input."""
+    if line.endswith("--formats"):
+        return []
     options = build_parser().parse_args(arguments_of(line))
     return (
         [options.out / Path(found).stem for found in getattr(options, "inputs", [])] if hasattr(options, "out") else []
@@ -47,8 +51,31 @@ def outputs_of(line: str) -> list[Path]:
 @pytest.mark.parametrize("page", PAGES)
 def test_no_line_writes_where_an_earlier_one_of_the_page_did(page: str) -> None:
     written = [folder for line in PAGES[page] for folder in outputs_of(line)]
-    assert len(written) >= 4
+    assert len(written) >= (1 if page in USERS else 4)
     assert len(set(written)) == len(written)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", USERS)
+def test_every_command_of_a_page_for_users_runs_in_order(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("webbrowser.open", lambda _: True)
+    (tmp_path / "samples").symlink_to(ROOT / "samples")
+    for line in PAGES[page]:
+        try:
+            code = main(arguments_of(line))
+        except SystemExit as end:
+            code = end.code
+        assert code == 0, (line, capsys.readouterr().err)
+
+
+def test_the_line_of_json_in_the_page_has_fields_that_are_printed() -> None:
+    text = (ROOT / "docs" / "simulation.md").read_text()
+    (shown,) = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
+    fields = set(re.findall(r"`(\w+)`", (ROOT / "docs" / "outputs.md").read_text()))
+    assert set(json.loads(shown)) <= fields
 
 
 def test_the_commands_of_a_page_run_one_after_another_in_one_folder(
@@ -56,7 +83,8 @@ def test_the_commands_of_a_page_run_one_after_another_in_one_folder(
 ) -> None:
     """A command that stands twice, but for the folder that it writes, runs once."""
     done = set()
-    for page, lines in PAGES.items():
+    for page in (page for page in PAGES if page not in USERS):
+        lines = PAGES[page]
         folder = tmp_path / Path(page).stem
         folder.mkdir()
         monkeypatch.chdir(folder)

@@ -10,8 +10,9 @@ from obj_inputs import CABINET, write_cabinet
 
 from grafu.cli.job import Failed, Job, JobOptions
 from grafu.cli.main import main
+from grafu.cli.stage_bar import with_stages
 from grafu.cli.summary import print_place, print_results
-from grafu.cli.terminal import plain_table, wide_console, with_stages
+from grafu.cli.terminal import plain_table, wide_console
 from grafu.cli.verb import internal_fault
 from grafu.visible import visible
 

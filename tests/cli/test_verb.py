@@ -46,7 +46,7 @@ def test_an_ignored_interruption_stays_ignored() -> None:
 def test_a_run_that_is_cut_says_how_it_goes_on(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def cut(jobs: list[Job], _: int) -> Iterator[JobResult]:
+    def cut(jobs: list[Job], _: int, **__: object) -> Iterator[JobResult]:
         yield Failed(Job(Path("a"), "a", JobOptions(tmp_path)), "bad", users_fault=True)
         raise KeyboardInterrupt
 

@@ -182,3 +182,12 @@ def test_memory_is_what_is_touched() -> None:
 def test_limits_are_above_nothing(limits: dict[str, float]) -> None:
     with pytest.raises(ValueError, match="above 0"):
         ProcessLimits(**limits)  # type: ignore[arg-type]
+
+
+def test_each_item_is_named_as_it_begins_before_it_ends() -> None:
+    heard: list[str] = []
+    for item, _ in run_each(range(5), 2, square, on_begin=lambda item: heard.append(f"begins {item}")):
+        heard.append(f"ends {item}")
+    assert sorted(heard) == sorted(f"{what} {item}" for what in ("begins", "ends") for item in range(5))
+    assert heard[:2] == ["begins 0", "begins 1"]
+    assert all(heard.index(f"begins {item}") < heard.index(f"ends {item}") for item in range(5))

@@ -97,6 +97,19 @@ def test_a_damaged_file_is_an_error_of_the_file_and_another_folder_is_refused(re
     assert capsys.readouterr().err.count("\n") == 1
 
 
+def test_a_line_of_json_for_each_result_and_for_what_is_none(result, tmp_path, capsys):
+    broken = copied(result, tmp_path, ("</mujoco>", "<nonsense/></mujoco>"))
+    assert main(["check", "--json", str(broken), str(tmp_path)]) == 1
+    first, second = map(json.loads, capsys.readouterr().out.splitlines())
+    assert (first["check"], first["folder"], first["works"], first["error"]) == ("broken", str(broken), False, None)
+    assert any("MuJoCo does not load" in finding for finding in first["findings"])
+    assert (second["works"], second["findings"]) == (False, [])
+    assert second["error"]
+    assert set(first) == set(second)
+    assert main(["check", "--json", str(tmp_path)]) == 2
+    assert json.loads(capsys.readouterr().out) == second
+
+
 def test_without_mujoco_there_is_one_line_before_any_work(result, tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "mujoco", None)
     assert main(["check", str(result)]) == 2

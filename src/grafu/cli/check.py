@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grafu.cli.verb import EXIT_DONE, EXIT_FAILED, complain, say
+from grafu.cli.telling import add_telling_options, print_json
+from grafu.cli.verb import EXIT_DONE, EXIT_FAILED, complain, one_line, say
 from grafu.errors import FunctionalizationError, OptionError
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "check", help="load results into MuJoCo, and pull every joint", description=_DESCRIPTION, epilog=_EXAMPLES
     )
     parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="a folder that functionalize wrote")
+    add_telling_options(parser, "each result")
     parser.set_defaults(run=run)
     return parser
 
@@ -45,12 +47,12 @@ def run(options: argparse.Namespace) -> int:
 
     require_mujoco()
     if len(options.results) == 1:
-        return EXIT_DONE if check_result(options.results[0]).works else EXIT_FAILED
-    return EXIT_DONE if check_results(options.results) else EXIT_FAILED
+        return EXIT_DONE if check_result(options.results[0], options.json_lines).works else EXIT_FAILED
+    return EXIT_DONE if check_results(options.results, options.json_lines) else EXIT_FAILED
 
 
-def check_result(folder: Path) -> "CheckReport":
-    """Checks one result, writes what is found into its folder, and prints it; returns it.
+def check_result(folder: Path, as_json: bool = False) -> "CheckReport":
+    """Checks one result, writes what is found into its folder, and prints it, `as_json` in one line; returns it.
 
     Raises:
         FunctionalizationError: if it cannot be checked, or its folder cannot be written.
@@ -58,19 +60,31 @@ def check_result(folder: Path) -> "CheckReport":
     from grafu.simulation.check import check_folder
     from grafu.simulation.words import sentences
 
-    checked = check_folder(folder)
+    try:
+        checked = check_folder(folder)
+    except FunctionalizationError as error:
+        if as_json:
+            print_json({**_named(folder), "works": False, "findings": [], "error": one_line(str(error))})
+        raise
     _write(folder, checked.report, checked.clip)
-    for line in sentences(checked.report):
+    found = sentences(checked.report)
+    for line in found:
         say(f"{folder.name}: {line}")
+    if as_json:
+        print_json({**_named(folder), "works": checked.report.works, "findings": list(found), "error": None})
     return checked.report
 
 
-def check_results(folders: Sequence[Path]) -> bool:
+def _named(folder: Path) -> dict[str, str]:
+    return {"check": folder.name, "folder": str(folder)}
+
+
+def check_results(folders: Sequence[Path], as_json: bool = False) -> bool:
     """Checks results one after another, and complains of those that cannot be; returns whether all works."""
     works = True
     for folder in folders:
         try:
-            works &= check_result(folder).works
+            works &= check_result(folder, as_json).works
         except FunctionalizationError as error:
             complain(f"{folder}: {error}")
             works = False

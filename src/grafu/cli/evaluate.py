@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from grafu.cli.input_options import positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of, why_stopped
 from grafu.cli.run_page import RUN_PAGE, is_free_for_page
+from grafu.cli.telling import add_telling_options, print_json
 from grafu.cli.verb import complain, say
 from grafu.errors import ExportError, OptionError
 
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from grafu.evaluation.results import Results
     from grafu.evaluation.table import ResultTable
     from grafu.evaluation.tasks import EvaluationPlan, Task
-    from grafu.processes.limits import ProcessLimits
 
 
 # As in `grafu.evaluation.tasks`; spelled again, so that `grafu --help` answers at once.
@@ -63,6 +63,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument("--jobs", type=positive_count, metavar="J", help="processes (default: one per core)")
     parser.add_argument("--overwrite", action="store_true", help="measure everything anew")
     add_limit_options(parser, _SECONDS)
+    add_telling_options(parser, "each task")
     parser.set_defaults(run=run)
     return parser
 
@@ -91,9 +92,9 @@ def run(options: argparse.Namespace) -> int:
     jobs = options.jobs or os.cpu_count() or 1
     try:
         first = plan.first_tasks()
-        _do(first, rows, file, jobs, limits_of(options))
+        _do(first, rows, file, jobs, options)
         pairs = plan.twin_tasks(rows)
-        _do(pairs, rows, file, jobs, limits_of(options))
+        _do(pairs, rows, file, jobs, options)
     except KeyboardInterrupt:
         complain(f"interrupted; {len(rows)} rows stand in {file}, and the same command goes on")
         return EXIT_INTERRUPTED
@@ -131,10 +132,12 @@ def _words(text: str) -> tuple[str, ...]:
     return tuple(word.strip() for word in text.split(",") if word.strip())
 
 
-def _do(tasks: "Sequence[Task]", rows: "dict[str, ResultRow]", file: Path, jobs: int, limits: "ProcessLimits") -> None:
-    """Does the tasks that have no row yet, and keeps each row at once."""
+def _do(
+    tasks: "Sequence[Task]", rows: "dict[str, ResultRow]", file: Path, jobs: int, options: argparse.Namespace
+) -> None:
+    """Does the tasks that have no row yet, keeps each row at once, and names those in work on a bar."""
+    from grafu.cli.model_bar import model_bar
     from grafu.cli.pool import run_all
-    from grafu.cli.terminal import with_progress
     from grafu.evaluation.perform import failed, perform
     from grafu.evaluation.records import append_rows, done
     from grafu.evaluation.tasks import key_of
@@ -142,12 +145,30 @@ def _do(tasks: "Sequence[Task]", rows: "dict[str, ResultRow]", file: Path, jobs:
     left = [task for task in tasks if not done(rows, key_of(task))]
     if not left:
         return
-    with closing(
-        run_all(left, jobs, perform, lambda task, how: failed(task, why_stopped(how, limits)), limits)
-    ) as made:
-        for row in with_progress(made, len(left), "tasks"):
+    limits, silent = limits_of(options), options.quiet or options.json_lines
+    names = {key_of(task): _named(task) for task in left}
+    made = run_all(
+        left,
+        jobs,
+        perform,
+        lambda task, how: failed(task, why_stopped(how, limits)),
+        limits,
+        lambda task: bar.begins(_named(task)),
+    )
+    with model_bar(len(left), "tasks", silent) as bar, closing(made):
+        for row in made:
             append_rows(file, [row])
             rows[row.key] = row
+            bar.ends(names[row.key], f"{names[row.key]}: {row.error or f'{row.seconds:.1f} s'}")
+            if options.json_lines:
+                print_json({**row.task, "seconds": row.seconds, "error": row.error or None})
+
+
+def _named(task: "Task") -> str:
+    """Returns the model of a task and the method, if any."""
+    model, method = getattr(task, "model", None), getattr(task, "method", None)
+    named = model.id if model else f"model {getattr(task, 'number', 0)} of the training data"
+    return f"{named} by {method.name}" if method else named
 
 
 def _command(options: argparse.Namespace) -> str:

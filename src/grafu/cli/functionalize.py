@@ -2,11 +2,11 @@
 
 import argparse
 import os
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.asset.regular_files import read_head
+from grafu.cli.format_option import add_formats_option
 from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.part_options import (
@@ -18,12 +18,12 @@ from grafu.cli.part_options import (
     with_moves,
 )
 from grafu.cli.stated_settings import MOST_SETTINGS, stated_settings
+from grafu.cli.telling import add_telling_options, clear_line, show_at_once
 from grafu.cli.verb import complain
 from grafu.errors import OptionError
-from grafu.export.formats import DEFAULT_FORMATS, known_formats
 
 if TYPE_CHECKING:
-    from grafu.cli.job import Failed, Job, JobOptions, JobResult
+    from grafu.cli.job import JobOptions, JobResult
 
 _DESCRIPTION = """\
 Reads part-segmented furniture (GLB, glTF, USD, FBX, COLLADA, URDF, SDF, MJCF, OBJ, a folder of meshes, a
@@ -60,12 +60,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "for each name (default: auto)",
     )
     parser.add_argument("--move", action="append", type=part_move, default=[], metavar="PART=HOW", help=MOVE_HELP)
-    parser.add_argument(
-        "--formats",
-        default=",".join(DEFAULT_FORMATS),
-        metavar="LIST",
-        help=f"what to write, separated by commas: {known_formats()} (default: {','.join(DEFAULT_FORMATS)})",
-    )
+    add_formats_option(parser)
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")
     parser.add_argument(
@@ -97,7 +92,8 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_input_options(parser)
     add_limit_option(parser)
     add_limit_options(parser)
-    parser.set_defaults(run=run, is_single=_is_single)
+    add_telling_options(parser, "each model", stages=True)
+    parser.set_defaults(run=run, is_single=_is_single, on_begin=_show_begin, on_stopped=_tell_stopped)
     return parser
 
 
@@ -128,6 +124,7 @@ def run(options: argparse.Namespace) -> int:
     from grafu.cli.check import check_results, require_simulator
     from grafu.cli.job import Succeeded, jobs_of
     from grafu.cli.run_page import write_index
+    from grafu.cli.runs import pieces_apart, run_alone, run_several, tell
     from grafu.cli.summary import print_place, print_results
     from grafu.export.whole_file import clear_remains
 
@@ -138,14 +135,16 @@ def run(options: argparse.Namespace) -> int:
     jobs, refused = jobs_of(inputs, shared)
     clear_remains(options.out)
     if shared.settings.reading.pieces == "split":
-        jobs, unread = _told_apart(jobs, inputs, options)
+        jobs, unread = pieces_apart(jobs, inputs, options)
         refused += unread
-    done = [_run_alone(job) for job in jobs] if _is_single(options) else _run_several(jobs, options)
+    tell(options, *refused)
+    done = [run_alone(job, options) for job in jobs] if _is_single(options) else run_several(jobs, options)
     order = {job.name: k for k, job in enumerate(jobs)}
     results = sorted([*done, *refused], key=lambda r: (inputs.index(r.job.input), order.get(r.job.name, -1)))
+    clear_line()
     print_results(results)
     if options.check:
-        check_results([result.job.folder for result in results if isinstance(result, Succeeded)])
+        check_results([r.job.folder for r in results if isinstance(r, Succeeded)], options.json_lines)
     if not options.no_page and (page := write_index(results, options.out)):
         print_place("all on one page", page)
     return _exit_code(results)
@@ -197,49 +196,22 @@ def _require_weights(options: argparse.Namespace) -> None:
         raise WeightsError(f"`--weights` must be a file that `grafu train` exported: there is no {options.weights}")
 
 
-def _run_alone(job: "Job") -> "JobResult":
-    from grafu.cli.job import Listener, run_job
-    from grafu.cli.terminal import with_stages
-
-    with with_stages(job.name) as on_stage:
-        return run_job(job, Listener(on_stage))
-
-
-def _told_apart(jobs: "list[Job]", inputs: list[Path], options: argparse.Namespace) -> "tuple[list[Job], list[Failed]]":
-    """Returns a job for each piece of furniture of all inputs, and the inputs that could not be read."""
-    from grafu.cli.job import Failed, jobs_of_pieces, with_places_apart
-    from grafu.cli.pool import run_all, stopped
-
-    if not jobs:
-        return [], []
-    limits = jobs[0].options.limits
-    with closing(run_all(jobs, options.jobs or os.cpu_count() or 1, jobs_of_pieces, stopped, limits)) as ended:
-        found = list(ended)
-    failed = [one for one in found if isinstance(one, Failed)]
-    pieces = [job for one in found if not isinstance(one, Failed) for job in one]
-    pieces.sort(key=lambda job: (inputs.index(job.input), job.options.settings.reading.piece or 0))
-    apart, refused = with_places_apart(pieces, inputs)
-    return apart, failed + refused
+def _show_begin(options: argparse.Namespace) -> None:
+    """Names the inputs on a terminal before anything heavy is imported."""
+    inputs = _distinct(options.inputs)
+    more = f" and {len(inputs) - 1} more" if len(inputs) > 1 else ""
+    if not (options.quiet or options.json_lines):
+        show_at_once(f"{inputs[0].name}{more}")
 
 
-def _run_several(jobs: "list[Job]", options: argparse.Namespace) -> "list[JobResult]":
-    from grafu.cli.pool import run_jobs
-    from grafu.cli.terminal import with_progress
-    from grafu.export.whole_file import clear_remains
+def _tell_stopped(options: argparse.Namespace, why: str) -> None:
+    """States that the one input was stopped, in the line of JSON that is wanted."""
+    from grafu.cli.job import Failed, Job, JobOptions
+    from grafu.cli.runs import tell
+    from grafu.export.output_names import output_name
 
-    workers = options.jobs or os.cpu_count() or 1
-    results: list[JobResult] = []
-    if not jobs:
-        return results
-    try:
-        with closing(run_jobs(jobs, workers)) as ended:  # when it is cut, what is done stays
-            results.extend(with_progress(ended, len(jobs)))
-    except KeyboardInterrupt:
-        complain(f"{len(results)} of {len(jobs)} inputs were done; with --resume the same command goes on from there")
-        raise
-    finally:
-        clear_remains(options.out)  # of workers that were stopped
-    return results
+    path = options.inputs[0]
+    tell(options, Failed(Job(path, output_name(path), JobOptions(options.out)), why, users_fault=True))
 
 
 def _exit_code(results: "list[JobResult]") -> int:

@@ -1,4 +1,4 @@
-"""The verb `inspect`: what is read from an input, and what it lacks, before anything is done to it."""
+"""The verb `inspect`: what is read from an input, what it lacks, and what a run would make move. It builds nothing."""
 
 import argparse
 import json
@@ -12,12 +12,13 @@ from grafu.cli.limit_options import add_limit_options
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from grafu.pipeline.inspection import InspectedPart, Inspection, StatedJoint
+    from grafu.pipeline.inspection import Forecast, InspectedPart, Inspection, StatedJoint
 
 
 _DESCRIPTION = """\
 Shows what is read from an input: its parts and their categories, the frame and scale that were detected, which parts
-touch, the joints that it states itself, and what it lacks. It writes nothing.
+touch, the joints that it states itself, what it lacks, and which parts a run would make move, how, with what
+confidence. On a terminal a picture shows it, doors blue, drawers orange, handles red. It writes nothing.
 """
 _EXAMPLES = """\
 examples:
@@ -33,6 +34,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument("input", type=Path, metavar="INPUT", help="a model: file or folder")
     parser.add_argument("--json", action="store_true", help="print JSON instead of tables")
+    parser.add_argument("--no-picture", action="store_true", help="show no picture; none is shown in a pipe")
     add_input_options(parser)
     add_limit_option(parser)
     add_limit_options(parser)
@@ -51,15 +53,21 @@ def run(options: argparse.Namespace) -> int:
         FunctionalizationError: if the input or an option is wrong.
     """
     from grafu.asset.load import load_asset
+    from grafu.cli.terminal_picture import print_picture
+    from grafu.geometry.budget import UNLIMITED, Budget
     from grafu.graph.parse import parse_graph
+    from grafu.pipeline.forecast import forecast
     from grafu.pipeline.inspection import inspect
 
     asset = load_asset(options.input, with_limits(load_options(options), options))
-    inspection = inspect(asset, parse_graph(asset))
+    budget = Budget.lasting(options.timeout) if options.timeout else UNLIMITED
+    inspection = inspect(asset, parse_graph(asset)).model_copy(update={"forecast": forecast(asset, budget)})
     if options.json:
         values = inspection.model_dump(mode="json", by_alias=True)
         sys.stdout.write(json.dumps(values, indent=1) + "\n")  # ASCII: no name in it steers a terminal
         return 0
+    if sys.stdout.isatty() and not options.no_picture:
+        print_picture(asset)
     print_inspection(inspection)
     return 0
 
@@ -80,6 +88,8 @@ def print_inspection(inspection: "Inspection") -> None:
     console.print(f"{len(inspection.contacts)} pairs of parts touch")
     if inspection.deficiencies:
         console.print(_deficiencies_table(inspection))
+    if inspection.forecast is not None:
+        _print_forecast(inspection.forecast)
 
 
 def _heading(inspection: "Inspection") -> str:
@@ -128,6 +138,25 @@ def _deficiencies_table(inspection: "Inspection") -> "Table":
     for missing in inspection.deficiencies:
         table.add_row(missing.kind, escape(missing.part or "the whole"), escape(missing.detail))
     return table
+
+
+def _print_forecast(forecast: "Forecast") -> None:
+    """Prints what a run would make move, and what it would not."""
+    from rich.markup import escape
+
+    from grafu.cli.terminal import plain_table, wide_console
+    from grafu.pipeline.words import counted, percent
+
+    console = wide_console()
+    console.print(f"a run would make {counted(len(forecast.motions), 'part')} move, by the {forecast.source}:")
+    table = plain_table("part", "joint", "confidence", "decided")
+    for motion in forecast.motions:
+        confidence = "by shape or name" if motion.confidence is None else percent(motion.confidence)
+        table.add_row(escape(motion.part), motion.type, confidence, escape("; ".join(motion.decided)))
+    for part in forecast.static:
+        table.add_row(escape(part.part), "none", "", escape(f"{part.reason}: {part.why}" if part.why else part.reason))
+    if table.row_count:
+        console.print(table)
 
 
 def _size(part: "InspectedPart") -> str:

@@ -10,7 +10,20 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn, final
 
-from grafu.cli import ablate, check, doctor, edit, evaluate, functionalize, inspect, show, synth, templates, train
+from grafu.cli import (
+    ablate,
+    check,
+    completion,
+    doctor,
+    edit,
+    evaluate,
+    functionalize,
+    inspect,
+    show,
+    synth,
+    templates,
+    train,
+)
 from grafu.cli.input_options import join_directions
 from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, one_line, prepare_verb
@@ -19,6 +32,20 @@ from grafu.processes.lifetime import end_requests_heard, keep_private
 from grafu.version import __version__
 from grafu.visible import visible
 
+_VERBS = (
+    functionalize,
+    inspect,
+    show,
+    check,
+    edit,
+    templates,
+    doctor,
+    completion,
+    synth,
+    train,
+    ablate,
+    evaluate,
+)
 _EPILOG = """\
 examples:
   grafu functionalize cabinet.glb --out results
@@ -26,6 +53,7 @@ examples:
   grafu show results
   grafu check results/cabinet
   grafu doctor
+  grafu completion bash
   grafu edit results/cabinet
   grafu templates --out gallery
   grafu synth --count 10000 --out data
@@ -50,6 +78,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return 0
     options = _parsed(parser, words)
+    if begin := getattr(options, "on_begin", None):
+        begin(options)
     keep_private()
     with end_requests_heard() as requests:
         code = exit_code(options, _supervised_or_here if arguments is None else _here)
@@ -106,11 +136,25 @@ def build_parser() -> _Parser:
     )
     parser.add_argument("--version", action="version", version=f"grafu {__version__}")
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
-    for verb in (functionalize, inspect, show, check, edit, templates, doctor, synth, train, ablate, evaluate):
+    for verb in (
+        functionalize,
+        inspect,
+        show,
+        check,
+        edit,
+        templates,
+        doctor,
+        completion,
+        synth,
+        train,
+        ablate,
+        evaluate,
+    ):
         subparser = verb.add_parser(verbs)
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter
         subparser.set_defaults(parser=subparser)
         subparser.add_argument("--debug", action="store_true", help="print the traceback of an internal error")
+    verbs.choices["completion"].set_defaults(command=parser)
     return parser
 
 

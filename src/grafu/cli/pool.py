@@ -16,9 +16,10 @@ from typing import TypeVar
 
 from grafu.cli.job import Failed, Job, JobResult, run_job
 from grafu.cli.limit_options import limits_of, why_stopped
+from grafu.cli.telling import beneath
 from grafu.cli.verb import EXIT_BAD_INPUT, EXIT_FAILED, complain, prepare_verb, run_verb
 from grafu.processes.limits import Ending, ProcessLimits
-from grafu.processes.worker import quick_start, run_each
+from grafu.processes.worker import ignore, quick_start, run_each
 
 _CLEAR_LINE = "\r\x1b[2K\x1b[?25h"  # the line of a progress bar that was not closed, and the cursor that it hid
 
@@ -35,14 +36,17 @@ def run_supervised(options: argparse.Namespace) -> int:
     if outcome.ending is Ending.DONE:
         return outcome.results[0]
     _tidy(options)
-    complain(f"{why_stopped(outcome.ending, limits)}")
+    why = why_stopped(outcome.ending, limits)
+    complain(why)
+    if stopped := getattr(options, "on_stopped", None):
+        stopped(options, why)
     return EXIT_FAILED if outcome.ending is Ending.DIED else EXIT_BAD_INPUT
 
 
 def _tidy(options: argparse.Namespace) -> None:
     """Takes away what a process that was killed left: hidden files, and a line on the terminal."""
     if sys.stderr.isatty():
-        sys.stderr.write(_CLEAR_LINE)
+        beneath(sys.stderr).write(_CLEAR_LINE)
     out: Path | None = getattr(options, "out", None)
     if out is not None:
         from grafu.export.whole_file import clear_remains
@@ -55,9 +59,14 @@ Result = TypeVar("Result")
 Run = Callable[[Job], JobResult]
 
 
-def run_jobs(jobs: list[Job], workers: int, run: Run = run_job) -> Generator[JobResult, None, None]:
-    """Yields each job's result as it ends, `workers` at a time; `run` must be a function of a module."""
-    return run_all(jobs, workers, run, stopped, jobs[0].options.limits)
+def run_jobs(
+    jobs: list[Job], workers: int, run: Run = run_job, on_begin: Callable[[Job], None] = ignore
+) -> Generator[JobResult, None, None]:
+    """Yields each job's result as it ends, `workers` at a time; `run` must be a function of a module.
+
+    `on_begin` is called here with each job as it begins.
+    """
+    return run_all(jobs, workers, run, stopped, jobs[0].options.limits, on_begin)
 
 
 def stopped(job: Job, ending: Ending) -> Failed:
@@ -71,12 +80,14 @@ def run_all(
     run: Callable[[Item], Result],
     failed: Callable[[Item, Ending], Result],
     limits: ProcessLimits = ProcessLimits(),
+    on_begin: Callable[[Item], None] = ignore,
 ) -> Generator[Result, None, None]:
     """Yields the result of each item as it ends, `workers` at a time; `run` must be a function of a module.
 
-    An item whose process was stopped or died gets the result that `failed` gives it; the others go on.
+    `on_begin` is called here with each item as it begins. An item whose process was stopped or died gets the result
+    that `failed` gives it; the others go on.
     """
-    with closing(run_each(items, workers, run, limits, _prepare)) as ended:
+    with closing(run_each(items, workers, run, limits, _prepare, on_begin=on_begin)) as ended:
         for item, outcome in ended:
             yield outcome.results[0] if outcome.ending is Ending.DONE else failed(item, outcome.ending)
 

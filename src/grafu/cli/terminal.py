@@ -4,9 +4,7 @@ What steers a terminal is shown as an escape, whatever is printed: names of file
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
-from types import MappingProxyType
-from typing import Any, Final, TypeVar, final
+from typing import Any, TypeVar, final
 
 from rich.console import Console
 from rich.progress import (
@@ -14,7 +12,6 @@ from rich.progress import (
     MofNCompleteColumn,
     Progress,
     ProgressColumn,
-    SpinnerColumn,
     Task,
     TextColumn,
     TimeElapsedColumn,
@@ -28,21 +25,6 @@ from grafu.visible import visible
 T = TypeVar("T")
 PIPE_WIDTH = 200  # a pipe or file has no width of its own; rich would fold at 80
 NUMBERS = ("doors", "drawers", "skipped", "seconds", "opening", "models", "movable")
-_STAGES: Final = MappingProxyType(
-    {
-        "load": "reading",
-        "match": "matching the motions with the parts",
-        "parse": "finding what touches",
-        "complete": "deciding what moves",
-        "plan": "deciding what is built",
-        "close": "closing drawers that are drawn open",
-        "body": "adding tops and drawer boxes",
-        "realize": "placing hinges and rails, and opening them",
-        "fittings": "adding handles and shelves",
-        "export": "making the files",
-        "write": "writing",
-    }
-)
 
 
 @final
@@ -72,20 +54,6 @@ def with_progress(
         for item in items:
             progress.advance(task, size(item))
             yield item
-
-
-@contextmanager
-def with_stages(name: str) -> Iterator[Callable[[str], None]]:
-    """Gives a function that takes each stage as it begins, and shows it beside the name and the elapsed time."""
-    columns = (
-        SpinnerColumn(),
-        TextColumn("{task.fields[name]}: {task.description}", markup=False),
-        TimeElapsedColumn(),
-    )
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("starting", total=None, name=visible(name))
-        yield lambda stage: progress.update(task, description=_STAGES.get(stage, stage))
 
 
 @final

@@ -15,7 +15,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import import_module
 
-from grafu.errors import FunctionalizationError
+from grafu.cli.telling import clear_line, telling
+from grafu.errors import FunctionalizationError, OptionError
 from grafu.processes.lifetime import started_by_main_thread
 from grafu.visible import visible
 
@@ -24,6 +25,7 @@ INTERRUPTED = "interrupted; no half-written output is left"
 
 def complain(message: str) -> None:
     """Prints one line on stderr, whatever line breaks the message holds."""
+    clear_line()
     print(f"grafu: {visible(one_line(message))}", file=sys.stderr)
 
 
@@ -96,7 +98,16 @@ def run_verb(options: argparse.Namespace) -> int:
 
 
 def exit_code(options: argparse.Namespace, run: Callable[[argparse.Namespace], int]) -> int:
-    """Returns what `run` returns, or states in one line what it raises."""
+    """Returns what `run` returns, or states in one line what it raises; all that is printed goes where they ask."""
+    try:
+        with telling(options):
+            return _exit_code(options, run)
+    except OptionError as error:  # the log cannot be written
+        complain(str(error))
+        return EXIT_BAD_INPUT
+
+
+def _exit_code(options: argparse.Namespace, run: Callable[[argparse.Namespace], int]) -> int:
     try:
         return int(run(options))
     except FunctionalizationError as error:

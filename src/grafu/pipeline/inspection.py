@@ -1,4 +1,4 @@
-"""What was read from an input, before anything is done to it: `grafu.inspection/1`. It completes and builds nothing."""
+"""What was read from an input, before anything is done to it: `grafu.inspection/1`. It builds nothing."""
 
 from typing import Literal
 
@@ -6,6 +6,7 @@ from pydantic import Field, FiniteFloat
 
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.records import (
     axis_record,
     coupling_record,
@@ -23,6 +24,7 @@ from grafu.pipeline.report_schema import (
     DeficiencyRecord,
     FrameRecord,
     InputRecord,
+    Ratio,
     SourceRecord,
     Vector,
 )
@@ -54,6 +56,33 @@ class StatedJoint(ReportRecord):
     follows: CouplingRecord | None = Field(default=None, description="the joint that it follows; null: none")
 
 
+class ExpectedMotion(ReportRecord):
+    """A part that a run by default would make move; whether there is room for it, the run finds."""
+
+    part: str = Field(description="the moving part")
+    type: JointType = Field(description="how it moves: revolute, prismatic, continuous")
+    confidence: Ratio | None = Field(
+        description="the least confidence of the decisions that it rests on; null: its shape or name shows it"
+    )
+    decided: tuple[str, ...] = Field(description="these decisions in words, each with its confidence and the runner-up")
+
+
+class StaticPart(ReportRecord):
+    """A part that might move and would not."""
+
+    part: str = Field(description="the part")
+    reason: str = Field(description="the reason, from the [list of reasons](errors.md#reasons-not-errors)")
+    why: str = Field(description="what was found, in words")
+
+
+class Forecast(ReportRecord):
+    """What a run by default would make of it."""
+
+    source: MotionSource = Field(description="what states the motions: network, or rule without weights")
+    motions: tuple[ExpectedMotion, ...] = Field(description="the parts that would move")
+    static: tuple[StaticPart, ...] = Field(description="the parts that might move and would not")
+
+
 class Inspection(ReportRecord):
     """The whole inspection."""
 
@@ -65,6 +94,7 @@ class Inspection(ReportRecord):
     contacts: tuple[tuple[str, str], ...] = Field(description="pairs of parts that touch")
     joints: tuple[StatedJoint, ...] = Field(description="the joints that the input states")
     deficiencies: tuple[DeficiencyRecord, ...] = Field(description="what it lacks")
+    forecast: Forecast | None = Field(default=None, description="what a run would make of it; null: not asked for")
 
 
 def inspect(asset: Asset, graph: FunctionalGraph) -> Inspection:

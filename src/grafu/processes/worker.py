@@ -35,6 +35,10 @@ def nothing() -> None:
     """Prepares nothing."""
 
 
+def ignore(_: object) -> None:
+    """Hears of an item that begins and does nothing."""
+
+
 def quick_start() -> Start:
     """Returns how a process starts that need not import again what this one has imported.
 
@@ -167,11 +171,12 @@ def run_each(
     limits: ProcessLimits = ProcessLimits(),
     prepare: Callable[[], None] = nothing,
     start: Start = "spawn",
+    on_begin: Callable[[Item], None] = ignore,
 ) -> Generator[tuple[Item, Outcome[Result]], None, None]:
     """Yields each item with how it ended, as it ends, `workers` at a time; `run` must be a function of a module.
 
-    The limits hold for each item. A worker serves until it dies, is stopped, or keeps too much memory; another takes
-    its place. All end with the generator: close it.
+    `on_begin` is called here with each item as it is given to a worker. The limits hold for each item. A worker serves
+    until it dies, is stopped, or keeps too much memory; another takes its place. All end with the generator: close it.
     """
     waiting = deque(items)
     working: dict[Worker[Item, Result], Item] = {}
@@ -180,7 +185,7 @@ def run_each(
             while waiting and len(working) < workers:
                 worker = Worker(run, limits, prepare, start)
                 working[worker] = waiting.popleft()
-                worker.give(working[worker])
+                _give(worker, working[worker], on_begin)
             wait([worker.connection for worker in working], min(_patience(working), default=None))
             for worker, item in list(working.items()):
                 outcome = worker.outcome()
@@ -190,13 +195,18 @@ def run_each(
                 if outcome.ending is Ending.DONE:
                     if waiting and not worker.is_worn:
                         working[worker] = waiting.popleft()
-                        worker.give(working[worker])
+                        _give(worker, working[worker], on_begin)
                     else:
                         worker.stop()
                 yield item, outcome
     finally:
         for worker in working:
             worker.stop()
+
+
+def _give(worker: Worker[Item, Result], item: Item, on_begin: Callable[[Item], None]) -> None:
+    on_begin(item)
+    worker.give(item)
 
 
 def _patience(workers: "dict[Worker[Item, Result], Item]") -> list[float]:

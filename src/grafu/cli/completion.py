@@ -1,0 +1,82 @@
+"""The verb `completion`: prints the script by which a shell completes verbs, options, their values and files."""
+
+import argparse
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+_DESCRIPTION = """\
+Prints a script for bash, zsh or fish, which then completes verbs, options, their values and file names.
+"""
+_EXAMPLES = """\
+examples:
+  grafu completion bash > ~/.local/share/bash-completion/completions/grafu
+  grafu completion zsh > ~/.zfunc/_grafu           # with `fpath+=~/.zfunc` before `compinit` in ~/.zshrc
+  grafu completion fish > ~/.config/fish/completions/grafu.fish
+"""
+SHELLS = ("bash", "zsh", "fish")
+
+
+def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> argparse.ArgumentParser:
+    """Adds the verb and returns its parser; the parser of the whole command is to be its default `command`."""
+    parser = verbs.add_parser(
+        "completion",
+        help="print a script by which bash, zsh or fish completes",
+        description=_DESCRIPTION,
+        epilog=_EXAMPLES,
+    )
+    parser.add_argument("shell", choices=SHELLS, metavar="SHELL", help=f"one of {', '.join(SHELLS)}")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run(options: argparse.Namespace) -> int:
+    """Prints the script and returns 0."""
+    import sys
+
+    sys.stdout.write(script(options.command, options.shell) + "\n")
+    return 0
+
+
+def script(parser: argparse.ArgumentParser, shell: str) -> str:
+    """Returns the script for a shell that completes what the parser reads; the parser is marked for it."""
+    import shtab
+
+    known = _known_values()
+    for action in _actions(parser):
+        if action.type is Path:
+            action.complete = shtab.FILE  # type: ignore[attr-defined]  # shtab reads it
+        elif action.choices is None and action.dest in known:
+            action.choices = list(known[action.dest])
+    return shtab.complete(parser, shell=shell)
+
+
+def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
+    """Yields the actions of a parser and of its verbs."""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for of_verb in action.choices.values():
+                yield from _actions(of_verb)
+        else:
+            yield action
+
+
+def _known_values() -> dict[str, Collection[str]]:
+    """Returns the first words of options whose values argparse does not list."""
+    from grafu.articulation.base import BaseKind
+    from grafu.cli.part_options import GRIPS, TOP_SHAPES
+    from grafu.export.formats import FORMATS
+    from grafu.pipeline.motion_source import MotionSource
+    from grafu.templates.gallery import builtin_gallery, open_handles
+
+    axes = [f"{sign}{axis}" for axis in "XYZ" for sign in "+-"]
+    return {
+        "formats": [*FORMATS, "list"],
+        "motion": [str(source) for source in MotionSource],
+        "handle": [*open_handles(None), *GRIPS],
+        "hinge": [model.id for model in builtin_gallery().hinges],
+        "top": TOP_SHAPES,
+        "base": [str(kind) for kind in BaseKind],
+        "interior": ["none", "predicted", "auto"],
+        "up": axes,
+        "front": axes,
+    }

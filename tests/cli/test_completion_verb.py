@@ -1,0 +1,101 @@
+"""The scripts of `grafu completion` in the shells themselves: what they offer after a word that was begun."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from time import monotonic
+
+import pytest
+
+from grafu.cli.completion import SHELLS
+from grafu.cli.main import main
+from grafu.export.formats import FORMATS
+
+
+@pytest.fixture(scope="module")
+def scripts(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("scripts")
+    for shell in SHELLS:
+        done = subprocess.run(
+            [sys.executable, "-m", "grafu", "completion", shell], capture_output=True, text=True, check=True
+        )
+        (folder / shell).write_text(done.stdout)
+    return folder
+
+
+def bash(script: Path, place: Path, *words: str) -> set[str]:
+    code = (
+        f"cd '{place}'; source '{script}'; COMP_WORDS=(grafu {' '.join(map(repr, words))}); COMP_CWORD={len(words)}; "
+        "_shtab_grafu; printf '%s\\n' \"${COMPREPLY[@]}\""
+    )
+    done = subprocess.run(["bash", "--norc", "-c", code], capture_output=True, text=True, check=True)
+    return set(done.stdout.split())
+
+
+def fish(script: Path, place: Path, *words: str) -> set[str]:
+    line = " ".join(["grafu", *words])
+    code = f"cd '{place}'; source '{script}'; complete -C '{line}'"
+    environment = {**os.environ, "HOME": str(place), "XDG_CONFIG_HOME": str(place / "none")}
+    done = subprocess.run(["fish", "-c", code], capture_output=True, text=True, check=True, env=environment)
+    return {offered.partition("\t")[0] for offered in done.stdout.splitlines()}
+
+
+def zsh(script: Path, place: Path, *words: str) -> set[str]:
+    """Types the words and a tab in an interactive zsh, and returns what stands on its terminal then."""
+    import pty
+
+    pid, terminal = pty.fork()
+    if pid == 0:
+        os.chdir(place)
+        os.execvpe("zsh", ["zsh", "-f", "-i"], {**os.environ, "TERM": "xterm", "COLUMNS": "200", "HOME": str(place)})
+    (place / "functions").mkdir(exist_ok=True)
+    shutil.copy(script, place / "functions" / "_grafu")
+    start = f"PS1=; LISTMAX=500; fpath+={place}/functions; autoload -U compinit; compinit -u -D\n"
+    os.write(terminal, (start + "print -n READ; print Y\n").encode())
+    read_until(terminal, "READY")
+    os.write(terminal, " ".join(["grafu", *words]).encode() + b"\t\t")
+    seen = read_until(terminal, "blend", seconds=3.0)
+    os.kill(pid, 9)
+    os.waitpid(pid, 0)
+    os.close(terminal)
+    return set(re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|[\a\b\r]", " ", seen).split())
+
+
+def read_until(terminal: int, mark: str, seconds: float = 30.0) -> str:
+    import select
+
+    seen, end = "", monotonic() + seconds
+    while mark not in seen and monotonic() < end:
+        if select.select([terminal], [], [], 0.1)[0]:
+            seen += os.read(terminal, 65536).decode(errors="replace")
+    return seen
+
+
+ASK = {"bash": bash, "zsh": zsh, "fish": fish}
+
+
+@pytest.mark.parametrize("shell", SHELLS)
+def test_the_shell_completes_verbs_options_choices_formats_and_files(shell: str, scripts: Path, tmp_path: Path) -> None:
+    if shutil.which(shell) is None:
+        pytest.skip(f"{shell} is not installed")
+    (tmp_path / "wardrobe.glb").touch()
+    ask, script = ASK[shell], scripts / shell
+
+    assert "functionalize" in ask(script, tmp_path, "funct")
+    assert "--formats" in ask(script, tmp_path, "functionalize", "--form")
+    assert set(FORMATS) <= ask(script, tmp_path, "functionalize", "--formats", "")
+    assert "annotation" in ask(script, tmp_path, "functionalize", "--motion", "ann")
+    assert "knob-round" in ask(script, tmp_path, "functionalize", "--handle", "knob-r")
+    assert {"wall", "free"} <= ask(script, tmp_path, "functionalize", "--base", "")
+    assert "wardrobe.glb" in ask(script, tmp_path, "inspect", "ward")
+
+
+def test_another_shell_is_refused_with_those_that_there_are(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["completion", "tcsh"])
+    assert end.value.code == 2
+    said = capsys.readouterr().err
+    assert all(shell in said for shell in SHELLS)
