@@ -289,6 +289,22 @@ def test_colours_of_vertices_are_shown(tmp_path):
     assert np.allclose(shown, np.tile([1.0, 0.0, 0.2], (8, 1)))
 
 
+def test_points_that_no_face_uses_are_left_out_with_their_colours(tmp_path):
+    colors = np.tile(np.arange(8, dtype=np.uint8)[:, None], (1, 4))
+    whole = painted_cube(material=Material("m", (1.0, 1.0, 1.0, 1.0)), colors=colors)
+    cube = whole.link("body").visuals[0]
+    half = replace(cube.surfaces[0], mesh=TriangleMesh(cube.surfaces[0].mesh.vertices, cube.surfaces[0].mesh.faces[:2]))
+    cut = replace(whole, links=(replace(whole.links[0], visuals=(replace(cube, surfaces=(half,)),)),))
+    stage = opened(export_usd(cut), tmp_path / "a")  # a prim lives as long as its stage
+    prim = stage.GetPrimAtPath("/cube/body/visuals/cube")
+    used = np.unique(half.mesh.faces)
+    mesh = UsdGeom.Mesh(prim)
+    assert sorted(set(mesh.GetFaceVertexIndicesAttr().Get())) == list(range(len(used))) == [0, 1, 2, 3]
+    assert len(mesh.GetPointsAttr().Get()) == len(used)
+    shown = UsdGeom.PrimvarsAPI(prim).GetPrimvar("displayColor").Get()
+    np.testing.assert_allclose(np.array(shown)[:, 0], used / 255.0, atol=1e-6)
+
+
 ODD_NAMES = ["a<&>\"'", "tür 1", "world", "1/b", "1_b", "Looks", "joints", "Door", "door"]
 
 

@@ -15,7 +15,7 @@ from grafu.articulation.collision_shapes import CollisionShape
 from grafu.export.names import NameBook
 from grafu.export.output_names import file_safe
 from grafu.export.shading import corner_normals
-from grafu.geometry.appearance import Material, Surface, Texture
+from grafu.geometry.appearance import Material, Surface, Texture, selected
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.mesh import TriangleMesh
@@ -193,7 +193,12 @@ class _Shading:
 def add_surface(
     stage: Usd.Stage, path: Sdf.Path, surface: Surface, origin: Vec3, looks: UsdMaterialWriter, crease: float
 ) -> Any:
-    """Adds a surface as a mesh with its material and returns it; `crease` is radians."""
+    """Adds a surface as a mesh with its material and returns it; `crease` is radians.
+
+    Points that no face uses are left out: validators count them as failures.
+    """
+    if len(np.unique(surface.mesh.faces)) < len(surface.mesh.vertices):
+        surface = selected(surface, np.arange(len(surface.mesh.faces)))
     mesh = _add_mesh(stage, path, surface.mesh, origin)
     shading = corner_normals(surface, crease)
     mesh.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(_floats(shading.normals[shading.corners.ravel()])))
