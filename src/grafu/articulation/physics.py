@@ -23,6 +23,7 @@ from grafu.articulation.finger_room import FingerRoomCutConfig, with_finger_room
 from grafu.articulation.floor_clearance import FloorConfig, off_floor
 from grafu.articulation.joint_dynamics import DynamicsConfig, JointDynamics, joint_dynamics
 from grafu.articulation.kinematics import link_origins
+from grafu.articulation.level_feet import LevelFeetConfig, level_feet
 from grafu.articulation.mass import MassProperties, mass_of_link, moments_of, moments_of_box
 from grafu.articulation.open_together import met_at_rest, near_at_rest
 from grafu.geometry.arrays import Vec3
@@ -42,6 +43,7 @@ class PhysicsConfig(ShortRepr):
     clearance: ShapeClearanceConfig = field(default_factory=ShapeClearanceConfig)
     fingers: FingerRoomCutConfig = field(default_factory=FingerRoomCutConfig)
     floor: FloorConfig = field(default_factory=FloorConfig)
+    feet: LevelFeetConfig = field(default_factory=LevelFeetConfig)
     dynamics: DynamicsConfig = field(default_factory=DynamicsConfig)
 
 
@@ -113,6 +115,7 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
         partial(with_finger_room, shapes, articulated.grasps, config.fingers),
         partial(_noted, notes, "collision shapes were not cut where fingers go", shapes),
     )
+    shapes, short_feet = level_feet(articulated, masses, shapes, config.feet)
     touching = within(
         _CONTACTS,
         partial(met_at_rest, articulated, shapes),
@@ -121,7 +124,8 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     dynamics = {
         joint.id: joint_dynamics(articulated, joint, masses, config.dynamics) for joint in articulated.moving_joints
     }
-    return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, touching, (*left_out, *notes), bool(notes))
+    told = (*left_out, *([short_feet] if short_feet else []), *notes)
+    return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, touching, told, bool(notes))
 
 
 def _noted(notes: list[str], what: str, found: T, why: str) -> T:
