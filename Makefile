@@ -71,7 +71,7 @@ test: .venv/installed-dev .venv/installed-train .venv/installed-validator
 check: .venv/installed-dev .venv/installed-train
 	$(BIN)/ruff check src tests scripts examples blender_addon
 	$(BIN)/ruff format --check src tests scripts examples blender_addon
-	$(BIN)/mypy
+	$(BIN)/mypy --num-workers 2
 	$(BIN)/lint-imports
 	$(BIN)/python scripts/docs.py --check
 

@@ -65,15 +65,25 @@ def checked(target: Any = None, *, typechecker: Callable[[Any], Any]) -> Any:
 
 
 def _checked_function(function: Callable[..., Any], typechecker: Callable[[Any], Any]) -> Callable[..., Any]:
+    """Returns the function with checks that are made at its first call: a process calls few of all functions."""
+
+    @cache
+    def made() -> Callable[..., Any]:
+        return _with_checks(function, typechecker)
+
+    return _sampled(function, made)
+
+
+def _with_checks(function: Callable[..., Any], typechecker: Callable[[Any], Any]) -> Callable[..., Any]:
     stated = function.__annotations__
     resolved = {name: _resolved(hint, function.__globals__) for name, hint in stated.items()}
     function.__annotations__ = hints = _without_lone_names(resolved, function)
     inner = typechecker(function)
     function.__annotations__ = stated
-    return _sampled(function, _in_own_names(inner) if any(map(_names_axes, hints.values())) else inner)
+    return _in_own_names(inner) if any(map(_names_axes, hints.values())) else inner
 
 
-def _sampled(function: Callable[..., Any], always: Callable[..., Any]) -> Callable[..., Any]:
+def _sampled(function: Callable[..., Any], checked_one: Callable[[], Callable[..., Any]]) -> Callable[..., Any]:
     """Returns a function of which the first `FIRST` calls of a process are checked, then one of `EVERY`."""
     calls = count()
 
@@ -81,7 +91,7 @@ def _sampled(function: Callable[..., Any], always: Callable[..., Any]) -> Callab
     def sampled(*args: Any, **kwargs: Any) -> Any:
         __tracebackhide__ = True
         call = next(calls)
-        return (function if call >= FIRST and call % EVERY else always)(*args, **kwargs)
+        return (function if call >= FIRST and call % EVERY else checked_one())(*args, **kwargs)
 
     setattr(sampled, _OWN, True)
     return sampled
