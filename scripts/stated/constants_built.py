@@ -6,6 +6,7 @@ from math import degrees
 from judge_additions_table import COVERED
 
 from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.compartment.config import SolidBodyConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig
 from grafu.additions.handle.config import HandleConfig
@@ -29,7 +30,7 @@ from grafu.templates import user
 from grafu.templates.rails import TRAVEL
 
 Sentence = tuple[str, str, tuple[float | int | str, ...]]
-TOP, BOX, CARCASS = TopConfig(), DrawerBoxConfig(), CarcassConfig()
+TOP, SOLID, BOX, CARCASS = TopConfig(), SolidBodyConfig(), DrawerBoxConfig(), CarcassConfig()
 HANDLE, GRIP, GRASP, INTERIOR = HandleConfig(), GripConfig(), GraspConfig(), InteriorConfig()
 BUILT, SEEN, MOVES = RealizationConfig(), FeatureConfig(), DynamicsConfig()
 MASS, SHAPES = MassConfig(), CollisionShapeConfig()
@@ -83,6 +84,12 @@ def additions() -> Iterator[Sentence]:
             mm(BOX.behind),
         ),
     )
+    yield (
+        page,
+        "at most {} mm from it and level to {} mm over {} % of it, with nothing more of the body within {} mm behind",
+        (mm(SOLID.near), mm(SOLID.flat), per_cent(SOLID.faced), mm(SOLID.least_depth)),
+    )
+    yield page, "walls of {} mm are left around it (at most {} %", (mm(SOLID.wall), per_cent(SOLID.wall_ratio))
     yield page, "Walls are {} mm thick, the bottom {} mm.", (mm(BOX.wall), mm(BOX.bottom))
     yield page, "walls must stand on both sides over {} % of the depth", (per_cent(CARCASS.walled),)
     yield page, "a {} mm back is set", (mm(CARCASS.back),)

@@ -6,6 +6,7 @@ from math import nan
 import pytest
 
 from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.compartment.config import SolidBodyConfig
 from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripSize, GripSizes, GripTrials, GroundConfig
 from grafu.additions.handle.config import HandleConfig, HandleTrials
@@ -30,7 +31,7 @@ CONFIGS = (
     EvidenceConfig, FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig,
     GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig,
     PinConfig, PivotConfig, RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig,
-    SupportConfig, SurveyConfig, TopConfig,
+    SolidBodyConfig, SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]
@@ -38,6 +39,7 @@ POSITIVE = [
     (BoxProbeConfig, "touch"),
     (CarcassConfig, "back"),
     (ClearanceConfig, "play"),
+    (SolidBodyConfig, "wall"),
     (CutoutConfig, "opening"),
     (DrawerBoxConfig, "wall"),
     (EvidenceConfig, "flange"),

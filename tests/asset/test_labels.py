@@ -120,7 +120,14 @@ COMPOUNDS = {
     PartLabel.DOOR: ["opening_on_hinge_1_door", "hingeleftdoor.002", "microdoor", "leftGlassDoor", "door_stile_0"],
     PartLabel.DRAWER: ["drawer of the desk", "Kitchen_drawer_main", "cabinet1_drawer_top_left", "drawer_0_left_side"],
     PartLabel.HANDLE: ["handle of the upper drawer", "drawerhandle", "handle_post_0", "Handle-Joint-top"],
-    PartLabel.UNKNOWN: ["drawercase", "drawer_unit", "Korpus", "柜体"],
+    PartLabel.UNKNOWN: [
+        "drawercase",
+        "drawer_unit",
+        "Korpus",
+        "柜体",
+        "Door-and-Drawers-Right.001",
+        "drawers_or_doors",
+    ],
 }
 LANGUAGES = {
     PartLabel.DOOR: [

@@ -426,3 +426,46 @@ def test_a_strip_along_a_whole_border_is_a_moulding_and_goes_with_its_front(widt
     found = cut(merge_meshes([*CHEST, *STACK, strip]))
     inside = [r for r, box in found[0] if box.contains(strip.box.corners()).all() and r != "rest"]
     assert inside == [role]
+
+
+# A desk's pedestal, one body with three fronts let into its face, and a knob on each that is another object's.
+PEDESTAL = board((0.0, -0.3, 0.0), (0.5, 0.3, 0.7))
+LET_IN = [board((0.05, -0.303, z), (0.45, -0.28, z + 0.17)) for z in (0.14, 0.32, 0.5)]
+DESK = [board((-0.7, -0.32, 0.7), (0.52, 0.32, 0.74)), board((-0.68, -0.3, 0.0), (-0.63, 0.3, 0.7)), PEDESTAL]
+KNOBS = [board((0.24, -0.34, z), (0.26, -0.303, z + 0.02)) for z in (0.22, 0.4, 0.58)]
+
+
+def test_fronts_let_into_the_face_of_a_body_are_the_fronts_and_not_the_body():
+    found = cut(merge_meshes([*DESK, *LET_IN]), merge_meshes(KNOBS))
+    assert boxes(found, "front") == rounded(LET_IN)
+    assert boxes(found, "on front") == rounded(KNOBS)
+
+    alone = divided([merge_meshes([*DESK, *LET_IN]), merge_meshes(KNOBS)], [True, False], [False] * 2)
+    assert set(alone) == {0}, "handles that may not be parted"
+    parted = divided(
+        [merge_meshes([*DESK, *LET_IN]), merge_meshes(KNOBS)], [True, False], [False] * 2, lying=[False, True]
+    )
+    assert [piece.role for piece in parted[1]] == ["on front"] * 3
+
+
+@pytest.mark.parametrize("has_knob", [True, False])
+def test_drawers_behind_the_edge_of_a_desk_are_known_by_the_handles_of_another_object(has_knob):
+    fronts = [board((x, 0.2, 0.75), (x + 0.3, 0.21, 0.85)) for x in (-0.6, 0.2)]
+    boards = [board((x, 0.2, 0.74), (x + 0.01, 0.31, 0.86)) for x in (-0.61, -0.3, 0.19, 0.5)]
+    gallery = merge_meshes(
+        [board((-0.62, 0.2, 0.86), (0.51, 0.31, 0.88)), board((-0.62, 0.31, 0.74), (0.51, 0.32, 0.88))]
+    )
+    knobs = [board((x, 0.17, 0.79), (x + 0.02, 0.2, 0.81)) for x in (-0.46, 0.34)]
+    others = [merge_meshes(knobs)] if has_knob else [board((0, 0.25, 0.9), (0.1, 0.3, 1.0))]
+
+    found = boxes(cut(merge_meshes([*DESK, *fronts, *boards, gallery]), *others), "front")
+    assert all(one in found for one in rounded(fronts)) == has_knob
+
+
+def test_handles_on_fronts_that_are_objects_of_their_own_are_parted_by_these():
+    stiles = board((-0.5, 0.0, 0.0), (-0.4, 0.02, 0.5))
+    found = cut(merge_meshes(CHEST), *STACK, merge_meshes(PLATES))
+    assert [role for role, _ in found[3]] == ["on front", "on front"]
+
+    large = [board((-0.4, -0.03, z), (0.4, -0.02, z + 0.19)) for z in (0.04, 0.27)]
+    assert cut(merge_meshes(CHEST), *STACK, merge_meshes([*large, stiles])).keys() <= {3}, "no handles"

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import final
 
 from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.compartment.config import SolidBodyConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig
 from grafu.additions.handle.config import HandleChoice, HandleConfig
@@ -27,6 +28,8 @@ class AdditionConfig(ShortRepr):
     top: TopConfig | None = field(default_factory=TopConfig)
     replaces_top: bool = False
     """Whether an added top takes the place of one that is there."""
+    solid_bodies: SolidBodyConfig | None = field(default_factory=SolidBodyConfig)
+    """How compartments are cut into what is solid right behind doors and drawers."""
     drawer_boxes: DrawerBoxConfig | None = field(default_factory=DrawerBoxConfig)
     carcass: CarcassConfig | None = None
     handles: HandleConfig | None = field(default_factory=HandleConfig)
@@ -49,5 +52,7 @@ class AdditionConfig(ShortRepr):
         return replace(bare, interior=NOTHING, interior_sizes=InteriorConfig(), compartments={})
 
 
-NO_ADDITIONS = AdditionConfig(top=None, drawer_boxes=None, handles=None, grips=None, interior=NOTHING)
+NO_ADDITIONS = AdditionConfig(
+    top=None, solid_bodies=None, drawer_boxes=None, handles=None, grips=None, interior=NOTHING
+)
 """Motions alone."""

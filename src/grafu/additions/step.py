@@ -64,6 +64,7 @@ class DeficiencyKind(StrEnum):
     BACK = "back panel"  # the back of a carcass is open
     BOTTOM = "bottom panel"  # its bottom is open
     DRAWER_BOX = "drawer box"  # a drawer is only a front, or its box lacks boards
+    COMPARTMENT = "compartment"  # what carries a door or drawer is solid right behind it
     LABEL = "label"  # the part's category is not known
 
 
@@ -141,15 +142,26 @@ class StepRequest:
 
 @final
 @dataclass(frozen=True)
+class CutCompartment:
+    """A still part with compartments cut into it, and for each the doors and drawers that it is behind."""
+
+    part: Part
+    fronts: tuple[tuple[str, ...], ...]
+
+
+@final
+@dataclass(frozen=True)
 class Changes:
     """What a step did to parts that were there.
 
-    It `removed` parts, found some to move with a drawer (`attached`: drawer, then part), and `carved` grips.
+    It `removed` parts, found some to move with a drawer (`attached`: drawer, then part), `carved` grips, and cut
+    `compartments` into what is solid.
     """
 
     removed: frozenset[str] = frozenset()
     attached: tuple[tuple[str, str], ...] = ()
     carved: tuple[Carved, ...] = ()
+    compartments: tuple[CutCompartment, ...] = ()
 
 
 @final
@@ -190,7 +202,10 @@ class StepResult:
         """Returns this result and that of a later step as one."""
         ours, theirs = self.changes, later.changes
         changes = Changes(
-            ours.removed | theirs.removed, (*ours.attached, *theirs.attached), (*ours.carved, *theirs.carved)
+            ours.removed | theirs.removed,
+            (*ours.attached, *theirs.attached),
+            (*ours.carved, *theirs.carved),
+            (*ours.compartments, *theirs.compartments),
         )
         return StepResult(
             later.scene,

@@ -98,6 +98,7 @@ def functionalize(
     top: bool | str = True,
     handles: bool | str = True,
     drawer_boxes: bool = True,
+    compartments: bool = True,
     interior: str = "predicted",
     carcass: bool = False,
     trim: bool = True,
@@ -119,6 +120,7 @@ def functionalize(
         top: whether a missing top is added, or its shape: `rectangle`, `rounded`, `chamfered`.
         handles: whether handles or grips are added, or their style: a template's id, `grip`, `groove`, `edge`, `hole`.
         drawer_boxes: whether a drawer that is only a front gets a box.
+        compartments: whether what is solid behind doors and drawers gets compartments.
         interior: shelves and dividers: `predicted`, `auto`, `none`, or counts such as `shelves=2,dividers=1`.
         carcass: whether missing backs and bottoms are added.
         trim: whether material may be taken away to give a part clearance.
@@ -143,6 +145,7 @@ def functionalize(
         top=require_bool_or_word(top, "top", "a shape"),
         handles=require_bool_or_word(handles, "handles", "a style"),
         drawer_boxes=require(drawer_boxes, bool, "drawer_boxes", "True or False"),
+        compartments=require(compartments, bool, "compartments", "True or False"),
         interior=require(interior, str, "interior", "a word such as `auto`"),
         carcass=require(carcass, bool, "carcass", "True or False"),
     )

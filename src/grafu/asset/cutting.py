@@ -31,6 +31,10 @@ from grafu.vocabulary import PartLabel
 _OPEN: Final = frozenset({PartLabel.UNKNOWN, PartLabel.MISC, PartLabel.FACE_FRAME, PartLabel.DOOR, PartLabel.DRAWER})
 
 
+# What may lie on several fronts: handles, and what may be some.
+_LYING: Final = frozenset({PartLabel.UNKNOWN, PartLabel.MISC, PartLabel.HANDLE})
+
+
 @final
 @dataclass(frozen=True, slots=True)
 class CutConfig:
@@ -72,7 +76,8 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     open_to = [_may_be_cut(part, config) and part.carried_by is None for part in reading.parts]
     whole = [part.label.is_movable for part in reading.parts]
     materials = [_materials(part) for part in reading.parts]
-    cuts = divided(meshes, open_to, whole, materials)
+    loose = [part.label in _LYING and part.carried_by is None for part in reading.parts]
+    cuts = divided(meshes, open_to, whole, materials, loose)
     if not cuts and not any(whole) and len(reading.parts) <= config.few:
         cuts = drawn_fronts(meshes, open_to, materials)
         if not cuts and any(surface.uv is not None for part in reading.parts for surface in part.surfaces):
@@ -128,6 +133,7 @@ def _may_be_cut(part: Part, config: CutConfig) -> bool:
     """Whether a part may hide fronts: so may the body of a piece of furniture that is named after that."""
     sides = np.sort(part.box.size)
     is_body = part.label is BODY and sense_of(part.source.name).is_container
+    is_body |= part.label is PartLabel.SHELF  # no board, but shelves: a bookcase
     return part.label in _OPEN or (is_body and bool(sides[0] > config.thick * sides[1]))
 
 

@@ -92,6 +92,7 @@ _CONTAINERS = word_set(
     "dishwasher washer "
     "bed stair nightstand shell housing"
 )
+_AND = word_set("and or plus")
 _CHESTS = word_set("chest trunk coffer")
 _BEDS = word_set("bed cot crib cradle mattress pillow duvet")
 _APPLIANCES = word_set("fridge refrigerator freezer oven stove cooker microwave dishwasher washer")
@@ -104,7 +105,8 @@ class Sense:
 
     A name `is_blurred` where it goes on, after the noun, with words that are not known (`drawer_sprocket`).
     `is_container` states that it is the name of a whole piece of furniture or of its body, `mention` which door or
-    drawer it names besides (`drawer_unit`), `is_fitting` that it is that of a hinge, a rail or the like.
+    drawer it names besides (`drawer_unit`), `is_fitting` that it is that of a hinge, a rail or the like,
+    `is_either` that it names doors and drawers alike.
     """
 
     label: PartLabel
@@ -112,6 +114,7 @@ class Sense:
     is_blurred: bool = False
     is_container: bool = False
     is_fitting: bool = False
+    is_either: bool = False
     mention: PartLabel | None = None
 
 
@@ -120,7 +123,7 @@ def sense_of(name: str) -> Sense:
     """Returns what a name states; where it states nothing, the label is `unknown`."""
     for phrase in _phrases(spoken(name)):
         found = _sense(tuple(singular(w) for w in phrase))
-        if found.label is not PartLabel.UNKNOWN or found.is_container:
+        if found.label is not PartLabel.UNKNOWN or found.is_container or found.is_either:
             return found
     return Sense(PartLabel.UNKNOWN)
 
@@ -185,6 +188,8 @@ def _sense(said: tuple[str, ...]) -> Sense:
     if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, _last(said, _OF_MOVING))):
         return Sense(PartLabel.HANDLE)
     moving = _last(said, _OF_MOVING)
+    if _names_both(said):
+        return Sense(PartLabel.UNKNOWN, is_either=True)
     if moving is not None:
         found = _as_moving(said, moving)
         if found is not None:
@@ -212,6 +217,12 @@ def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sen
     if later or any(w in _CONTAINERS for w in tail):
         return None
     return Sense(label, is_piece=bool(set(tail) & own), is_blurred=True)
+
+
+def _names_both(said: tuple[str, ...]) -> bool:
+    """Whether a name is that of doors and drawers alike (`door_and_drawers`): which of them a part is, shape tells."""
+    threes = zip(said, said[1:], said[2:], strict=False)
+    return any(word in _AND and {before, after} == {"door", "drawer"} for before, word, after in threes)
 
 
 def _overlaps(first: tuple[int, int, PartLabel], second: tuple[int, int, PartLabel] | None) -> bool:

@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.cutting import cut_where_fronts_appear, joined_where_nameless
+from grafu.asset.either_kind import with_either_kind
 from grafu.asset.folder import divide, looked_for_fronts
 from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
@@ -62,7 +63,8 @@ def settled(
     frame = settle_frame(reading, options, file)
     place, frame = Placing(frame), turned_before(frame, askew)
     annotation = reading.annotation and place.annotation(reading.annotation)
-    parts, told = with_blind_fronts(place.parts(reading.parts))
+    placed = place.parts(reading.parts)
+    parts, told = with_blind_fronts(placed if options.labels == "none" else with_either_kind(placed))
     return Asset(name, str(path), reading.kind, parts, frame, notes=(*reading.notes, *told), annotation=annotation)
 
 

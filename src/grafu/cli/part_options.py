@@ -98,6 +98,9 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--no-handles", action="store_true", help="add no handles and carve no grips")
     group.add_argument("--no-drawer-boxes", action="store_true", help="leave drawers that are only a front as they are")
     group.add_argument(
+        "--no-compartments", action="store_true", help="leave what is solid behind doors and drawers as it is"
+    )
+    group.add_argument(
         "--top", choices=TOP_SHAPES, metavar="SHAPE", help=f"shape of added tops: {', '.join(TOP_SHAPES)}"
     )
     group.add_argument(
@@ -152,6 +155,7 @@ def addition_config(
             top=False if options.no_top else options.top,
             handles=False if options.no_handles else options.handle,
             drawer_boxes=False if options.no_drawer_boxes else None,
+            compartments=False if options.no_compartments else None,
             interior=options.interior,
             carcass=True if options.complete == "carcass" else None,
         )

@@ -4,6 +4,7 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from grafu.additions.carcass.config import CarcassConfig
+from grafu.additions.compartment.config import SolidBodyConfig
 from grafu.additions.config import AdditionConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripKind
@@ -24,6 +25,7 @@ def choose_additions(
     top: bool | str | None = None,
     handles: bool | str | None = None,
     drawer_boxes: bool | None = None,
+    compartments: bool | None = None,
     interior: str | None = None,
     carcass: bool | None = None,
 ) -> AdditionConfig:
@@ -35,6 +37,7 @@ def choose_additions(
         top: whether tops are added, or their shape: one of `TOP_SHAPES`.
         handles: whether handles and grips are added, or their style: a template's id or one of `GRIPS`.
         drawer_boxes: whether a drawer that is only a front gets a box.
+        compartments: whether what is solid behind doors and drawers gets compartments.
         interior: `none`, `auto`, `predicted`, or counts for each compartment such as `shelves=2,dividers=1`.
         carcass: whether missing backs and bottoms are added.
 
@@ -46,6 +49,8 @@ def choose_additions(
         config = replace(config, top=_top(top, config.top))
     if drawer_boxes is not None:
         config = replace(config, drawer_boxes=(config.drawer_boxes or DrawerBoxConfig()) if drawer_boxes else None)
+    if compartments is not None:
+        config = replace(config, solid_bodies=(config.solid_bodies or SolidBodyConfig()) if compartments else None)
     if carcass is not None:
         config = replace(config, carcass=(config.carcass or CarcassConfig()) if carcass else None)
     if interior is not None:

@@ -5,6 +5,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
+from grafu.additions.step import DeficiencyKind
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.part import Part
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
@@ -204,4 +205,15 @@ def _added_records(result: Functionalized) -> tuple[AddedRecord, ...]:
         )
         for c in result.fittings.changes.carved
     ]
-    return (*parts, *grips)
+    compartments = [
+        AddedRecord(
+            part=c.part.id,
+            category=c.part.label,
+            why=f"it was drawn solid behind {', '.join(fronts)}",
+            style=DeficiencyKind.COMPARTMENT,
+            link=link_of[c.part.id],
+        )
+        for c in result.body.changes.compartments
+        for fronts in c.fronts
+    ]
+    return (*parts, *grips, *compartments)

@@ -174,12 +174,14 @@ class JointRecord(ReportRecord):
 
 
 class AddedRecord(ReportRecord):
-    """A part that was added, or a recessed grip that was carved into one."""
+    """A part that was added, a recessed grip that was carved into one, or a compartment that was cut into one."""
 
-    part: str = Field(description="its id; of a grip: the front that it was carved into")
+    part: str = Field(description="its id; of a grip or compartment: the part that it was cut into")
     category: PartLabel = Field(description="its category; a grip is a handle")
     why: str = Field(description="what was missing")
-    style: str = Field(description="the template of a handle, the outline of a top, the kind of a grip")
+    style: str = Field(
+        description="the template of a handle, the outline of a top, the kind of a grip, `drawer box` or `compartment`"
+    )
     link: str = Field(description="the link of model.urdf that holds it")
 
 

@@ -113,6 +113,8 @@ class MemberConfig(ShortRepr):
     """A plate that covers so much may be fixed (of its object's outline) ..."""
     half: float = 0.5
     """... if the fronts on it cover so much of it ..."""
+    let_in: float = 0.2
+    """... or that are let into it, as thin as this (of its thickness) ..."""
     smaller: float = 0.9
     """... and each is smaller than this (of its outline)."""
     ring: float = 0.5
@@ -180,7 +182,9 @@ class DivisionConfig:
     beside: float = 0.1
     """... and how much of it the front may overlap (of its outline)."""
     flush: float = 0.2
-    """How far inside an object's front a front of it lies (of the object's depth)."""
+    """How far inside an object's front a front of it lies (of the object's depth) ..."""
+    flush_held: float = 0.8
+    """... where a handle stands on it: the drawers behind the top of a desk."""
     lid: float = 0.4
     """How much of a case is closed from above (of its footprint)."""
     case_reach: float = 3.0

@@ -65,6 +65,7 @@ def divided(
     open_to: Sequence[bool],
     whole: Sequence[bool],
     materials: Sequence[Indices] | None = None,
+    lying: Sequence[bool] | None = None,
     config: SegmentationConfig = SegmentationConfig(),
 ) -> dict[int, list[FacePiece]]:
     """Returns for each mesh that is cut what it is cut into.
@@ -74,11 +75,13 @@ def divided(
         open_to: which of them may be cut.
         whole: which of them are said to be one door or drawer: they are cut where they hold several fronts.
         materials: for each mesh the number of each face's material: a handle welded to a front is known by it.
+        lying: which of them may be handles, and are parted by the fronts that they lie on; None: all that may be cut.
         config: the thresholds.
     """
     may = np.asarray(open_to, dtype=bool)
     shells = MeshShells.of(meshes)
-    found = _from_the_best_side(shells, may, whole, config)
+    loose = may if lying is None else np.asarray(lying, dtype=bool)
+    found = _from_the_best_side(shells, may, whole, config, loose)
     pieces = found.pieces(shells)
     if materials is not None:
         left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
@@ -99,7 +102,7 @@ class FoundFronts:
     @property
     def clear(self) -> dict[int, tuple[FrontShells, ...]]:
         """Returns the hidden fronts that are clear: several of one object, or one with a handle."""
-        return {o: fronts for o, fronts in self.hidden.items() if len(fronts) > 1 or any(f.handles for f in fronts)}
+        return {o: fronts for o, fronts in self.hidden.items() if len(fronts) > 1 or any(f.is_held for f in fronts)}
 
     def pieces(self, shells: MeshShells) -> dict[int, list[FacePiece]]:
         """Returns what each object is cut into."""
@@ -112,7 +115,11 @@ class FoundFronts:
 
 
 def _from_the_best_side(
-    shells: MeshShells, may_be_cut: MaskOfObjects, whole: Sequence[bool], config: SegmentationConfig
+    shells: MeshShells,
+    may_be_cut: MaskOfObjects,
+    whole: Sequence[bool],
+    config: SegmentationConfig,
+    lying: MaskOfObjects | None = None,
 ) -> FoundFronts:
     """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
 
@@ -121,15 +128,16 @@ def _from_the_best_side(
     """
     several = np.bincount(shells.owner, minlength=len(whole)) > 1
     may = (several & may_be_cut)[shells.owner]
+    loose = may if lying is None else (several & lying)[shells.owner]
     if not may.any():
         return FoundFronts({}, {})
     sides: list[FoundFronts] = []
     ranks: list[tuple[bool, bool, float]] = []
     for turn in range(4):
         view = view_of(shells.mesh, shells.shell, shells.owner, axes_from(turn))
-        found = fronts_by_object(view, may, whole, config)
+        found = fronts_by_object(view, may, whole, config, loose)
         clear = [front for fronts in found.clear.values() for front in fronts]
-        is_held = len(whole) > 1 or sum(bool(front.handles) for front in clear) > 1
+        is_held = len(whole) > 1 or sum(front.is_held for front in clear) > 1
         if turn == 0 and clear and is_held:
             return found
         area = sum(outline(view, front) for front in clear)
@@ -139,7 +147,7 @@ def _from_the_best_side(
     ahead, handled = sides[0], next((side.with_handles for side in sides if side.with_handles), {})
     if best > 0 and ranks[best][2] > 0:
         return replace(sides[best], hidden=sides[best].clear)
-    return ahead if ahead.hidden else FoundFronts({}, handled)
+    return ahead if ahead.hidden else FoundFronts({}, handled, ahead.on_fronts)
 
 
 def axes_from(turn: int) -> Mat3:
@@ -149,11 +157,20 @@ def axes_from(turn: int) -> Mat3:
 
 
 def fronts_by_object(
-    view: ShellsView, may: MaskOfShells, whole: Sequence[bool], config: SegmentationConfig
+    view: ShellsView,
+    may: MaskOfShells,
+    whole: Sequence[bool],
+    config: SegmentationConfig,
+    loose: MaskOfShells | None = None,
 ) -> FoundFronts:
-    """Returns the fronts of each object that hides some, and of each that is one with handles."""
+    """Returns the fronts of each object that hides some, and of each that is one with handles.
+
+    `loose` are the shells of objects that may be handles, and are parted by the fronts that they lie on, also where
+    these are objects of their own; None: of those that may be cut.
+    """
     view, members = merged(view, [*framed(view, config), *halves(view, config)])
-    may = may[[shells[0] for shells in members]]
+    first = [shells[0] for shells in members]
+    may, loose = may[first], (may if loose is None else loose)[first]
     found: dict[int, list[FrontShells]] = {}
     fronts = _with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config)
     for front in without_case(view, fronts, config):
@@ -162,7 +179,10 @@ def fronts_by_object(
     hidden = {o: fronts for o, fronts in flush.items() if fronts and hides(view, o, fronts, whole[o], config)}
     others = {o: fronts for o, fronts in flush.items() if o not in hidden}
     single = {o: f[0] for o, f in others.items() if is_one_with_handles(view, o, f, config.division)}
-    lying = lying_on_fronts(view, may & ~np.isin(view.owner, [*hidden, *single]), hidden, config)
+    alone = candidates(view, np.bincount(view.owner)[view.owner] == 1, config.candidates)
+    alone = np.append(alone, np.array([f[0].shells[0] for f in others.values() if len(f) == 1], dtype=np.int64))
+    left = ~np.isin(view.owner, [*hidden, *single])
+    lying = lying_on_fronts(view, ((may | loose) & left, loose & left), (hidden, alone), config)
     return FoundFronts(
         {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()},
         {o: front.made_of(members) for o, front in single.items()},
@@ -180,7 +200,7 @@ def _with_low(
     free = [k for k in low.tolist() if k not in taken and not any(mask[k] for mask in covered)]
     wide = [k for k in free if view.size[k, 0] > view.size[k, 1]]
     found = fronts_among(view, np.array(wide, dtype=np.int64), config)
-    return (*fronts, *(front for front in found if front.handles and not taken & front.all_shells))
+    return (*fronts, *(front for front in found if front.is_held and not taken & front.all_shells))
 
 
 def _pieces(shells: MeshShells, owner: int, start: int, fronts: tuple[FrontShells, ...]) -> list[FacePiece]:

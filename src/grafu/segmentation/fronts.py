@@ -1,7 +1,7 @@
 """Fronts with what belongs to them: panes, mouldings and liners, the boards of a drawer, handles. It asks no names."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, final
 
 import numpy as np
@@ -19,10 +19,14 @@ _RING_CELLS = 3  # rays around a handle that show where its front lies
 @final
 @dataclass(frozen=True, slots=True)
 class FrontShells:
-    """The shells of one door or drawer, the plate first, and those of each handle on it."""
+    """The shells of one door or drawer, the plate first, and those of each handle on it.
+
+    `is_held` states whether a handle stands on it, its own or one that is another object.
+    """
 
     shells: tuple[int, ...]
     handles: tuple[tuple[int, ...], ...] = ()
+    is_held: bool = False
 
     @property
     def all_shells(self) -> frozenset[int]:
@@ -32,9 +36,8 @@ class FrontShells:
     def made_of(self, members: Sequence[tuple[int, ...]]) -> "FrontShells":
         """Returns the front with each shell replaced by those that it is made of."""
         parts = tuple(m for shell in self.shells for m in members[shell])
-        return FrontShells(
-            parts, tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.handles)
-        )
+        handles = tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.handles)
+        return FrontShells(parts, handles, self.is_held)
 
 
 def fronts_among(view: ShellsView, plates: Indices, config: SegmentationConfig) -> tuple[FrontShells, ...]:
@@ -73,7 +76,7 @@ def _with_stiles(view: ShellsView, found: Sequence[FrontShells], config: Segment
         own = [strips[k] for k, side in beside.items() if strips[k] in fronts and (front.handles or side in opposite)]
         if own and front in fronts:
             shells = (*front.shells, *(shell for strip in own for shell in strip.shells))
-            fronts[fronts.index(front)] = FrontShells(shells, front.handles)
+            fronts[fronts.index(front)] = replace(front, shells=shells)
             fronts = [other for other in fronts if other not in own]
     return tuple(fronts)
 
@@ -99,18 +102,26 @@ def _strip_side(
 
 
 def lying_on_fronts(
-    view: ShellsView, may: MaskOfShells, hidden: Mapping[int, tuple[FrontShells, ...]], config: SegmentationConfig
+    view: ShellsView,
+    may: tuple[MaskOfShells, MaskOfShells],
+    fronts: tuple[Mapping[int, tuple[FrontShells, ...]], Indices],
+    config: SegmentationConfig,
 ) -> dict[int, tuple[tuple[int, ...], ...]]:
-    """Returns for each object the shells that lie on fronts hidden in others, a group for each, where that parts it.
+    """Returns for each object the shells that lie on fronts in others, a group for each, where that parts it.
 
-    What is as small as a handle may be inset: it reaches the face of its front from behind.
+    The first of `fronts` are hidden in objects, the second are plates that are objects of their own: on such, handles
+    count alone. `may` are the shells that may be parted by the first, and those that may by either. What is as small
+    as a handle may be inset: it reaches the face of its front from behind.
     """
+    hidden, alone = fronts
     plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
+    is_hidden = np.arange(len(plates) + len(alone)) < len(plates)
+    plates = np.concatenate([plates, alone])
     near, gap = config.candidates.near * Scale.of(view).extent[plates], config.members.handle_gap
     thin = float(_SHEET * near.max(initial=0.0))
     area = np.prod(view.size[:, :2], axis=1)
     found: dict[int, tuple[tuple[int, ...], ...]] = {}
-    for owner in np.unique(view.owner[may]).tolist() if len(plates) else ():
+    for owner in np.unique(view.owner[may[0] | may[1]]).tolist() if len(plates) else ():
         own = np.flatnonzero(view.owner == owner)
         low, high = view.low[own, None], view.high[own, None]
         grown = low[..., :2] - thin, high[..., :2] + thin  # a sheet seen from its edge has an outline, too
@@ -118,12 +129,14 @@ def lying_on_fronts(
         on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(axis=2)
         is_small = area[own, None] <= config.members.handle_area * area[plates]
         is_inset = is_small & (high[..., 2] >= view.high[plates, 2])
+        on &= (is_hidden | (is_small & may[1][own, None])) & (view.owner[plates] != owner)
         on &= is_inset | (low[..., 2] >= view.low[plates, 2] - near)
         on &= low[..., 2] <= view.high[plates, 2] + gap * near
-        lies, fronts = on.any(axis=1), on.argmax(axis=1)
-        served = np.unique(fronts[lies]).tolist()
-        if served and (len(served) > 1 or not lies.all()):
-            found[owner] = tuple(tuple(own[lies & (fronts == k)].tolist()) for k in served)
+        lies, front = on.any(axis=1), on.argmax(axis=1)
+        served = np.unique(front[lies]).tolist()
+        in_others = bool(served) and is_hidden[served].any()
+        if len(served) > 1 or (in_others and not lies.all()):
+            found[owner] = tuple(tuple(own[lies & (front == k)].tolist()) for k in served)
     return found
 
 
@@ -156,12 +169,25 @@ class _FrontFinder:
         on = np.zeros(len(self._area), dtype=bool)
         on[plates] = True
         on &= inner & (view.low[:, 2] >= view.high[plate, 2] - near) & (view.owner == view.owner[plate])
+        if self._is_case(plate, plates, inner):
+            return True
         outer = _outermost(view, np.flatnonzero(on), config.nested)
         covers = float(self._area[outer].sum())
         many = int(on.sum()) > 1 and covers >= config.half * self._area[plate]
         if many and bool(self._area[plate] >= config.whole * self._scale.outline[plate]):
             return True
         return len(outer) == 1 and self._is_apron(plate, outer[0])
+
+    def _is_case(self, plate: int, plates: Indices, inner: MaskOfShells) -> bool:
+        """Whether a body has several fronts let into its face, flush with it: the pedestal of a desk."""
+        view, near, config = self._view, float(self._near[plate]), self._config
+        inset = np.zeros(len(inner), dtype=bool)
+        inset[plates] = True
+        inset &= inner & (view.owner == view.owner[plate])
+        inset &= view.size[:, 2] <= config.let_in * view.size[plate, 2]
+        inset &= view.high[:, 2] >= view.high[plate, 2] - near
+        outer = _outermost(view, np.flatnonzero(inset), config.nested)
+        return len(outer) > 1 and float(self._area[outer].sum()) >= config.half * float(self._area[plate])
 
     def _is_apron(self, plate: int, front: int) -> bool:
         """Whether a board is longer by far than the front on it, and hardly higher: the apron of a table."""
@@ -173,13 +199,15 @@ class _FrontFinder:
         view = self._view
         free = view.owner == view.owner[plate]
         free[[*taken]] = False
-        handles = self._grouped(np.flatnonzero(free & self._stands_on(plate)))
+        standing = self._stands_on(plate)
+        handles = self._grouped(np.flatnonzero(free & standing))
+        others = self._grouped(np.flatnonzero(standing & (view.owner != view.owner[plate])))
         on = [shell for handle in handles for shell in handle]
         free[on] = False
         inside = free & within(view, plate, float(self._near[plate]))
         members = inside & self._lies_in(plate)
         members |= self._drawer_boards(plate, inside & ~members)
-        return FrontShells((plate, *np.flatnonzero(members).tolist()), handles)
+        return FrontShells((plate, *np.flatnonzero(members).tolist()), handles, bool(handles or others))
 
     def _stands_on(self, plate: int) -> MaskOfShells:
         """Whether each shell is small and stands out from the plate: a handle, or a piece of one."""

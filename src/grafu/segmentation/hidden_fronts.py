@@ -47,7 +47,8 @@ def is_flush(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bo
     extent = float((view.high.max(axis=0) - view.low.min(axis=0)).max())
     inside = float(view.high[own, 2].max() - view.high[plate, 2])
     shorter, thick = float(view.size[plate, :2].min()), float(view.size[plate, 2])
-    return inside <= config.flush * depth + thick and shorter >= config.small * extent
+    flush = config.flush_held if front.is_held else config.flush
+    return inside <= flush * depth + thick and shorter >= config.small * extent
 
 
 def hides(

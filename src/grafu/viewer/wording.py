@@ -19,6 +19,7 @@ _ADDED_FOR = {
     DeficiencyKind.BACK: PartLabel.BACK_PANEL,
     DeficiencyKind.BOTTOM: PartLabel.BOTTOM_PANEL,
 }
+_BY_STYLE = (DeficiencyKind.DRAWER_BOX, DeficiencyKind.COMPARTMENT)
 _STRAIGHT = 0.9999  # a direction this near to an axis is called by its name
 
 
@@ -39,10 +40,12 @@ def added(report: Report) -> list[str]:
     hinges = sum(joint.count for joint in report.joints if motion_kind(joint.type).turns)
     rails = sum(joint.count for joint in report.joints) - hinges
     boxes = {part.link for part in report.added if part.style == DeficiencyKind.DRAWER_BOX}
-    kinds = Counter(part.category for part in report.added if part.style != DeficiencyKind.DRAWER_BOX)
+    kinds = Counter(part.category for part in report.added if part.style not in _BY_STYLE)
     hardware = [(hinges, "hinge"), (rails, "rail"), (sum(joint.stays for joint in report.joints), "stay")]
     counts = [*hardware, *((count, kind.value) for kind, count in kinds.items())]
-    return [counted(count, what) for count, what in (*counts, (len(boxes), DeficiencyKind.DRAWER_BOX.value)) if count]
+    cut = sum(part.style == DeficiencyKind.COMPARTMENT for part in report.added)
+    by_style = (len(boxes), DeficiencyKind.DRAWER_BOX.value), (cut, DeficiencyKind.COMPARTMENT.value)
+    return [counted(count, what) for count, what in (*counts, *by_style) if count]
 
 
 def remaining_deficiencies(report: Report) -> tuple[DeficiencyRecord, ...]:
@@ -131,6 +134,8 @@ def _mended(lack: DeficiencyRecord, report: Report) -> bool:
         return part is not None and part.category is not PartLabel.UNKNOWN
     if lack.kind is DeficiencyKind.DRAWER_BOX:
         return any(a.link == lack.part and a.category is not PartLabel.HANDLE for a in report.added)
+    if lack.kind is DeficiencyKind.COMPARTMENT:
+        return any(a.style == DeficiencyKind.COMPARTMENT for a in report.added)
     return any(added.category is _ADDED_FOR[lack.kind] for added in report.added)
 
 
