@@ -151,7 +151,9 @@ def test_one_bad_input_does_not_stop_the_others(tmp_path: Path, capsys: pytest.C
     good, bad, out = write_cabinet(tmp_path), tmp_path / "bad.obj", tmp_path / "out"
     bad.write_text("no mesh")
 
-    code = main(["functionalize", str(bad), str(good), str(good), "--out", str(out), "--jobs", "1", "--formats", "urdf"])
+    code = main(
+        ["functionalize", str(bad), str(good), str(good), "--out", str(out), "--jobs", "1", "--formats", "urdf"]
+    )
 
     said = capsys.readouterr()
     assert code == 1

@@ -36,11 +36,12 @@ def test_every_line_is_a_command_on_what_the_checkout_holds() -> None:
 
 
 def copy_samples(folder: Path, lines: list[str]) -> None:
-    """Copies the samples into a folder; one that no line names a part of is the smallest: all are read and built alike."""
+    """Copies the samples into a folder; where no line names a part of one, or checks it, it is the smallest."""
     (folder / "samples").mkdir()
-    with_parts = {name for line in lines if "--move" in line for name in re.findall(r"samples/(\w+\.glb)", line)}
+    themselves = {name for line in lines if "--move" in line for name in re.findall(r"samples/(\w+\.glb)", line)}
+    themselves |= {f"{Path(line.strip()).name}.glb" for line in lines if line.startswith("grafu check ")}
     for path in (ROOT / "samples").iterdir():
-        source = path if path.name in with_parts else ROOT / "samples" / "chest.glb"
+        source = path if path.name in themselves else ROOT / "samples" / "chest.glb"
         copyfile(source, folder / "samples" / path.name)
 
 
