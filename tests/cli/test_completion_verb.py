@@ -25,7 +25,7 @@ def scripts(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def bash(script: Path, place: Path, words: list[str], wanted: set[str]) -> set[str]:  # noqa: ARG001  # all at once
+def bash(script: Path, place: Path, words: list[str], wanted: set[str]) -> set[str]:  # all at once
     code = (
         f"cd '{place}'; source '{script}'; COMP_WORDS=(grafu {' '.join(map(repr, words))}); COMP_CWORD={len(words)}; "
         "_shtab_grafu; printf '%s\\n' \"${COMPREPLY[@]}\""
@@ -34,7 +34,7 @@ def bash(script: Path, place: Path, words: list[str], wanted: set[str]) -> set[s
     return set(done.stdout.split())
 
 
-def fish(script: Path, place: Path, words: list[str], wanted: set[str]) -> set[str]:  # noqa: ARG001  # all at once
+def fish(script: Path, place: Path, words: list[str], wanted: set[str]) -> set[str]:  # all at once
     line = " ".join(["grafu", *words])
     code = f"cd '{place}'; source '{script}'; complete -C '{line}'"
     environment = {**os.environ, "HOME": str(place), "XDG_CONFIG_HOME": str(place / "none")}
