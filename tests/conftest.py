@@ -20,6 +20,8 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 def pytest_configure(config: pytest.Config) -> None:
     # The shape checks sample long tuples with `random`, also inside strategies; Hypothesis seeds it, so tests repeat
     config.addinivalue_line("filterwarnings", "ignore:Do not use the `random` module inside strategies")
+    # Else every program that a test starts compiles all modules again
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     # Started in the background of a script, tests ignore SIGINT, and so would the programs that they start to interrupt
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)

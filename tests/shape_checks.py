@@ -4,16 +4,19 @@ jaxtyping's import hook writes `@jaxtyping.jaxtyped(typechecker=...)` above each
 by `inspect` at every call and has them checked twice. Here the type checker wraps the function itself, and only a
 signature that names axes more than once gets a context of its own, where one name is one size. Whether an array fits
 a hint without names is asked once for all arrays of its shape and kind of number. What is refused is the same. What is
-called thousands of times is checked in its first calls and then now and then.
+called thousands of times is checked in its first calls and then now and then. A function within another is a new one
+at each of the other's calls, and to prepare the checks of one takes a millisecond: of those, too, the first are checked
+and then one now and then.
 """
 
 import inspect
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import is_dataclass
 from functools import cache, partial, wraps
 from itertools import count
+from types import CodeType
 from typing import Any, get_args, get_type_hints
 
 import jaxtyping
@@ -25,9 +28,11 @@ usual = jaxtyping.jaxtyped
 _own_names = usual("context")
 _OWN = "_names_its_own_axes"
 FIRST, EVERY = 1000, 31
+FIRST_MADE = 50
 _Hint = type(jaxtyping.AbstractArray)
 fits_as_usual = _Hint.__instancecheck__
 _answers: dict[tuple[Any, ...], bool] = {}
+_made: defaultdict[CodeType, count] = defaultdict(count)  # how many functions were made of each code
 
 
 def use_in_import_hook() -> None:
@@ -61,7 +66,15 @@ def checked(target: Any = None, *, typechecker: Callable[[Any], Any]) -> Any:
         return target
     if not inspect.isfunction(target) or inspect.isgeneratorfunction(target):
         return usual(target, typechecker=typechecker)  # a generator runs after its call, and its context, ended
-    return target if hasattr(target, _OWN) else _checked_function(target, typechecker)
+    return target if hasattr(target, _OWN) or _was_made_often(target) else _checked_function(target, typechecker)
+
+
+def _was_made_often(function: Callable[..., Any]) -> bool:
+    """Whether a function within another was made `FIRST_MADE` times before, but for one of `EVERY`."""
+    if "<locals>" not in function.__qualname__:
+        return False
+    number = next(_made[function.__code__])
+    return number >= FIRST_MADE and number % EVERY != 0
 
 
 def _checked_function(function: Callable[..., Any], typechecker: Callable[[Any], Any]) -> Callable[..., Any]:

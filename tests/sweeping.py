@@ -27,22 +27,27 @@ def solid(mesh: TriangleMesh) -> trimesh.Trimesh:
     return mesh.to_trimesh()
 
 
+def manager(parts: list[Part]) -> trimesh.collision.CollisionManager:
+    found = trimesh.collision.CollisionManager()
+    for part in parts:
+        found.add_object(part.id, solid(part.mesh))
+    return found
+
+
 def collisions(asset: Asset, part_id: str, values=None, ignored: frozenset[str] = frozenset()) -> dict[str, float]:
     """Returns the parts hit and the deepest penetration in metres, over joint values (default 12 from 3 % to full)."""
     joint = next(j for j in asset.joints if j.part == part_id)
     values = np.linspace(0.03, 1.0, 12) * joint.upper if values is None else values
     moving = moving_bodies(asset, part_id)
-    still = trimesh.collision.CollisionManager()
-    for part in asset.parts:
-        if part not in moving and part.id not in ignored:
-            still.add_object(part.id, solid(part.mesh))
-    meshes = [solid(part.mesh) for part in moving]
+    still = [part for part in asset.parts if part not in moving and part.id not in ignored]
+    body, others = manager(moving), manager(still)  # each mesh is prepared once for all poses
+    names = {part.id for part in still}
     hit: dict[str, float] = {}
     for value in values:
-        motion = joint_motion(joint, float(value))
-        for mesh in meshes:
-            _, contacts = still.in_collision_single(mesh, transform=motion, return_data=True)
-            for contact in contacts:
-                for name in contact.names - {"__external"}:
-                    hit[name] = max(hit.get(name, 0.0), float(contact.depth))
+        for part in moving:
+            body.set_transform(part.id, joint_motion(joint, float(value)))
+        _, contacts = others.in_collision_other(body, return_data=True)
+        for contact in contacts:
+            for name in contact.names & names:
+                hit[name] = max(hit.get(name, 0.0), float(contact.depth))
     return hit

@@ -15,7 +15,7 @@ import shape_checks
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import transform_points
-from shape_checks import EVERY, FIRST, checked, fits, fits_as_usual, typed, usual
+from shape_checks import EVERY, FIRST, FIRST_MADE, checked, fits, fits_as_usual, typed, usual
 
 Numbers = Float[np.ndarray, " n"]
 
@@ -142,3 +142,15 @@ def test_what_is_called_often_is_checked_first_and_then_now_and_then() -> None:
     refusals = [refused(function, [0.5]) for _ in range(FIRST + 3 * EVERY)]
     assert refusals[:FIRST] == [True] * FIRST
     assert refusals[FIRST:].count(True) == 3
+
+
+def test_what_is_made_often_within_another_is_checked_first_and_then_now_and_then() -> None:
+    def made() -> Callable[..., object]:
+        def whole(value: int) -> int:
+            return value
+
+        return checked(whole, typechecker=typed)
+
+    refusals = [refused(made(), [0.5]) for _ in range(FIRST_MADE + 3 * EVERY)]
+    assert refusals[:FIRST_MADE] == [True] * FIRST_MADE
+    assert refusals[FIRST_MADE:].count(True) == 3

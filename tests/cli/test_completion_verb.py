@@ -4,7 +4,8 @@ import os
 import re
 import shutil
 import subprocess
-import sys
+from contextlib import redirect_stdout
+from functools import partial
 from pathlib import Path
 from time import monotonic
 
@@ -19,14 +20,12 @@ from grafu.export.formats import FORMATS
 def scripts(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("scripts")
     for shell in SHELLS:
-        done = subprocess.run(
-            [sys.executable, "-m", "grafu", "completion", shell], capture_output=True, text=True, check=True
-        )
-        (folder / shell).write_text(done.stdout)
+        with (folder / shell).open("w") as file, redirect_stdout(file):
+            assert main(["completion", shell]) == 0
     return folder
 
 
-def bash(script: Path, place: Path, *words: str) -> set[str]:
+def bash(script: Path, place: Path, words: list[str], wanted: set[str]) -> set[str]:  # all at once
     code = (
         f"cd '{place}'; source '{script}'; COMP_WORDS=(grafu {' '.join(map(repr, words))}); COMP_CWORD={len(words)}; "
         "_shtab_grafu; printf '%s\\n' \"${COMPREPLY[@]}\""
@@ -35,7 +34,7 @@ def bash(script: Path, place: Path, *words: str) -> set[str]:
     return set(done.stdout.split())
 
 
-def fish(script: Path, place: Path, *words: str) -> set[str]:
+def fish(script: Path, place: Path, words: list[str], wanted: set[str]) -> set[str]:  # all at once
     line = " ".join(["grafu", *words])
     code = f"cd '{place}'; source '{script}'; complete -C '{line}'"
     environment = {**os.environ, "HOME": str(place), "XDG_CONFIG_HOME": str(place / "none")}
@@ -43,8 +42,8 @@ def fish(script: Path, place: Path, *words: str) -> set[str]:
     return {offered.partition("\t")[0] for offered in done.stdout.splitlines()}
 
 
-def zsh(script: Path, place: Path, *words: str) -> set[str]:
-    """Types the words and a tab in an interactive zsh, and returns what stands on its terminal then."""
+def zsh(script: Path, place: Path, words: list[str], wanted: set[str]) -> set[str]:
+    """Types the words and a tab in an interactive zsh, and returns what stands on its terminal when all wanted does."""
     import pty
 
     pid, terminal = pty.fork()
@@ -55,23 +54,28 @@ def zsh(script: Path, place: Path, *words: str) -> set[str]:
     shutil.copy(script, place / "functions" / "_grafu")
     start = f"PS1=; LISTMAX=500; fpath+={place}/functions; autoload -U compinit; compinit -u -D\n"
     os.write(terminal, (start + "print -n READ; print Y\n").encode())
-    read_until(terminal, "READY")
+    read_until(terminal, {"READY"})
     os.write(terminal, " ".join(["grafu", *words]).encode() + b"\t\t")
-    seen = read_until(terminal, "blend", seconds=3.0)
+    seen = read_until(terminal, wanted)
     os.kill(pid, 9)
     os.waitpid(pid, 0)
     os.close(terminal)
-    return set(re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|[\a\b\r]", " ", seen).split())
+    return seen
 
 
-def read_until(terminal: int, mark: str, seconds: float = 30.0) -> str:
+def read_until(terminal: int, wanted: set[str], seconds: float = 30.0) -> set[str]:
+    """Returns the words that a terminal shows, read until all wanted are among them or the seconds are over."""
     import select
 
-    seen, end = "", monotonic() + seconds
-    while mark not in seen and monotonic() < end:
+    shown, end = "", monotonic() + seconds
+    while not wanted <= (seen := words_of(shown)) and monotonic() < end:
         if select.select([terminal], [], [], 0.1)[0]:
-            seen += os.read(terminal, 65536).decode(errors="replace")
+            shown += os.read(terminal, 65536).decode(errors="replace")
     return seen
+
+
+def words_of(shown: str) -> set[str]:
+    return set(re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|[\a\b\r]", " ", shown).split())
 
 
 ASK = {"bash": bash, "zsh": zsh, "fish": fish}
@@ -82,15 +86,18 @@ def test_the_shell_completes_verbs_options_choices_formats_and_files(shell: str,
     if shutil.which(shell) is None:
         pytest.skip(f"{shell} is not installed")
     (tmp_path / "wardrobe.glb").touch()
-    ask, script = ASK[shell], scripts / shell
+    offered = partial(ASK[shell], scripts / shell, tmp_path)
 
-    assert "functionalize" in ask(script, tmp_path, "funct")
-    assert "--formats" in ask(script, tmp_path, "functionalize", "--form")
-    assert set(FORMATS) <= ask(script, tmp_path, "functionalize", "--formats", "")
-    assert "annotation" in ask(script, tmp_path, "functionalize", "--motion", "ann")
-    assert "knob-round" in ask(script, tmp_path, "functionalize", "--handle", "knob-r")
-    assert {"wall", "free"} <= ask(script, tmp_path, "functionalize", "--base", "")
-    assert "wardrobe.glb" in ask(script, tmp_path, "inspect", "ward")
+    for words, wanted in {
+        ("funct",): {"functionalize"},
+        ("functionalize", "--form"): {"--formats"},
+        ("functionalize", "--formats", ""): set(FORMATS),
+        ("functionalize", "--motion", "ann"): {"annotation"},
+        ("functionalize", "--handle", "knob-r"): {"knob-round"},
+        ("functionalize", "--base", ""): {"wall", "free"},
+        ("inspect", "ward"): {"wardrobe.glb"},
+    }.items():
+        assert wanted <= offered(list(words), wanted), words
 
 
 def test_another_shell_is_refused_with_those_that_there_are(capsys: pytest.CaptureFixture[str]) -> None:

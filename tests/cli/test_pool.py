@@ -123,7 +123,7 @@ def test_a_run_that_is_ended_leaves_nothing_running(
         assert "no half-written output is left" in said
         assert ("--resume" in said) == (len(names) > 1)
         assert said.count("\n") == len(names)
-        assert main([*map(str, command), "--resume"]) == 0
+        assert main([*map(str, command), "--jobs", "1", "--resume"]) == 0
         assert sorted(path.name for path in out.iterdir()) == names
 
 

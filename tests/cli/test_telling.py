@@ -70,7 +70,7 @@ def test_a_model_that_is_stopped_has_its_line(tmp_path: Path) -> None:
 
 
 def test_quiet_prints_errors_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(command(tmp_path, "--quiet", "--jobs", "2", inputs=("first", "second"))) == 0
+    assert main(command(tmp_path, "--quiet", "--jobs", "1", inputs=("first", "second"))) == 0
     assert capsys.readouterr() == ("", "")
     assert main(command(tmp_path, "--quiet")) == 0
     assert main(command(tmp_path, "--quiet")) == 2  # it is there already
@@ -81,7 +81,7 @@ def test_quiet_prints_errors_alone(tmp_path: Path, capsys: pytest.CaptureFixture
 def test_verbose_prints_each_stage_with_its_seconds(
     inputs: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(command(tmp_path, "-v", "--jobs", "2", inputs=inputs)) == 0
+    assert main(command(tmp_path, "-v", "--jobs", "1", inputs=inputs)) == 0
     said = capsys.readouterr().err
     for name in inputs:
         stages = re.findall(rf"^{name}: ([a-z ,]+): \d+\.\d\d s$", said, re.MULTILINE)

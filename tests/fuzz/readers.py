@@ -13,6 +13,7 @@ from fuzz.case import Arguments, Reader
 from fuzz.starting_files import OTHERS
 from fuzz.starting_models import MODELS
 
+_LITTLE = ("--formats", "urdf", "--no-page")
 _TIME = ("--timeout", "6")  # seconds after which a command ends; it is stopped after one and a half times that
 
 
@@ -40,7 +41,7 @@ def _with_option(option: str, value: Callable[[Path], str]) -> Arguments:
 
     def arguments(entry: Path, out: Path, rng: Random) -> list[str]:
         cabinet = entry.parent / "cabinet.obj"
-        return ["functionalize", str(cabinet), "--out", str(out), "--no-page", option, value(entry), *_TIME]
+        return ["functionalize", str(cabinet), "--out", str(out), *_LITTLE, option, value(entry), *_TIME]
 
     return arguments
 

@@ -48,14 +48,14 @@ def test_a_case_that_broke_a_rule_is_told_with_the_command_that_runs_it_again():
 
 
 def test_a_case_follows_from_its_seed_and_index():
-    code = "from fuzz.cases import make_case; print([hash_of(make_case(3, k)) for k in range(44)])"
+    code = "from fuzz.cases import NAMES, make_case; print([hash_of(make_case(3, k)) for k, _ in enumerate(NAMES)])"
     code = f"from hashlib import sha256\nhash_of = lambda case: sha256(repr(case).encode()).hexdigest()\n{code}"
     other = "2" if os.environ.get("PYTHONHASHSEED") == "1" else "1"  # than that of this process
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "PYTHONHASHSEED": other}
     command = [sys.executable, "-c", code]
     said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
 
-    assert said.strip() == str([sha256(repr(make_case(3, k)).encode()).hexdigest() for k in range(44)])
+    assert said.strip() == str([sha256(repr(make_case(3, k)).encode()).hexdigest() for k, _ in enumerate(NAMES)])
     assert make_case(4, 1) != make_case(3, 1)
 
 
@@ -69,7 +69,7 @@ def test_every_change_finds_something_to_change(family):
 
 @pytest.mark.parametrize("cases", ["library", "command"])
 def test_what_is_not_changed_is_read(cases):
-    few = ("obj", "urdf", "partnet-mobility")  # of the models: the other tests of the command try all
+    few = ("obj", "partnet-mobility")  # of the models: the other tests of the command try all
     wanted = [k for k, name in enumerate(NAMES) if cases == "library" or name in few or name not in MODELS]
     for answer in run_cases(Plan(0, tuple(wanted), cases=f"fuzz.unchanged_by_{cases}")):
         assert answer.outcome in ("read", "done"), answer
@@ -78,8 +78,8 @@ def test_what_is_not_changed_is_read(cases):
 @pytest.mark.slow
 def test_no_case_breaks_a_rule():
     """The first of them: `make fuzz` runs as many as one likes."""
-    plan = Plan(15, tuple(range(60)))
+    plan = Plan(15, tuple(range(44)))  # each kind of starting files at least once
     answers = run_cases(plan)
-    assert len(answers) == 60
+    assert len(answers) == 44 >= len(NAMES)
     assert [repeat_line(plan, answer) for answer in answers if answer.broken] == []
     assert {answer.outcome for answer in answers} == {"read", "done", "refused"}
