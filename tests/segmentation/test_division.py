@@ -428,22 +428,22 @@ def test_a_strip_along_a_whole_border_is_a_moulding_and_goes_with_its_front(widt
     assert inside == [role]
 
 
-# A desk's pedestal, one body with three fronts let into its face, and a knob on each that is another object's.
+# A desk's pedestal, one body with three inset fronts, and a knob on each that is another object's.
 PEDESTAL = board((0.0, -0.3, 0.0), (0.5, 0.3, 0.7))
-LET_IN = [board((0.05, -0.303, z), (0.45, -0.28, z + 0.17)) for z in (0.14, 0.32, 0.5)]
+INSET = [board((0.05, -0.303, z), (0.45, -0.28, z + 0.17)) for z in (0.14, 0.32, 0.5)]
 DESK = [board((-0.7, -0.32, 0.7), (0.52, 0.32, 0.74)), board((-0.68, -0.3, 0.0), (-0.63, 0.3, 0.7)), PEDESTAL]
 KNOBS = [board((0.24, -0.34, z), (0.26, -0.303, z + 0.02)) for z in (0.22, 0.4, 0.58)]
 
 
-def test_fronts_let_into_the_face_of_a_body_are_the_fronts_and_not_the_body():
-    found = cut(merge_meshes([*DESK, *LET_IN]), merge_meshes(KNOBS))
-    assert boxes(found, "front") == rounded(LET_IN)
+def test_inset_fronts_of_a_body_are_the_fronts_and_not_the_body():
+    found = cut(merge_meshes([*DESK, *INSET]), merge_meshes(KNOBS))
+    assert boxes(found, "front") == rounded(INSET)
     assert boxes(found, "on front") == rounded(KNOBS)
 
-    alone = divided([merge_meshes([*DESK, *LET_IN]), merge_meshes(KNOBS)], [True, False], [False] * 2)
+    alone = divided([merge_meshes([*DESK, *INSET]), merge_meshes(KNOBS)], [True, False], [False] * 2)
     assert set(alone) == {0}, "handles that may not be parted"
     parted = divided(
-        [merge_meshes([*DESK, *LET_IN]), merge_meshes(KNOBS)], [True, False], [False] * 2, lying=[False, True]
+        [merge_meshes([*DESK, *INSET]), merge_meshes(KNOBS)], [True, False], [False] * 2, lying=[False, True]
     )
     assert [piece.role for piece in parted[1]] == ["on front"] * 3
 

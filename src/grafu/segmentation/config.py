@@ -113,8 +113,8 @@ class MemberConfig(ShortRepr):
     """A plate that covers so much may be fixed (of its object's outline) ..."""
     half: float = 0.5
     """... if the fronts on it cover so much of it ..."""
-    let_in: float = 0.2
-    """... or that are let into it, as thin as this (of its thickness) ..."""
+    inset: float = 0.2
+    """... or that are inset in it, as thin as this (of its thickness) ..."""
     smaller: float = 0.9
     """... and each is smaller than this (of its outline)."""
     ring: float = 0.5

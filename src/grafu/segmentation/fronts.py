@@ -1,6 +1,6 @@
 """Fronts with what belongs to them: panes, mouldings and liners, the boards of a drawer, handles. It asks no names."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, final
 
@@ -12,7 +12,7 @@ from grafu.segmentation.candidates import Scale, overlaps, within
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.view import MaskOfShells, ShellsView
 
-_SHEET = 1e-6  # of the gap across which pieces touch: what is no wider, seen from the front, is a sheet
+SHEET = 1e-6  # of the gap across which pieces touch: what is no wider, seen from the front, is a sheet
 _RING_CELLS = 3  # rays around a handle that show where its front lies
 
 
@@ -101,45 +101,6 @@ def _strip_side(
     return (across, sense) if gaps[sense] <= frames.gap * extent else None
 
 
-def lying_on_fronts(
-    view: ShellsView,
-    may: tuple[MaskOfShells, MaskOfShells],
-    fronts: tuple[Mapping[int, tuple[FrontShells, ...]], Indices],
-    config: SegmentationConfig,
-) -> dict[int, tuple[tuple[int, ...], ...]]:
-    """Returns for each object the shells that lie on fronts in others, a group for each, where that parts it.
-
-    The first of `fronts` are hidden in objects, the second are plates that are objects of their own: on such, handles
-    count alone. `may` are the shells that may be parted by the first, and those that may by either. What is as small
-    as a handle may be inset: it reaches the face of its front from behind.
-    """
-    hidden, alone = fronts
-    plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
-    is_hidden = np.arange(len(plates) + len(alone)) < len(plates)
-    plates = np.concatenate([plates, alone])
-    near, gap = config.candidates.near * Scale.of(view).extent[plates], config.members.handle_gap
-    thin = float(_SHEET * near.max(initial=0.0))
-    area = np.prod(view.size[:, :2], axis=1)
-    found: dict[int, tuple[tuple[int, ...], ...]] = {}
-    for owner in np.unique(view.owner[may[0] | may[1]]).tolist() if len(plates) else ():
-        own = np.flatnonzero(view.owner == owner)
-        low, high = view.low[own, None], view.high[own, None]
-        grown = low[..., :2] - thin, high[..., :2] + thin  # a sheet seen from its edge has an outline, too
-        shared = np.minimum(grown[1], view.high[plates, :2]) - np.maximum(grown[0], view.low[plates, :2])
-        on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(axis=2)
-        is_small = area[own, None] <= config.members.handle_area * area[plates]
-        is_inset = is_small & (high[..., 2] >= view.high[plates, 2])
-        on &= (is_hidden | (is_small & may[1][own, None])) & (view.owner[plates] != owner)
-        on &= is_inset | (low[..., 2] >= view.low[plates, 2] - near)
-        on &= low[..., 2] <= view.high[plates, 2] + gap * near
-        lies, front = on.any(axis=1), on.argmax(axis=1)
-        served = np.unique(front[lies]).tolist()
-        in_others = bool(served) and is_hidden[served].any()
-        if len(served) > 1 or (in_others and not lies.all()):
-            found[owner] = tuple(tuple(own[lies & (front == k)].tolist()) for k in served)
-    return found
-
-
 def _ranked(view: ShellsView, plates: Indices) -> list[int]:
     """Returns the candidates by outline, of equals the thicker first."""
     area = np.round(np.prod(view.size[:, :2], axis=1), 6)
@@ -179,12 +140,12 @@ class _FrontFinder:
         return len(outer) == 1 and self._is_apron(plate, outer[0])
 
     def _is_case(self, plate: int, plates: Indices, inner: MaskOfShells) -> bool:
-        """Whether a body has several fronts let into its face, flush with it: the pedestal of a desk."""
+        """Whether a body has several inset fronts, flush with its face: the pedestal of a desk."""
         view, near, config = self._view, float(self._near[plate]), self._config
         inset = np.zeros(len(inner), dtype=bool)
         inset[plates] = True
         inset &= inner & (view.owner == view.owner[plate])
-        inset &= view.size[:, 2] <= config.let_in * view.size[plate, 2]
+        inset &= view.size[:, 2] <= config.inset * view.size[plate, 2]
         inset &= view.high[:, 2] >= view.high[plate, 2] - near
         outer = _outermost(view, np.flatnonzero(inset), config.nested)
         return len(outer) > 1 and float(self._area[outer].sum()) >= config.half * float(self._area[plate])
@@ -295,7 +256,7 @@ class _FrontFinder:
         label = linked(len(shells), *np.nonzero(gaps <= near))
         groups = [label == k for k in range(int(label.max()) + 1)]
         sizes = [high[group].max(axis=0) - low[group].min(axis=0) for group in groups]
-        least = np.array([_SHEET, _SHEET, self._config.thick_handle]) * near
+        least = np.array([SHEET, SHEET, self._config.thick_handle]) * near
         thick = [bool((size >= least).all()) for size in sizes]
         return tuple(tuple(shells[group].tolist()) for group, is_thick in zip(groups, thick, strict=True) if is_thick)
 

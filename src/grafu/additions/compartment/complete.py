@@ -1,7 +1,7 @@
 """Cuts a compartment behind each door and drawer of a body that is drawn solid: what opens must open onto something.
 
-Walls as thick as boards are left around it; two doors side by side share one, each drawer has its own. A closed mesh
-stays closed. One that is not is opened behind the front, and the compartment is lined in the body's own material.
+Walls as thick as boards are left around it; two doors side by side share one, each drawer has its own. A watertight
+mesh stays so. One that is not is opened behind the front, and the compartment is lined in the body's own material.
 """
 
 from collections.abc import Sequence

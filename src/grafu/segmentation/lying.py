@@ -1,0 +1,50 @@
+"""What lies on fronts of other objects is parted by them: one object that holds the handles of several. No names."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from grafu.geometry.arrays import Indices
+from grafu.segmentation.candidates import Scale
+from grafu.segmentation.config import SegmentationConfig
+from grafu.segmentation.fronts import SHEET, FrontShells
+from grafu.segmentation.view import MaskOfShells, ShellsView
+
+
+def lying_on_fronts(
+    view: ShellsView,
+    may: tuple[MaskOfShells, MaskOfShells],
+    fronts: tuple[Mapping[int, tuple[FrontShells, ...]], Indices],
+    config: SegmentationConfig,
+) -> dict[int, tuple[tuple[int, ...], ...]]:
+    """Returns for each object the shells that lie on fronts in others, a group for each, where that parts it.
+
+    The first of `fronts` are hidden in objects, the second are plates that are objects of their own: on such, handles
+    count alone. `may` are the shells that may be parted by the first, and those that may by either. What is as small
+    as a handle may be inset: it reaches the face of its front from behind.
+    """
+    hidden, alone = fronts
+    plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
+    is_hidden = np.arange(len(plates) + len(alone)) < len(plates)
+    plates = np.concatenate([plates, alone])
+    near, gap = config.candidates.near * Scale.of(view).extent[plates], config.members.handle_gap
+    thin = float(SHEET * near.max(initial=0.0))
+    area = np.prod(view.size[:, :2], axis=1)
+    found: dict[int, tuple[tuple[int, ...], ...]] = {}
+    for owner in np.unique(view.owner[may[0] | may[1]]).tolist() if len(plates) else ():
+        own = np.flatnonzero(view.owner == owner)
+        low, high = view.low[own, None], view.high[own, None]
+        grown = low[..., :2] - thin, high[..., :2] + thin  # a sheet seen from its edge has an outline, too
+        shared = np.minimum(grown[1], view.high[plates, :2]) - np.maximum(grown[0], view.low[plates, :2])
+        on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(axis=2)
+        is_small = area[own, None] <= config.members.handle_area * area[plates]
+        is_inset = is_small & (high[..., 2] >= view.high[plates, 2])
+        on &= (is_hidden | (is_small & may[1][own, None])) & (view.owner[plates] != owner)
+        on &= is_inset | (low[..., 2] >= view.low[plates, 2] - near)
+        on &= low[..., 2] <= view.high[plates, 2] + gap * near
+        lies, front = on.any(axis=1), on.argmax(axis=1)
+        served = np.unique(front[lies]).tolist()
+        in_others = bool(served) and is_hidden[served].any()
+        if len(served) > 1 or (in_others and not lies.all()):
+            found[owner] = tuple(tuple(own[lies & (front == k)].tolist()) for k in served)
+    return found
