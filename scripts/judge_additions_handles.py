@@ -12,7 +12,7 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.metrics.bodies import largest_side
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.report import report_of
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 POSES = 40  # of each joint in which handles are looked at

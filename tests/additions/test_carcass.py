@@ -16,7 +16,8 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.realize import realize
 from grafu.pipeline.additions import planned_scene
-from grafu.scene.scene import Scene, metre_on
+from grafu.scene.scale import metre_on
+from grafu.scene.scene import Scene
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import Base

@@ -12,7 +12,7 @@ from front_scenes import cabinet, scaled, scene_of, with_handles_in_their_fronts
 from grafu.additions.handle.grasp import find_grasp, find_grasps
 from grafu.asset.edit import yawed
 from grafu.geometry.arrays import vec3
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.synth.fronts.layout import Door, Drawer, Pair, Stack
 from grafu.synth.samples import KINDS
 from grafu.templates.handles import HANDLES

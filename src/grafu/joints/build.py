@@ -170,9 +170,7 @@ def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearan
     """Returns rails for a drawer trimmed where it touches its walls, else ones that leave out what it cuts into."""
     request, scene, config = search.request, search.scene, search.config
     if config.trim:
-        walls = [
-            o.id for o in scene.static_obstacles if o.collider.box.overlaps(search.mesh.box, config.clearance.beside)
-        ]
+        walls = [o.id for o in scene.static_obstacles.near(search.mesh.box, config.clearance.beside)]
         path = _path(request, scene, search.axis, search.reach)
         cleared, trimmed = trim(scene, path, walls, config, touching=True)
         again = drawer_search(request, cleared, config) if trimmed else None
@@ -201,7 +199,7 @@ def _skipped(request: JointRequest, free: float, scene: Scene, config: Realizati
     box = scene.parts[request.moving].box
     what = f"mechanism as chosen ({request.choice})" if str(request.choice) else "mechanism"
     held_by = scene.static_obstacles_of(request.holders)
-    if not any(o.collider.box.overlaps(box, config.contact) for o in held_by):
+    if not held_by.near(box, config.contact):
         detail = f"no static part is near enough to carry a {what}"
         return Refusal(request.moving, Reason.NO_FACING_SURFACES, detail)
     if free < config.least_opening:

@@ -8,7 +8,7 @@ A door is expected to turn about the first pin of a hinge class that leaves it f
 for; a drawer slides. What is built later may differ.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -17,33 +17,34 @@ from grafu.geometry.config_checks import at_scale
 from grafu.joints.build import Built, build_joint
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.search import door_search
+from grafu.joints.known import SceneChange, change_between, worked_out
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail.search import drawer_search
-from grafu.processes.cache import Cache
+from grafu.processes.cache import NO_CACHE, Cache
 from grafu.refusal import Reason, Refusal
 from grafu.scene.scene import JointMotion, Scene
 from grafu.templates.template import Gallery
 
 
 def expected_motions(
-    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
+    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig, cache: Cache = NO_CACHE
 ) -> dict[str, JointMotion]:
     """Returns the expected motion of each requested joint, by moving body; none for drawers that no rails can carry."""
-    return dict(_motions(requests, scene, config))
-
-
-def _motions(
-    requests: Iterable[JointRequest], scene: Scene, config: RealizationConfig
-) -> Iterator[tuple[str, JointMotion]]:
-    config = at_scale(config, scene.metre)
+    found: dict[str, JointMotion] = {}
     for request in requests:
-        if request.kind.turns:
-            door = door_search(request, scene, config)
-            yield request.moving, JointMotion(door.expected_axis, request.type, door.wanted, is_built=False)
-            continue
-        drawer = drawer_search(request, scene, config)
-        if drawer is not None:
-            yield request.moving, JointMotion(drawer.axis, request.type, drawer.wanted, is_built=False)
+        work = partial(_expected_motion, request, config)
+        motion = worked_out("expected motion", work, request.moving, scene, cache, request, config)
+        found |= {} if motion is None else {request.moving: motion}
+    return found
+
+
+def _expected_motion(request: JointRequest, config: RealizationConfig, scene: Scene) -> JointMotion | None:
+    config = at_scale(config, scene.metre)
+    if request.kind.turns:
+        door = door_search(request, scene, config)
+        return JointMotion(door.expected_axis, request.type, door.wanted, is_built=False)
+    drawer = drawer_search(request, scene, config)
+    return None if drawer is None else JointMotion(drawer.axis, request.type, drawer.wanted, is_built=False)
 
 
 Outcomes = tuple[list[Built], list[Refusal], Scene]
@@ -78,7 +79,7 @@ def build_fairly(
     Doors for which that left no place are expected to move as was asked for, and all is built again; the first try
     stands unless the second builds more.
     """
-    find = partial(cache.value, "expected motions", expected_motions, tuple(requests), scene, config)
+    find = partial(expected_motions, requests, scene, config, cache)
     joint_motions: Mapping[str, JointMotion] = within(config.time.expecting, find, lambda _: {})
     budget = present_budget().fraction(config.time.building)
     with budget.in_force():
@@ -118,5 +119,20 @@ def _build(
     request: JointRequest, left: int, scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Built | Refusal:
     """Returns one joint of those `left` to build, or why it could not be built."""
-    work = partial(cache.value, "joint", build_joint, request, scene, gallery, config)
+    work = partial(_built, request, scene, gallery, config, cache)
     return within(config.time.of_joint(left), work, partial(Refusal, request.moving, Reason.TOO_COMPLEX))
+
+
+def _built(
+    request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
+) -> Built | Refusal:
+    """Returns one joint, or why it could not be built; where all that it reads is the same, it is not built again."""
+
+    def work(noted: Scene) -> tuple[Built | Refusal, SceneChange | None]:
+        outcome = build_joint(request, noted, gallery, config)
+        if isinstance(outcome, Refusal):
+            return outcome, None
+        return replace(outcome, scene=Scene({}, {}, scene.extent)), change_between(scene, outcome.scene)
+
+    outcome, change = worked_out("joint", work, request.moving, scene, cache, request, gallery, config)
+    return outcome if isinstance(outcome, Refusal) or change is None else replace(outcome, scene=change.of(scene))

@@ -27,7 +27,8 @@ from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.rail.body_region import DrawerFrame
 from grafu.joints.rail.search import drawer_search
 from grafu.joints.rail_config import ClosingConfig
-from grafu.scene.scene import Obstacle, Scene
+from grafu.scene.obstacles import Obstacle
+from grafu.scene.scene import Scene
 
 _ALONG = np.linspace(-0.4, 0.4, 5)
 _SIDES = ((-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0))

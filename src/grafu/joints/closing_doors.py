@@ -24,7 +24,8 @@ from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail_config import ClosingConfig
 from grafu.scene.border import BorderFrame, border_frame, part_axes
-from grafu.scene.scene import Obstacle, Scene
+from grafu.scene.obstacles import Obstacle
+from grafu.scene.scene import Scene
 
 _ALONG = np.linspace(0.15, 0.85, 5)
 

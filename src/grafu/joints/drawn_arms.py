@@ -21,7 +21,7 @@ from grafu.joints.drawn_arm_config import DEFAULT_DRAWN_ARM_CONFIG, DrawnArmConf
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import DrawnArms, JointRequest, MotionRole, RealizationPlan
 from grafu.scene.border import part_axes
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 _LIFTED = MotionChoice(Moves.LIFTS, Side.TOP)

@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.asset.part import Asset
+from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts
@@ -181,8 +182,8 @@ def _is_rod(barrel: Barrel, frame: BorderFrame, model: _Model) -> bool:
 def _barrels(frame: BorderFrame, moving: str, model: _Model) -> Iterator[Barrel]:
     """Yields the barrels near a border, shells of a moving body or of static parts."""
     scene, reach = model.scene, model.drawn.reach
-    ids = [*scene.moving_bodies[moving].members, *(part.id for part in scene.static_parts)]
-    for part in (scene.parts[name] for name in ids):
+    own = (scene.parts[name] for name in scene.moving_bodies[moving].members)
+    for part in (*own, *scene.static_parts_near(_along_border(frame, model))):
         box = Box.around(frame.to_border(part.box.corners()))
         if box.low[0] > reach or box.high[0] < -reach or len(part.mesh.faces) > model.config.carved_faces:
             continue
@@ -190,6 +191,13 @@ def _barrels(frame: BorderFrame, moving: str, model: _Model) -> Iterator[Barrel]
             continue
         for shell in model.shells(part.id):
             yield from _as_barrel(shell, part.id, frame, model.drawn)
+
+
+def _along_border(frame: BorderFrame, model: _Model) -> Box:
+    """Returns the box around all that may be near a border, however far along it."""
+    reach, far = model.drawn.reach, frame.length + 2 * model.scene.extent
+    low, high = vec3(-reach, -frame.thickness - reach, -far), vec3(reach, reach, far)
+    return Box.around(frame.to_object(Box(low, high).corners()))
 
 
 def _as_barrel(shell: TriangleMesh, part: str, frame: BorderFrame, config: DrawnConfig) -> Iterator[Barrel]:

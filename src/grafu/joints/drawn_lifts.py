@@ -21,7 +21,7 @@ from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box, wi
 from grafu.joints.plan import DrawnArms, RealizationPlan
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import LIFT_ARMS, Installed
-from grafu.scene.scene import Obstacle
+from grafu.scene.obstacles import Obstacle
 
 
 @final

@@ -29,7 +29,7 @@ from grafu.joints.drop_leaves import (
 )
 from grafu.joints.drop_support_config import DropSupportConfig
 from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 _UP = 2

@@ -20,7 +20,7 @@ from grafu.geometry.config_checks import at_scale, require_positive, require_rat
 from grafu.graph.edges import Slide
 from grafu.joints.motion_choice import DIRECTIONS, Side
 from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"

@@ -27,7 +27,7 @@ from grafu.geometry.transform import from_rotation, translation
 from grafu.joints.leaves import UP, Leaf
 from grafu.joints.lift_arm_config import LiftArmConfig
 from grafu.joints.limits import PoseFunction, in_the_way, opening_values, swept_box
-from grafu.scene.scene import Obstacle
+from grafu.scene.obstacles import Obstacle
 from grafu.templates.solids import STEEL, ZINC, disc, extrude, finished, rectangle
 from grafu.vocabulary import PartLabel
 

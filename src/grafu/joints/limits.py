@@ -14,7 +14,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import transform_points
-from grafu.scene.scene import Obstacle
+from grafu.scene.obstacles import Obstacle, Obstacles
 
 _DIP = 1e-6  # metres below the floor that rounding alone makes
 _REST_DENSITY = 1.5  # exponent that brings the poses of a sweep closer together near rest
@@ -51,8 +51,10 @@ def swept_box(box: Box, motion: PoseFunction, reach: float, poses: int = _BOX_PO
     return Box.around(corners).grown(_BETWEEN * float(box.size.max()))
 
 
-def in_the_way(obstacles: Sequence[Obstacle], box: Box) -> list[Obstacle]:
+def in_the_way(obstacles: Obstacles | Sequence[Obstacle], box: Box) -> list[Obstacle]:
     """Returns the obstacles whose boxes meet a box."""
+    if isinstance(obstacles, Obstacles):
+        return obstacles.near(box)
     return [o for o in obstacles if o.collider.box.overlaps(box)]
 
 

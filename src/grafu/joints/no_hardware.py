@@ -8,7 +8,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.transform import from_rotation
+from grafu.geometry.transform import from_rotation, transform_points
 from grafu.joints.gaps import gap_growth
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
@@ -224,7 +224,8 @@ def _stays_near(scene: Scene, request: JointRequest, motion: PoseFunction, upper
 
     def is_near(value: float) -> bool:
         body.place(motion(value))
-        return any(body.is_within(near, holder.collider) for holder in holders)
+        path = Box.around(transform_points(motion(value), body.box.corners()))
+        return any(body.is_within(near, holder.collider) for holder in holders.near(path, near))
 
     return all(is_near(float(value)) for value in np.linspace(0, upper, _POSES))
 
@@ -232,6 +233,6 @@ def _stays_near(scene: Scene, request: JointRequest, motion: PoseFunction, upper
 def _nearest(scene: Scene, request: JointRequest, near: float) -> str:
     """Returns a part within a distance, in metres, of those that may hold a moving body; a wanted mount first."""
     mesh = scene.moving_mesh(request.moving)
-    may_hold = (obstacle.id for obstacle in scene.static_obstacles_of(request.holders))
+    may_hold = (obstacle.id for obstacle in scene.static_obstacles_of(request.holders).near(mesh.box, near))
     names = [name for name in may_hold if scene.is_near_static(mesh, near, (name,))]
     return min(names, key=lambda name: (name not in request.mounts, name), default="")

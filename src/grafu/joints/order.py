@@ -17,7 +17,8 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, sweep, swept_box
 from grafu.scene.border import part_axes
-from grafu.scene.scene import Obstacle, Scene
+from grafu.scene.obstacles import Obstacle
+from grafu.scene.scene import Scene
 
 _RATIOS = (1.0, 0.75, 0.5, 0.25, 0.0)  # of what a door opens beyond its least, in the order tried
 

@@ -27,7 +27,8 @@ from grafu.joints.no_hardware import DRAWN
 from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
 from grafu.joints.realize import Realized, joint_id
 from grafu.joints.report import LIFT_ARMS, Installed, Outcome, RealizationReport
-from grafu.scene.scene import Obstacle, metre_on
+from grafu.scene.obstacles import Obstacle
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import MechanismClass
 
 NONE_DRAWN: Mapping[str, DrawnLift] = MappingProxyType({})

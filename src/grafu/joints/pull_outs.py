@@ -20,7 +20,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.behind_fronts import groups_within, is_within_outline, touched_by
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.waste_bins import is_bucket
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 
 SOURCE = "rule"
 """`JointRequest.source` of a pull-out unit: the rack behind the front shows that it slides."""

@@ -19,7 +19,7 @@ from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 
 SOURCE = "rule"
 """`JointRequest.source` of a rack: its shape and the door before it show that it slides."""

@@ -25,7 +25,8 @@ from grafu.joints.motion_choice import Side
 from grafu.joints.nesting import bodies_of
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.border import border_frame
-from grafu.scene.scene import Scene, metre_on
+from grafu.scene.scale import metre_on
+from grafu.scene.scene import Scene
 
 _WORDS = frozenset({"bifold", "folding", "falttur", "pliante", "plegable"})
 _TWO_WORDS = ("bi", "fold")

@@ -17,7 +17,7 @@ from grafu.joints.limits import blockers_at, in_the_way, swept_box, widest_free
 from grafu.joints.plan import JointRequest
 from grafu.joints.report import Clearance
 from grafu.scene.border import part_axes
-from grafu.scene.scene import Obstacle
+from grafu.scene.obstacles import Obstacle
 
 
 @final

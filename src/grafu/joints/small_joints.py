@@ -20,7 +20,7 @@ from grafu.joints.small_fit import TakenPart, extent_of, fitted, swept
 from grafu.joints.small_knobs import SOURCE as FOUND
 from grafu.joints.small_requests import found_requests, stated_requests
 from grafu.refusal import Asked, Reason, Refusal
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import MechanismClass
 
 

@@ -28,7 +28,8 @@ from grafu.joints.report import Installed
 from grafu.joints.stay_config import StayConfig
 from grafu.joints.stay_places import StayPlace, places
 from grafu.scene.border import BorderFrame, border_frame, without_handle
-from grafu.scene.scene import Obstacle, metre_on
+from grafu.scene.obstacles import Obstacle
+from grafu.scene.scale import metre_on
 from grafu.templates.stay import leaf_bracket, rod_surfaces, tube_surfaces, wall_bracket
 from grafu.vocabulary import PartLabel
 

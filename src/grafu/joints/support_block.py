@@ -118,6 +118,6 @@ def nearest_part(hardware: Visual, scene: Scene, request: JointRequest, config: 
     """Returns the id of the static part that hardware sits on, "" where none is near; a wanted mount wins a draw."""
     collider = MeshCollider(hardware.mesh)
     held_by = scene.static_obstacles_of(request.holders)
-    near = [o for o in held_by if o.collider.box.overlaps(collider.box, config.near)]
+    near = held_by.near(collider.box, config.near)
     ranked = sorted((round(collider.distance(o.collider), 4), o.id not in request.mounts, o.id) for o in near)
     return ranked[0][2] if ranked else ""

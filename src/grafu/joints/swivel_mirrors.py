@@ -17,7 +17,7 @@ from grafu.geometry.config_checks import at_scale, require_positive, require_rat
 from grafu.graph.edges import Hinge
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.small_knobs import SOURCE
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 
 _UP = 2
 _MIRROR = "mirror"

@@ -20,7 +20,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes, touched_by
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 
 _WORDS = frozenset({"tilt", "tilting", "tiltout", "kippfront", "kippklappe"})
 _OF_PIECES = frozenset({"shoe", "shoes", "schuhschrank", "schuhkipper", "chaussures", "zapatero", "scarpiera"})

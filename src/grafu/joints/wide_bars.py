@@ -15,7 +15,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"

@@ -48,7 +48,8 @@ from grafu.pipeline.stages import (
 )
 from grafu.pipeline.standing import base_of
 from grafu.processes.cache import NO_CACHE, Cache
-from grafu.scene.scene import Scene, metre_on
+from grafu.scene.scale import metre_on
+from grafu.scene.scene import Scene
 from grafu.templates.template import Gallery, HandleTemplate
 from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel

@@ -27,7 +27,7 @@ from grafu.joints.tilting_fronts import with_shown_tilts
 from grafu.joints.waste_bins import with_waste_bins
 from grafu.joints.wide_bars import with_wide_bars
 from grafu.joints.windows import window, with_windows
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 

@@ -84,13 +84,22 @@ class Cache:
             return make(*given)
         key = content_key((name, given))
         if key not in self._values:
-            self.made[name] = self.made.get(name, 0) + 1
+            self.count(name)
             self._values[key] = make(*given), given
             while len(self._values) > self._most:
                 self._values.popitem(last=False)
         self._values.move_to_end(key)
         found: T = self._values[key][0]
         return found
+
+    def count(self, name: str) -> None:
+        """Counts something that was made, whoever keeps it."""
+        self.made[name] = self.made.get(name, 0) + 1
+
+    @property
+    def keeps(self) -> bool:
+        """Whether it keeps anything."""
+        return self._most > 0
 
 
 CACHED_VALUES = 400

@@ -6,7 +6,7 @@ on the meshes that stayed the same.
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Concatenate, ParamSpec, TypeVar, cast, final
 
 import numpy as np
@@ -19,28 +19,13 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, mesh_near
+from grafu.scene.obstacles import Entry, Obstacle, Obstacles
+from grafu.scene.reads import Read, note_box, note_whole, plain, with_items
+from grafu.scene.scale import floor_under, metre_on
 from grafu.vocabulary import JointType
 
 P = ParamSpec("P")
 T = TypeVar("T")
-_COMMON = (0.5, 4.0)  # metres: the largest side of furniture whose stated size is believed
-
-
-def metre_on(extent: float) -> float:
-    """Returns how long one metre of real furniture is on an object whose largest side is `extent` metres.
-
-    It is 1 for furniture between half a metre and four metres; what is smaller or larger was modelled in another scale,
-    and all that is added to it is smaller or larger, too. It is 1 for an object without extent.
-    """
-    low, high = _COMMON
-    if extent <= 0:
-        return 1.0
-    return min(extent / low, 1.0) if extent < high else extent / high
-
-
-def floor_under(meshes: Iterable[TriangleMesh]) -> float:
-    """Returns the height of the floor, metres: z = 0 in the object frame, or less where a mesh reaches below that."""
-    return min([0.0, *(float(mesh.box.low[2]) for mesh in meshes if len(mesh.faces))])
 
 
 @final
@@ -75,15 +60,6 @@ class JointMotion:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Obstacle:
-    """Something that a moving part may run into."""
-
-    id: str
-    collider: MeshCollider
-
-
-@final
-@dataclass(frozen=True, eq=False)
 class Scene:
     """All parts in their rest pose.
 
@@ -100,7 +76,7 @@ class Scene:
     _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(
         default_factory=dict, repr=False
     )
-    _path_boxes: dict[str, tuple[TriangleMesh, JointMotion, Box]] = field(default_factory=dict, repr=False)
+    _path_boxes: dict[str, tuple[Box, JointMotion, Box]] = field(default_factory=dict, repr=False)
     _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, SweptBody]] = field(default_factory=dict, repr=False)
     _known: dict[tuple[object, ...], object] = field(default_factory=dict, repr=False, init=False)
 
@@ -119,22 +95,33 @@ class Scene:
     @cached_property
     def floor(self) -> float:
         """The height of the floor, metres; see `floor_under`."""
-        return floor_under(part.mesh for part in self.parts.values())
+        return floor_under(part.mesh for part in plain(self.parts).values())
 
     @cached_property
     def moving_ids(self) -> frozenset[str]:
         """The ids of all parts that move."""
-        return frozenset(member for moving in self.moving_bodies.values() for member in moving.members)
+        return frozenset(member for moving in plain(self.moving_bodies).values() for member in moving.members)
 
-    @cached_property
+    @property
     def static_parts(self) -> tuple[Part, ...]:
         """The parts that stay where they are."""
-        return tuple(part for part in self.parts.values() if part.id not in self.moving_ids)
+        note_whole(Read.STILL)
+        return self.still_parts
 
     @cached_property
-    def static_obstacles(self) -> tuple[Obstacle, ...]:
+    def still_parts(self) -> tuple[Part, ...]:
+        """The same, not noted as read; see `grafu.scene.reads`."""
+        return tuple(part for part in plain(self.parts).values() if part.id not in self.moving_ids)
+
+    def static_parts_near(self, box: Box) -> list[Part]:
+        """Returns the parts that stay where they are and whose boxes meet a box."""
+        note_box(Read.STILL, box)
+        return [part for part in self.still_parts if len(part.mesh.faces) and part.box.overlaps(box)]
+
+    @cached_property
+    def static_obstacles(self) -> Obstacles:
         """One obstacle per static part, at rest."""
-        return tuple(Obstacle(part.id, MeshCollider(part.mesh)) for part in self.static_parts if len(part.mesh.faces))
+        return Obstacles(_entry(Read.STILL, part.id, part.mesh) for part in self.still_parts if len(part.mesh.faces))
 
     @cached_property
     def obstacles_behind(self) -> tuple[Obstacle, ...]:
@@ -142,19 +129,19 @@ class Scene:
         return tuple(Obstacle(part.id, MeshCollider(part.mesh)) for part in self.behind if len(part.mesh.faces))
 
     @cached_property
-    def static_hardware(self) -> tuple[Obstacle, ...]:
+    def static_hardware(self) -> Obstacles:
         """One obstacle per installed static piece of hardware; what turns on its own pin is none."""
         rigid = (visual for owner, visual in self.hardware if not owner and visual.swing is None)
-        return tuple(Obstacle(visual.name, MeshCollider(visual.mesh)) for visual in rigid)
+        return Obstacles(_entry(Read.HARDWARE, visual.name, visual.mesh) for visual in rigid)
 
     @cached_property
-    def still_obstacles(self) -> tuple[Obstacle, ...]:
+    def still_obstacles(self) -> Obstacles:
         """All that is static: the parts, then the hardware."""
-        return (*self.static_obstacles, *self.static_hardware)
+        return self.static_obstacles.joined(self.static_hardware)
 
-    def static_obstacles_of(self, parts: Collection[str]) -> tuple[Obstacle, ...]:
+    def static_obstacles_of(self, parts: Collection[str]) -> Obstacles:
         """Returns the obstacles of some static parts alone; of all, where none are named."""
-        return tuple(o for o in self.static_obstacles if o.id in parts) if parts else self.static_obstacles
+        return self.static_obstacles.only(parts) if parts else self.static_obstacles
 
     def hardware_obstacles(self, moving_id: str) -> tuple[Obstacle, ...]:
         """Returns one obstacle per piece of hardware that a moving body carries, at rest: the same whoever asks."""
@@ -170,9 +157,22 @@ class Scene:
 
     def equipped_mesh(self, moving_id: str) -> TriangleMesh:
         """Returns the moving body with all that rides on it and the hardware that it carries so far, as one mesh."""
-        hardware = [visual.mesh for visual in self.hardware_of(moving_id) if visual.swing is None]
-        bare = self.moving_mesh(moving_id)
+        note_box(Read.BODIES, self.body_box(moving_id))
+        bare = self._as_one(tuple(part.mesh for part in self.body_parts(moving_id)))
+        hardware = [visual.mesh for visual in self.body_hardware(moving_id) if visual.swing is None]
         return self._as_one((bare, *hardware)) if hardware else bare
+
+    def body_parts(self, moving_id: str) -> tuple[Part, ...]:
+        """Returns what moves as one; that is not noted as read, see `grafu.scene.reads`."""
+        return tuple(plain(self.parts)[member] for member in plain(self.moving_bodies)[moving_id].members)
+
+    def body_hardware(self, moving_id: str) -> tuple[Visual, ...]:
+        """Returns the hardware installed on a moving body; that is not noted as read."""
+        return self._hardware_by_owner.get(moving_id, ())
+
+    def body_box(self, moving_id: str) -> Box:
+        """Returns the box around a moving body and its hardware at rest; that is not noted as read."""
+        return self.once(_body_box, moving_id)
 
     def _as_one(self, meshes: tuple[TriangleMesh, ...]) -> TriangleMesh:
         """Returns meshes merged into one: the same one whenever it is asked for."""
@@ -181,11 +181,14 @@ class Scene:
             self._merged[key] = (meshes, merge_meshes(meshes))
         return self._merged[key][1]
 
-    def path_box(self, moving_id: str, mesh: TriangleMesh, joint_motion: JointMotion, find: Callable[[], Box]) -> Box:
-        """Returns the box around a mesh's whole path, which `find` works out: once, as long as mesh and motion stay."""
-        known = self._path_boxes.get(moving_id)
-        if known is None or known[0] is not mesh or known[1] is not joint_motion:
-            known = self._path_boxes[moving_id] = (mesh, joint_motion, find())
+    def path_box(self, moving_id: str, joint_motion: JointMotion, find: Callable[[Box], Box]) -> Box:
+        """Returns the box around a moving body's whole path, not noted as read.
+
+        `find` works it out of the body's box at rest: once, as long as that and the motion stay.
+        """
+        known, box = self._path_boxes.get(moving_id), self.body_box(moving_id)
+        if known is None or known[1] is not joint_motion or not (known[0] is box or known[0] == box):
+            known = self._path_boxes[moving_id] = (box, joint_motion, find(box))
         return known[2]
 
     def swept_body(self, moving_id: str, depth: float, axes: Mat3) -> SweptBody:
@@ -196,18 +199,33 @@ class Scene:
             self._bodies[key] = (mesh, SweptBody(mesh, depth, axes))
         return self._bodies[key][1]
 
-    def other_bodies(self, moving_id: str) -> tuple[Obstacle, ...]:
+    def others_than(self, moving_id: str) -> tuple[str, ...]:
+        """Returns the ids of the other moving bodies, not noted as read."""
+        return tuple(other for other in plain(self.moving_bodies) if other != moving_id)
+
+    def is_another_beside(self, moving_id: str, box: Box) -> bool:
+        """Whether the box around another moving body, at rest with its hardware, meets a box."""
+        note_box(Read.BOXES, box)
+        return any(self.body_box(other).overlaps(box) for other in self.others_than(moving_id))
+
+    def other_bodies(self, moving_id: str) -> Obstacles:
         """Returns the other moving bodies as obstacles, at rest, with the hardware that they carry."""
-        return tuple(self.once(_equipped_obstacle, other) for other in self.moving_bodies if other != moving_id)
+        return Obstacles(
+            Entry(Read.BODIES, other, self.body_box(other), partial(self.once, _equipped_obstacle, other))
+            for other in self.others_than(moving_id)
+        )
 
     def is_near_static(self, mesh: TriangleMesh, within: float, of: Collection[str] = ()) -> bool:
         """Whether a mesh comes within so many metres of a static part (`of`: of one of these)."""
         collider = MeshCollider(mesh)
-        return any(collider.is_within(within, obstacle.collider) for obstacle in self.static_obstacles_of(of))
+        near = self.static_obstacles_of(of).near(mesh.box, within)
+        return any(collider.is_within(within, obstacle.collider) for obstacle in near)
 
     def hardware_of(self, moving_id: str) -> tuple[Visual, ...]:
         """Returns the hardware installed on a moving body."""
-        return self._hardware_by_owner.get(moving_id, ())
+        if moving_id in plain(self.moving_bodies):
+            note_box(Read.BODIES, self.body_box(moving_id))
+        return self.body_hardware(moving_id)
 
     @cached_property
     def _hardware_by_owner(self) -> dict[str, tuple[Visual, ...]]:
@@ -222,7 +240,7 @@ class Scene:
 
     def replaced(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some parts in a new shape."""
-        return replace(self, parts={**self.parts, **{part.id: part for part in parts}})
+        return replace(self, parts=with_items(self.parts, {part.id: part for part in parts}))
 
     def with_parts(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some more parts; those that ride on a moving body move with it."""
@@ -253,14 +271,25 @@ class Scene:
     ) -> "Scene":
         """Returns the scene with a path of the moving body, and hardware added to it and to the static body."""
         added = [(moving_id, v) for v in dynamic] + [("", v) for v in static]
-        return replace(
-            self, hardware=(*self.hardware, *added), joint_motions={**self.joint_motions, moving_id: joint_motion}
-        )
+        motions = with_items(self.joint_motions, {moving_id: joint_motion})
+        return replace(self, hardware=(*self.hardware, *added), joint_motions=motions)
 
     def static_mesh_near(self, box: Box, margin: float, of: Collection[str] = ()) -> TriangleMesh:
         """Returns the static triangles (`of`: of these parts alone) whose own boxes come within `margin` of a box."""
-        parts = (part for part in self.static_parts if not of or part.id in of)
-        return mesh_near((part.mesh for part in parts), box.grown(margin))
+        reach = box.grown(margin)
+        note_box(Read.STILL, reach)
+        parts = (part for part in self.still_parts if not of or part.id in of)
+        return mesh_near((part.mesh for part in parts), reach)
+
+
+def _entry(kind: Read, name: str, mesh: TriangleMesh) -> Entry:
+    return Entry(kind, name, mesh.box, lambda: Obstacle(name, MeshCollider(mesh)))
+
+
+def _body_box(scene: Scene, moving_id: str) -> Box:
+    rigid = (visual.mesh for visual in scene.body_hardware(moving_id) if visual.swing is None)
+    meshes = [*(part.mesh for part in scene.body_parts(moving_id)), *rigid]
+    return Box.enclosing(mesh.box for mesh in [mesh for mesh in meshes if len(mesh.faces)] or meshes)
 
 
 def _hardware_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:

@@ -18,7 +18,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.limits import sweep
 from grafu.joints.plan import JointRequest
-from grafu.scene.scene import Obstacle
+from grafu.scene.obstacles import Obstacle
 from grafu.vocabulary import PartLabel
 
 SHAPES: tuple[TopShape, ...] = ("rectangle", "rounded", "chamfered")

@@ -19,12 +19,14 @@ from grafu.additions.likeness import OPAQUE_ALPHA
 from grafu.articulation.kinematics import all_before
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Points
+from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation
 from grafu.joints.limits import PoseFunction, in_the_way, opening_values, swept_box
-from grafu.scene.scene import Obstacle, Scene
+from grafu.scene.obstacles import Obstacle, Obstacles
+from grafu.scene.scene import Scene
 
 SAME_SURFACE = 1e-4
 """Distance between two hits of rays on one surface, metres."""
@@ -38,7 +40,7 @@ class HandleObstacles:
     """All parts and hardware at rest, the still ones and those of each moving body."""
 
     scene: Scene
-    still: tuple[Obstacle, ...]
+    still: Obstacles
     moving: Mapping[str, tuple[Obstacle, ...]]
 
     def with_handle(self, moving_id: str, handle: TriangleMesh) -> "HandleObstacles":
@@ -54,21 +56,21 @@ class HandleObstacles:
         """
         body, poses = SweptBody(handle, config.touch * self.scene.metre), config.poses
         others = [other for other in self.moving if other != moving_id]
-        at_rest = [
-            *self.still,
-            *self.scene.hardware_obstacles(moving_id),
-            *(o for other in others for o in self.moving[other]),
-        ]
-        found = _met(body, _closed, 0.0, in_the_way(at_rest, handle.box), 1)
+        at_rest = [*self.scene.hardware_obstacles(moving_id), *(o for other in others for o in self.moving[other])]
+        found = _met(body, _closed, 0.0, self._near(handle.box, at_rest), 1)
         if found:
             return found
         motion, upper = self._motion_of(moving_id)
         opened = [other for other in others if other in self._before(moving_id)]
-        closed = [*self.still, *(o for other in others if other not in opened for o in self.moving[other])]
-        fixed = in_the_way(closed, swept_box(handle.box, motion, upper))
+        closed = [o for other in others if other not in opened for o in self.moving[other]]
+        fixed = self._near(swept_box(handle.box, motion, upper), closed)
         fixed += [obstacle for other in opened for obstacle in self._opened(other)]
         found = _met(body, motion, upper, fixed, poses)
         return found or next((o for o in others if self._runs_into(o, moving_id, body, handle, poses)), "")
+
+    def _near(self, box: Box, others: Sequence[Obstacle]) -> list[Obstacle]:
+        """Returns what is still and meets a box, then those of others that do."""
+        return [*in_the_way(self.still, box), *in_the_way(others, box)]
 
     def _motion_of(self, moving_id: str) -> tuple[PoseFunction, float]:
         joint_motion = self.scene.joint_motions[moving_id]

@@ -8,7 +8,7 @@ from typing import final
 
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.joints.config import RealizationConfig
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.visible import ShortRepr
 
 

@@ -22,7 +22,8 @@ from grafu.geometry.raycast import RayCaster
 from grafu.joints.limits import in_the_way, opening_values, swept_box
 from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes
-from grafu.scene.scene import Obstacle, Scene
+from grafu.scene.obstacles import Obstacle
+from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
 RAYS_ALONG_EDGE = 16
@@ -54,8 +55,8 @@ class Clearing:
                 return other.id
         body = SweptBody(mesh, self._depth)
         body.place(np.eye(4))
-        still = [*self._scene.still_obstacles, *self._panels, *self._at_rest]
-        near = in_the_way(still, mesh.box)
+        others = [*self._panels, *self._at_rest]
+        near = [*in_the_way(self._scene.still_obstacles, mesh.box), *in_the_way(others, mesh.box)]
         met = body.penetrated([obstacle.collider for obstacle in near])
         if met:
             return near[met[0]].id

@@ -43,7 +43,7 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.plan import JointRequest
-from grafu.scene.scene import metre_on
+from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
 NARROWEST_GROOVE = 3.0

@@ -16,7 +16,7 @@ from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.plan import JointRequest
-from grafu.scene.scene import floor_under
+from grafu.scene.scale import floor_under
 from grafu.vocabulary import PartLabel
 
 COVERING_LABELS = (PartLabel.TOP_PANEL, PartLabel.SHELF)  # these cover whatever moves them

@@ -78,8 +78,7 @@ def obstruction(
     """Returns how far the static parts block the path of the moving body, and which of them do, `ignored` left out."""
     mesh = scene.moving_mesh(path.moving)
     body = scene.swept_body(path.moving, config.depth * scene.extent, path.axes)
-    obstacles = [obstacle for obstacle in scene.static_obstacles if obstacle.id not in ignored]
-    near = in_the_way(obstacles, swept_box(mesh.box, path.motion, path.reach))
+    near = in_the_way(scene.static_obstacles.without(ignored), swept_box(mesh.box, path.motion, path.reach))
     return sweep(body, path.motion, path.reach, near, config.fine_poses)
 
 

@@ -26,7 +26,7 @@ from grafu.joints.hinge.sites import placement_of, site_of
 from grafu.joints.limits import in_the_way, is_free, swept_box
 from grafu.joints.plan import CUP
 from grafu.joints.report import Placement
-from grafu.scene.scene import Obstacle
+from grafu.scene.obstacles import Obstacles
 from grafu.templates.concealed import ConcealedHinge, ConcealedModel, axis_at
 from grafu.templates.template import Gallery
 from grafu.vocabulary import PartLabel
@@ -60,7 +60,7 @@ class ConcealedDoor:
     model: ConcealedModel
     pin: PinCandidate
     site: HingeSite
-    others: tuple[Obstacle, ...]
+    others: Obstacles
     config: ConcealedConfig
 
     @property
@@ -78,7 +78,8 @@ class ConcealedDoor:
         def motion(value: float) -> Mat4:
             return np.asarray(translation(slip.shift(value)) @ site.motion(value))
 
-        near = in_the_way((*site.obstacles, *self.others), swept_box(site.door.box, motion, site.upper))
+        box = swept_box(site.door.box, motion, site.upper)
+        near = [*in_the_way(site.obstacles, box), *in_the_way(self.others, box)]
         return is_free(site.door_body, motion, site.upper, near, self.config.poses)
 
     def installed(self, count: int) -> list[InstalledHinge]:

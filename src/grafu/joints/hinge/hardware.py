@@ -25,7 +25,9 @@ from grafu.joints.hinge_config import FootingConfig, HingeConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box
 from grafu.joints.support_block import METAL, Footing, block, resting_width, shortest_bridge
 from grafu.scene.border import BorderFrame, part_axes
-from grafu.scene.scene import JointMotion, Obstacle, Scene
+from grafu.scene.obstacles import Obstacle
+from grafu.scene.reads import Read, note_box, plain
+from grafu.scene.scene import JointMotion, Scene
 from grafu.templates.template import SnapPlane
 
 _POSES_OF_OTHERS = 19
@@ -40,13 +42,24 @@ class Neighbour:
 
     def __init__(self, moving_id: str, scene: Scene, depth: float) -> None:
         self.id = moving_id
-        self.joint_motion: JointMotion | None = scene.joint_motions.get(moving_id)
-        self.mesh: TriangleMesh = scene.equipped_mesh(moving_id)
-        self.at_rest = MeshCollider(self.mesh)
-        self._part, self._depth, self._scene = scene.parts[moving_id].mesh, depth, scene
+        self.joint_motion: JointMotion | None = plain(scene.joint_motions).get(moving_id)
+        self.box: Box = scene.body_box(moving_id)
+        self._depth, self._scene = depth, scene
+
+    @cached_property
+    def mesh(self) -> TriangleMesh:
+        """The moving body with all that it carries, as one mesh."""
+        return self._scene.equipped_mesh(self.id)
+
+    @cached_property
+    def at_rest(self) -> MeshCollider:
+        """The same at rest."""
+        return MeshCollider(self.mesh)
 
     def runs_into(self, *standing: TriangleMesh) -> bool:
         """Whether it cuts into standing meshes, taken together, anywhere along its path."""
+        for mesh in standing:
+            note_box(Read.PATHS, mesh.box)
         if self.joint_motion is None:
             return False
         near = [Obstacle(self.id, MeshCollider(mesh)) for mesh in standing if self._swept.overlaps(mesh.box)]
@@ -60,19 +73,23 @@ class Neighbour:
     @cached_property
     def _swept(self) -> Box:
         assert self.joint_motion is not None
-        motion, upper = self._motion, self.joint_motion.upper
-        return self._scene.path_box(
-            self.id, self.mesh, self.joint_motion, lambda: swept_box(self.mesh.box, motion, upper)
-        )
+        return path_box_of(self.id, self._scene, self.joint_motion)
 
     @cached_property
     def _body(self) -> SweptBody:
-        return SweptBody(self.mesh, self._depth, np.asarray(part_axes(self._part)))
+        axes = part_axes(plain(self._scene.parts)[self.id].mesh)
+        return SweptBody(self.mesh, self._depth, np.asarray(axes))
 
 
 def neighbours_of(moving_id: str, scene: Scene, depth: float) -> tuple[Neighbour, ...]:
     """Returns all other moving bodies; `depth` is the tolerated penetration in metres."""
-    return tuple(Neighbour(other, scene, depth) for other in scene.moving_bodies if other != moving_id)
+    return tuple(Neighbour(other, scene, depth) for other in scene.others_than(moving_id))
+
+
+def path_box_of(moving_id: str, scene: Scene, joint_motion: JointMotion) -> Box:
+    """Returns the box around the whole path of a moving body with its hardware."""
+    motion = joint_motion.kind.along(joint_motion.axis)
+    return scene.path_box(moving_id, joint_motion, lambda box: swept_box(box, motion, joint_motion.upper))
 
 
 _POSES = 11
@@ -212,8 +229,9 @@ def _static_in_the_way(static: list[TriangleMesh], site: HingeSite) -> bool:
         return True
     body = _body(static, site)
     body.place(np.eye(4))
-    hardware = (o.collider for o in (*site.scene.static_hardware, *site.scene.obstacles_behind))
-    return any(body.penetrates(other) for other in (*(n.at_rest for n in site.neighbours), *hardware))
+    box = Box.enclosing(mesh.box for mesh in static)
+    hardware = (o.collider for o in (*in_the_way(site.scene.static_hardware, box), *site.scene.obstacles_behind))
+    return any(body.penetrates(other) for other in (*_at_rest_near(site, box), *hardware))
 
 
 def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: HingeSite) -> bool:
@@ -226,7 +244,13 @@ def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: HingeSite) -> bool:
         return True
     body.place(np.eye(4))
     behind = (obstacle.collider for obstacle in site.scene.obstacles_behind)
-    return any(body.penetrates(other) for other in (*(n.at_rest for n in site.neighbours), *behind))
+    return any(body.penetrates(other) for other in (*_at_rest_near(site, box), *behind))
+
+
+def _at_rest_near(site: HingeSite, box: Box) -> list[MeshCollider]:
+    """Returns the other moving bodies at rest whose boxes meet a box."""
+    note_box(Read.BODIES, box)
+    return [neighbour.at_rest for neighbour in site.neighbours if neighbour.box.overlaps(box)]
 
 
 @final

@@ -34,7 +34,8 @@ from grafu.joints.hinge.survey import BorderSurvey, survey
 from grafu.joints.limits import all_blockers, free_opening, in_the_way, sweep, swept_box, widest_above, widest_free
 from grafu.joints.plan import CUP, PIVOT, JointRequest
 from grafu.scene.border import BorderFrame, border_frame, part_axes, without_handle
-from grafu.scene.scene import Obstacle, Scene
+from grafu.scene.obstacles import Obstacles
+from grafu.scene.scene import Scene
 
 
 @final
@@ -47,8 +48,8 @@ class DoorSearch:
     config: RealizationConfig
     frame: BorderFrame
     body: SweptBody
-    obstacles: tuple[Obstacle, ...]
-    neighbours: tuple[Obstacle, ...]
+    obstacles: Obstacles
+    neighbours: Obstacles
     wanted: float
     most: float
 
@@ -157,7 +158,7 @@ class DoorSearch:
         frame = self.frame
         corners = [(x, y, z) for x in (-seam, 0.0) for y in (-frame.thickness, 0.0) for z in (-0.5, 0.5)]
         beside = Box.around(frame.to_object(np.array(corners) * (1.0, 1.0, frame.length)))
-        return any(body.collider.box.overlaps(beside, 0.0) for body in self.neighbours)
+        return self.scene.is_another_beside(self.request.moving, beside)
 
     @property
     def _tolerances(self) -> Tolerances:
@@ -215,7 +216,7 @@ class DoorSearch:
 
     def met_at_rest(self) -> tuple[str, ...]:
         """Returns what the door cuts into before it has moved at all."""
-        return sweep(self.body, self.best().axis.rotation, 0.0, self.obstacles, 1).blockers
+        return sweep(self.body, self.best().axis.rotation, 0.0, in_the_way(self.obstacles, self.box), 1).blockers
 
     def widest(self, axis: Axis, reach: float) -> float:
         """Returns the widest opening about an axis, at most `reach`, that is free of the static body and the floor."""
@@ -275,7 +276,7 @@ def door_search(
         config,
         frame,
         scene.swept_body(request.moving, config.depth * scene.extent, part_axes(part.mesh)),
-        tuple(o for o in scene.still_obstacles if o.id not in ignored),
+        scene.still_obstacles.without(ignored),
         scene.other_bodies(request.moving),
         max(wanted, min(config.hinge.least_opening, request.stop or pi)),
         most,

@@ -17,6 +17,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
@@ -30,7 +31,7 @@ from grafu.joints.rail.spots import RailSpot, flank_gaps, rail_spots
 from grafu.joints.rail_footing_config import RailFootingConfig
 from grafu.joints.report import Placement
 from grafu.joints.support_block import Footing, block, nearest_part, shortest_bridge
-from grafu.scene.scene import Obstacle
+from grafu.scene.obstacles import Obstacle
 from grafu.templates.template import Gallery, RailModel, RailTemplate, TemplateEnd
 from grafu.vocabulary import PartLabel
 
@@ -86,7 +87,8 @@ def _meets_divider(end: TemplateEnd, search: DrawerSearch) -> bool:
     if search.request.choice.supports is not Supports.DIVIDER:
         return False
     near = search.config.anchor
-    boards = (o for o in search.scene.static_hardware if o.id.startswith("support_"))
+    around = search.scene.static_hardware.near(Box.around(end.snap.center[None]), near)
+    boards = (o for o in around if o.id.startswith("support_"))
     rail = MeshCollider(end.mesh)
     return any(
         board.collider.box.grown(near).contains(end.snap.center[None]).all() and rail.is_within(near, board.collider)

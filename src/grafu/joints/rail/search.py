@@ -27,7 +27,8 @@ from grafu.joints.rail.body_region import BodyRegion, DrawerFrame, body_region, 
 from grafu.joints.rail.spots import front_only_region
 from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.border import SNAP, part_axes
-from grafu.scene.scene import Obstacle, Scene
+from grafu.scene.obstacles import Obstacles
+from grafu.scene.scene import Scene
 from grafu.templates.template import RailTemplate
 from grafu.vocabulary import PartLabel
 
@@ -42,8 +43,8 @@ class DrawerSearch:
     config: RealizationConfig
     frame: DrawerFrame
     body: SweptBody
-    obstacles: tuple[Obstacle, ...]
-    neighbours: tuple[Obstacle, ...]
+    obstacles: Obstacles
+    neighbours: Obstacles
 
     @cached_property
     def mesh(self) -> TriangleMesh:
@@ -150,7 +151,7 @@ class DrawerSearch:
 
     def met_at_rest(self) -> tuple[str, ...]:
         """Returns what the drawer cuts into before it has moved at all."""
-        return sweep(self.body, self.motion, 0.0, self.obstacles, 1).blockers
+        return sweep(self.body, self.motion, 0.0, in_the_way(self.obstacles, self.box), 1).blockers
 
     def bodies_in_the_way(self, reach: float) -> tuple[str, ...]:
         """Returns the other moving bodies, at rest, that the drawer runs into."""
@@ -202,5 +203,5 @@ def drawer_search(
     if frame is None:
         return None
     body = scene.swept_body(request.moving, config.depth * scene.extent, part_axes(mesh))
-    obstacles = tuple(o for o in scene.still_obstacles if o.id not in ignored)
+    obstacles = scene.still_obstacles.without(ignored)
     return DrawerSearch(request, scene, config, frame, body, obstacles, scene.other_bodies(request.moving))
