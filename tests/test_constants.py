@@ -55,6 +55,7 @@ FORMULA = "a number of geometry or mechanics"
 MATERIALS = "a table of what materials weigh, the default of a field"
 ELSEWHERE = "a tolerance that tells other coordinates from rounding, no size of furniture"
 EFFORT = "after how much work a reader ends, or works in a simpler way"
+KEPT = "how much of what was worked out is kept: less costs time and changes no result"
 FORMAT = "what a format or a data set states: its axes, its codes, how large its numbers are"
 
 FINGER = "the fingertip of a gripper: frames, shapes and pages must not differ in it"
@@ -115,7 +116,9 @@ OF_MODULES = {
     "scene": {
         "border.py": {"SNAP": FRAME, "_THIN_BOARD": FRAME, "_FRONT_RAYS": SAMPLES},
         "front.py": {"_TILTED": FRAME, "_SLIDES": FRAME, "_PANEL": FRAME, "_LYING": FRAME},
-        "scene.py": {"_COMMON": SHARED},
+        "reads.py": {"_PLAY": TOLERANCE},
+        "scale.py": {"_COMMON": SHARED},
+        "shapes.py": {"MOST_SHAPES": KEPT, "MOST_USES": KEPT},
     },
     "segmentation": {
         "candidates.py": {"_NO_AREA": TOLERANCE},

@@ -50,11 +50,13 @@ NUMBERING = "the rank of a row in a table, or a direction"
 OUTLINE = "what tells a board from a box where a user states how it moves"
 LOOK = "the colour of hardware"
 GEOMETRY = "a number of geometry: what folds ends in the plane of the opening"
+KEPT = "how much of what was worked out is kept: less costs time and changes no result"
 CHOICE = "the range of what a user may choose"
 
 REASONS = {
     "framed_leaves.py": {"_DEPTH": NUMBERING},
     "gaps.py": {"_POSES": SAMPLES, "_TOUCHING": TOLERANCE},
+    "known.py": {"MOST_KNOWN": KEPT},
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_TRAVELS": SAMPLES, "_POSES": SAMPLES},
     "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
@@ -83,7 +85,8 @@ REASONS = {
     "leaves.py": {"UP": NUMBERING, "_UP": NUMBERING},
     "shown_folds.py": {"_PAIRS": NUMBERING},
     "hinge/candidates.py": {"(PIVOTS, MAKESHIFT)": NUMBERING, "_HEIGHT_SHIFTS": SAMPLES},
-    "hinge/hardware.py": {"_POSES_OF_OTHERS": SAMPLES, "_POSES": SAMPLES},
+    "hinge/hardware.py": {"_POSES": SAMPLES},
+    "hinge/neighbours.py": {"_POSES_OF_OTHERS": SAMPLES},
     "hinge/place.py": {"_FEWEST": EFFORT, "_ENOUGH": EFFORT, "_STRUCK": EFFORT},
     "lift_arms.py": {"_SIDES": NUMBERING, "_ROUND": SAMPLES, "_QUARTER": SAMPLES},
     "parallel_lifts.py": {"_NEAR": TOLERANCE},

@@ -10,7 +10,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.viewer.scene_data import PackedSurface, pack_surface
+from grafu.viewer.packed_surface import PackedSurface, pack_surface
 
 CUBE = TriangleMesh.box_mesh(Box(np.array([-0.2, 0.1, 0.0]), np.array([0.5, 0.4, 2.0])))
 

@@ -157,7 +157,7 @@ class Shown:
         """By part, of joints that collide: at which value first (radians or metres), and which visuals it cuts into."""
         counted = CollisionConfig(tolerance=TOLERANT.tolerance, moving_bodies=True)
         clashing = {done.joint: done.moving for done in self.made.report.installed if done.collision_share > 0}
-        found = first_collisions(self.made.object, clashing, counted)
+        found = self.cache.value("collisions", first_collisions, self.made.object, clashing, counted)
         return {clashing[joint]: {"value": one.value, "others": list(one.others)} for joint, one in found.items()}
 
     @property

@@ -14,7 +14,7 @@ import numpy as np
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
-from grafu.joints.hinge.hardware import path_box_of
+from grafu.joints.hinge.neighbours import path_box_of
 from grafu.processes.cache import Cache, content_key
 from grafu.scene.reads import Noted, Noting, Read, Reads, plain
 from grafu.scene.scene import JointMotion, MovingBody, Scene
@@ -147,7 +147,8 @@ def seen(reads: Reads, scene: Scene) -> bytes:
 def _rigid_pieces(name: str, scene: Scene) -> list[Part | Visual]:
     """Returns what of a moving body has faces, and its hardware, without what turns on its own pin."""
     rigid = (visual for visual in scene.body_hardware(name) if visual.swing is None)
-    return [piece for piece in (*scene.body_parts(name), *rigid) if len(piece.mesh.faces)]
+    pieces: list[Part | Visual] = [*scene.body_parts(name), *rigid]
+    return [piece for piece in pieces if len(piece.mesh.faces)]
 
 
 def _body(name: str, scene: Scene) -> tuple[object, ...]:
@@ -160,7 +161,8 @@ def _met(reads: Reads, kind: Read, things: list[T], boxes: list[Box]) -> tuple[T
     return tuple(things[k] for k in np.flatnonzero(reads.met(kind, lows, highs)))
 
 
-def _named(reads: Reads, kind: Read, mapping: Mapping[str, T]) -> tuple[tuple[str, T | None], ...]:
-    """Returns what was read of a mapping by name, or all of it in order."""
+def _named(reads: Reads, kind: Read, mapping: Mapping[str, T]) -> tuple[int, tuple[tuple[str, T | None], ...]]:
+    """Returns the length of a mapping, if it was counted, and what was read of it by name, or all of it in order."""
     names = mapping if kind in reads.whole else reads.names(kind)
-    return tuple((name, mapping.get(name)) for name in names)
+    count = len(mapping) if kind in reads.counted else 0
+    return count, tuple((name, mapping.get(name)) for name in names)

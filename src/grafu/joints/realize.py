@@ -35,6 +35,7 @@ from grafu.joints.report import Clearance, Installed, RealizationReport
 from grafu.processes.cache import NO_CACHE, Cache
 from grafu.scene.border import part_axes
 from grafu.scene.scene import JointMotion, MovingBody, Scene
+from grafu.scene.shapes import Shapes
 from grafu.templates.template import Gallery
 
 
@@ -65,6 +66,7 @@ def realize(
     requests = in_order(plan.joints)
     free = tuple(replace(request, choice=AUTOMATIC) for request in requests)
     scene, closed, axes = cache.value("closed", _closed_scene, asset, free, config)
+    scene = scene.sharing(cache.value("shapes", Shapes).used())
     requests = [replace(r, axis=axes[r.moving]) if r.moving in axes else r for r in requests]
     levels = Builder(gallery, config, cache).all_levels(requests, scene)
     articulated = _assembled(asset, levels)

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from grafu.additions.config import AdditionConfig
+from grafu.additions.interior.compartments import compartments_found
 from grafu.additions.step import PanelHint, StepRequest, StepResult
 from grafu.additions.steps import BEFORE_JOINTS, INSIDE, ON_FRONTS, run_steps
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
@@ -62,7 +63,7 @@ def add_after_joints(
     fronts = run_steps(ON_FRONTS, scene, request, config)
     made = fronts.then(run_steps(INSIDE, fronts.scene, request, config))
     forget_large_shapes()
-    return replace(made, scene=made.scene.afresh()), fronts.scene.afresh()
+    return replace(made, scene=made.scene.afresh()), fronts.scene.afresh(compartments_found)
 
 
 def _handle_hints(completion: GraphCompletion) -> dict[str, Vec3]:

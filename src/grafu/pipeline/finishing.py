@@ -11,6 +11,7 @@ from grafu.joints.realize import Realized
 from grafu.pipeline.additions import fitted_object
 from grafu.pipeline.shown_by_shape import WantedSmallParts
 from grafu.pipeline.stages import Stages
+from grafu.processes.cache import NO_CACHE, Cache
 
 
 def to_build(asset: Asset, body: StepResult, plan: RealizationPlan) -> Asset:
@@ -29,6 +30,7 @@ def with_small_joints_of(
     joints: RealizationConfig,
     stages: Stages,
     small: WantedSmallParts,
+    cache: Cache = NO_CACHE,
 ) -> Realized:
     """Returns what was realized with all that was added on its links, and `small` parts moving by themselves."""
     realized = replace(realized, object=fitted_object(realized.object, fittings))
@@ -36,9 +38,8 @@ def with_small_joints_of(
         return realized
     from grafu.joints.small_joints import with_small_parts
 
-    return stages.timed(
-        "small parts", partial(with_small_parts, realized, asset, joints, small.chosen), lambda _: realized
-    )
+    add = partial(cache.value, "small parts", with_small_parts, realized, asset, joints, small.chosen)
+    return stages.timed("small parts", add, lambda _: realized)
 
 
 def with_lifts_of(

@@ -191,7 +191,7 @@ def functionalize(
         TooComplex: if the budget does not even hold what cannot be left out.
     """
     stages, settings, joints = Stages(on_stage, budget), config.settings, config.joints
-    stated, drawers, knobs = len(asset.stated_joints), joints.drawer, settings.small_parts
+    stated, drawers, knobs, own = len(asset.stated_joints), joints.drawer, settings.small_parts, config.own_handles
     folds = folds_in(settings.motions, asset, at_scale(joints.fold, metre_on(asset.extent)))
     motions = as_turning(settings.motions, folds)
     asset, chosen = _with_source(asset, source, replace(settings, motions=motions), drawers, stages)
@@ -217,13 +217,13 @@ def functionalize(
     realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
     body, realized = without_idle(body, realized)
     wanted = additions_wanted(asset, settings.additions)
-    fit = partial(add_after_joints, realized.scene, completion, plan, wanted, config.own_handles)
+    fit = partial(cache.value, "fittings", add_after_joints, realized.scene, completion, plan, wanted, own)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
     small = small_parts_wanted(asset, motion.reads_annotation, settings.small_parts, turning)
-    realized = with_small_joints_of(realized, fittings, asset, joints, stages, small)
+    realized = with_small_joints_of(realized, fittings, asset, joints, stages, small, cache)
     realized = with_lifts_of(realized, plan, asset, joints, stages)
     realized, fittings = with_stays_of(realized, fittings, plan, asset, joints, stages, settings.stays)
-    realized = with_grasp_frames(realized, fittings, plan, stages)
+    realized = with_grasp_frames(realized, fittings, plan, stages, cache)
     with budget.in_force():
         graph_built = by_contacts(config.parsing, partial(_as_built, completion, asset, realized, body.then(fittings)))
     return Functionalized(

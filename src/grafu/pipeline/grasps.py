@@ -10,16 +10,19 @@ from grafu.joints.realize import Realized
 from grafu.joints.report import LIFT_ARMS, RealizationReport
 from grafu.pipeline.report_schema import Grasp
 from grafu.pipeline.stages import Stages
+from grafu.processes.cache import NO_CACHE, Cache
 
 _ON_FLOOR = 0.01  # metres: what ends lower stands on the floor
 
 
-def with_grasp_frames(realized: Realized, fittings: StepResult, plan: RealizationPlan, stages: Stages) -> Realized:
+def with_grasp_frames(
+    realized: Realized, fittings: StepResult, plan: RealizationPlan, stages: Stages, cache: Cache = NO_CACHE
+) -> Realized:
     """Returns what was realized with the grasp frame of each link that can be held."""
     hints = _hints(realized.object, grasp_kinds(realized.object, fittings, realized.report, plan), fittings)
 
     def held() -> Realized:
-        return replace(realized, object=with_grasps(realized.object, hints))
+        return replace(realized, object=cache.value("grasps", with_grasps, realized.object, hints))
 
     return stages.timed("grasp frames", held, lambda _: realized)
 

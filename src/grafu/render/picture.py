@@ -73,15 +73,24 @@ def posed_visuals(articulated: ArticulatedObject, values: Mapping[str, float] | 
     Raises:
         ArticulationError: if `values` names a joint that the object does not have.
     """
+    return [
+        replace(visual, surfaces=tuple(s.transformed(T) for s in visual.surfaces), swing=None)
+        for visual, T in placed_visuals(articulated, values)
+    ]
+
+
+def placed_visuals(
+    articulated: ArticulatedObject, values: Mapping[str, float] | None = None
+) -> list[tuple[Visual, Mat4]]:
+    """Returns all visuals at rest, each with the motion that takes it to joint values; see `posed_visuals`."""
     poses = link_poses(articulated, values or {}, shown=True)
     values = with_coupled(articulated, values or {})
     by_link = {link: values.get(joint.id, 0.0) for link, joint in articulated.joint_of.items()}
 
-    def posed(visual: Visual, T: Mat4) -> Visual:
-        T = T if visual.swing is None else T @ visual.swing.motion(by_link[visual.swing.moving])
-        return replace(visual, surfaces=tuple(s.transformed(T) for s in visual.surfaces), swing=None)
+    def place(visual: Visual, T: Mat4) -> Mat4:
+        return T if visual.swing is None else np.asarray(T @ visual.swing.motion(by_link[visual.swing.moving]))
 
-    return [posed(visual, poses[link.id]) for link in articulated.links for visual in link.visuals]
+    return [(visual, place(visual, poses[link.id])) for link in articulated.links for visual in link.visuals]
 
 
 def opened_values(articulated: ArticulatedObject, ratio: float = 1.0) -> dict[str, float]:

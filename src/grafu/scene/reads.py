@@ -32,10 +32,11 @@ class Read(Enum):
 
 @final
 class Reads:
-    """What was read so far: boxes and names by kind, and the kinds of which all was read; not a value."""
+    """What was read so far: boxes and names by kind, of which kinds all was read or counted; not a value."""
 
     def __init__(self) -> None:
         self.whole: set[Read] = set()
+        self.counted: set[Read] = set()
         self._boxes: dict[Read, dict[bytes, None]] = {}
         self._names: dict[Read, dict[str, None]] = {}
 
@@ -111,7 +112,8 @@ class Noted(Mapping[str, T]):
             yield name
 
     def __len__(self) -> int:
-        note_whole(self.kind)
+        if (reads := _present.get()) is not None:
+            reads.counted.add(self.kind)
         return len(self.plain)
 
 

@@ -9,8 +9,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Concatenate, ParamSpec, TypeVar, cast, final
 
-import numpy as np
-
 from grafu.articulation.articulated_object import Visual
 from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.asset.part import Part
@@ -18,10 +16,11 @@ from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody
-from grafu.geometry.mesh import TriangleMesh, merge_meshes, mesh_near
+from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.scene.obstacles import Entry, Obstacle, Obstacles
 from grafu.scene.reads import Read, note_box, note_whole, plain, with_items
 from grafu.scene.scale import floor_under, metre_on
+from grafu.scene.shapes import Shapes
 from grafu.vocabulary import JointType
 
 P = ParamSpec("P")
@@ -73,11 +72,8 @@ class Scene:
     hardware: tuple[tuple[str, Visual], ...] = ()
     joint_motions: Mapping[str, JointMotion] = field(default_factory=dict)
     behind: tuple[Part, ...] = ()
-    _merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = field(
-        default_factory=dict, repr=False
-    )
+    _shapes: Shapes = field(default_factory=Shapes, repr=False)
     _path_boxes: dict[str, tuple[Box, JointMotion, Box]] = field(default_factory=dict, repr=False)
-    _bodies: dict[tuple[int, bytes], tuple[TriangleMesh, SweptBody]] = field(default_factory=dict, repr=False)
     _known: dict[tuple[object, ...], object] = field(default_factory=dict, repr=False, init=False)
 
     def once(self, find: "Callable[Concatenate[Scene, P], T]", *args: P.args, **more: P.kwargs) -> T:
@@ -153,14 +149,14 @@ class Scene:
 
     def moving_mesh(self, moving_id: str) -> TriangleMesh:
         """Returns the moving body with all that rides on it, without hardware, as one mesh."""
-        return self._as_one(tuple(self.parts[member].mesh for member in self.moving_bodies[moving_id].members))
+        return self._shapes.as_one([self.parts[member].mesh for member in self.moving_bodies[moving_id].members])
 
     def equipped_mesh(self, moving_id: str) -> TriangleMesh:
         """Returns the moving body with all that rides on it and the hardware that it carries so far, as one mesh."""
         note_box(Read.BODIES, self.body_box(moving_id))
-        bare = self._as_one(tuple(part.mesh for part in self.body_parts(moving_id)))
+        bare = self._shapes.as_one([part.mesh for part in self.body_parts(moving_id)])
         hardware = [visual.mesh for visual in self.body_hardware(moving_id) if visual.swing is None]
-        return self._as_one((bare, *hardware)) if hardware else bare
+        return self._shapes.as_one([bare, *hardware]) if hardware else bare
 
     def body_parts(self, moving_id: str) -> tuple[Part, ...]:
         """Returns what moves as one; that is not noted as read, see `grafu.scene.reads`."""
@@ -174,13 +170,6 @@ class Scene:
         """Returns the box around a moving body and its hardware at rest; that is not noted as read."""
         return self.once(_body_box, moving_id)
 
-    def _as_one(self, meshes: tuple[TriangleMesh, ...]) -> TriangleMesh:
-        """Returns meshes merged into one: the same one whenever it is asked for."""
-        key = tuple(id(mesh) for mesh in meshes)
-        if key not in self._merged:
-            self._merged[key] = (meshes, merge_meshes(meshes))
-        return self._merged[key][1]
-
     def path_box(self, moving_id: str, joint_motion: JointMotion, find: Callable[[Box], Box]) -> Box:
         """Returns the box around a moving body's whole path, not noted as read.
 
@@ -193,11 +182,7 @@ class Scene:
 
     def swept_body(self, moving_id: str, depth: float, axes: Mat3) -> SweptBody:
         """Returns the moving body as a body that tells a touch from a penetration deeper than `depth` metres."""
-        mesh = self.moving_mesh(moving_id)
-        key = (id(mesh), np.append(axes, depth).tobytes())
-        if key not in self._bodies:
-            self._bodies[key] = (mesh, SweptBody(mesh, depth, axes))
-        return self._bodies[key][1]
+        return self._shapes.body(self.moving_mesh(moving_id), depth, axes)
 
     def others_than(self, moving_id: str) -> tuple[str, ...]:
         """Returns the ids of the other moving bodies, not noted as read."""
@@ -234,9 +219,15 @@ class Scene:
             found.setdefault(owner, []).append(visual)
         return {owner: tuple(visuals) for owner, visuals in found.items()}
 
-    def afresh(self) -> "Scene":
-        """Returns the same scene without what was worked out on its meshes: they take up much room."""
-        return replace(self, _merged={}, _path_boxes={}, _bodies={})
+    def afresh(self, *kept: Callable[..., object]) -> "Scene":
+        """Returns the same scene without what was worked out on its meshes, but for what the functions `kept` found."""
+        made = self.sharing(Shapes())
+        made._known.update({key: value for key, value in self._known.items() if key[0] in kept})
+        return made
+
+    def sharing(self, shapes: Shapes) -> "Scene":
+        """Returns the same scene, which shares with others what is worked out on meshes."""
+        return replace(self, _shapes=shapes, _path_boxes={})
 
     def replaced(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some parts in a new shape."""

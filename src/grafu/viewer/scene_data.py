@@ -2,9 +2,6 @@
 
 Everything is at rest in the object frame (metres, Z up, front -Y). The form is ours and private to the page: the
 scripts beside this module read it, docs/pages.md describes it.
-
-Surfaces take few bytes, each corner stored once. A vertex is 8 bytes: three unsigned 16-bit fractions of the mesh's box
-and a normal as two signed bytes (octahedral).
 """
 
 import zlib
@@ -12,128 +9,20 @@ from base64 import b64encode
 from dataclasses import dataclass
 from typing import Any, final
 
-import numpy as np
-
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual
 from grafu.articulation.sweep import opening_stages
 from grafu.articulation.swing import Swing
-from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Material, Surface, Texture
-from grafu.geometry.arrays import Points, extremes
+from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
+from grafu.geometry.mesh import TriangleMesh
 from grafu.pipeline.report_schema import Report
 from grafu.processes.cache import NO_CACHE, Cache
-from grafu.render.picture import CATEGORY_COLORS, box_of, opened_values, posed_visuals
+from grafu.render.picture import CATEGORY_COLORS, box_of, opened_values, placed_visuals
+from grafu.viewer.packed_surface import PackedMesh, pack_surface
 from grafu.viewer.pictures import texture_uris
-
-_STEPS = 65535  # of 16 bits
-_NORMAL_STEPS = 127  # of a signed byte
-
-
-@final
-@dataclass(frozen=True)
-class PackedMesh:
-    """The bytes of one mesh: `vertices` (8 bytes each), `indices` (16 or 32 bits each), `uv` and `colors` (4 bytes).
-
-    Two surfaces that are the same but for their place and size are equal here.
-    """
-
-    vertices: bytes
-    indices: bytes
-    wide: bool
-    uv: bytes = b""
-    colors: bytes = b""
-
-    @property
-    def count(self) -> int:
-        """The number of indices."""
-        return len(self.indices) // (4 if self.wide else 2)
-
-
-@final
-@dataclass(frozen=True)
-class PackedSurface:
-    """A packed mesh and where it lies: low corner and size of its box, metres, and of its texture coordinates."""
-
-    mesh: PackedMesh
-    low: tuple[float, float, float]
-    size: tuple[float, float, float]
-    uv_low: tuple[float, float] = (0.0, 0.0)
-    uv_size: tuple[float, float] = (1.0, 1.0)
-
-
-def pack_surface(surface: Surface, textured: bool) -> PackedSurface:
-    """Returns a surface that has faces, packed; texture coordinates (origin top left) only where `textured`."""
-    faces, shading = surface.mesh.faces, corner_normals(surface)
-    used = surface.mesh.vertices[faces.ravel()]
-    low, high = extremes(used)
-    size = high - low
-    vertices = np.zeros((len(used), 4), np.uint16)
-    vertices[:, :3] = _ratios(used, low, size)
-    vertices[:, 3] = _octahedral(np.asarray(shading.normals)).view(np.uint16)[:, 0][shading.corners.ravel()]
-    keys = [vertices.view(np.uint64)[:, 0]]
-    uv, uv_low, uv_size = np.zeros((0, 2), np.uint16), np.zeros(2), np.ones(2)
-    if textured and surface.uv is not None:
-        flipped = np.nan_to_num(surface.uv, posinf=0.0, neginf=0.0)[faces.ravel()] * [1.0, -1.0] + [0.0, 1.0]
-        flipped = flipped - np.floor(extremes(flipped)[0])  # textures repeat: whole turns change nothing
-        uv_low, uv_high = extremes(flipped)
-        uv_size = uv_high - uv_low
-        uv = _ratios(flipped, uv_low, uv_size)
-        keys.append(uv.view(np.uint32)[:, 0].astype(np.uint64))
-    colors = np.zeros((0, 4), np.uint8) if surface.colors is None else surface.colors[faces.ravel()]
-    if len(colors):
-        keys.append(np.ascontiguousarray(colors).view(np.uint32)[:, 0].astype(np.uint64))
-    first, index = _distinct(keys)
-    indices = _whole_triangles(index)
-    wide = len(first) > _STEPS
-    mesh = PackedMesh(
-        vertices[first].tobytes(),
-        indices.astype(np.uint32 if wide else np.uint16).tobytes(),
-        wide,
-        uv[first].tobytes() if len(uv) else b"",
-        colors[first].tobytes() if len(colors) else b"",
-    )
-    (x, y, z), (dx, dy, dz) = low.tolist(), size.tolist()
-    (u, v), (du, dv) = uv_low.tolist(), uv_size.tolist()
-    return PackedSurface(mesh, (x, y, z), (dx, dy, dz), (u, v), (du, dv))
-
-
-def _ratios(values: np.ndarray, low: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Returns where values lie between low and low + size, as 16-bit fractions."""
-    return np.rint((values - low) / np.where(size > 0, size, 1.0) * _STEPS).astype(np.uint16)
-
-
-def _octahedral(normals: Points) -> np.ndarray:
-    """Returns unit vectors as two signed bytes: folded onto an octahedron, and that onto a square."""
-    flat = normals / np.abs(normals).sum(axis=1, keepdims=True)
-    sides = np.where(flat[:, :2] >= 0, 1.0, -1.0)
-    folded = (1 - np.abs(flat[:, 1::-1])) * sides
-    square = np.where(flat[:, 2:] < 0, folded, flat[:, :2])
-    return np.ascontiguousarray(np.rint(square * _NORMAL_STEPS).astype(np.int8))
-
-
-def _distinct(keys: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the first row of each distinct combination of keys, in the order of appearance, and each row's number."""
-    combined = keys[0]
-    for key in keys[1:]:
-        _, left = np.unique(combined, return_inverse=True)
-        values, right = np.unique(key, return_inverse=True)
-        combined = left * len(values) + right
-    _, first, index = np.unique(combined, return_index=True, return_inverse=True)
-    order = np.argsort(first)  # neighbours in use are neighbours in memory: it packs better
-    number = np.empty_like(order)
-    number[order] = np.arange(len(order))
-    return first[order], number[index]
-
-
-def _whole_triangles(index: np.ndarray) -> np.ndarray:
-    """Returns the corners of those triangles that still have three corners."""
-    t = index.reshape(-1, 3)
-    whole = (t[:, 0] != t[:, 1]) & (t[:, 1] != t[:, 2]) & (t[:, 2] != t[:, 0])
-    return np.ascontiguousarray(t[whole]).ravel()
-
 
 Table = dict[str, Any]
 _COMPRESSION = 6
@@ -184,11 +73,11 @@ class _Packer:
         swinging = [(v, index[link.id]) for link in links for v in link.visuals if v.swing is not None]
         place = {v.name: len(links) + k for k, (v, _) in enumerate(swinging)}
         items = [self._item(v, place.get(v.name, index[link.id])) for link in links for v in link.visuals]
-        closed, opened = posed_visuals(self._object), posed_visuals(self._object, opened_values(self._object))
+        closed, opened = self._box_at({}), self._box_at(opened_values(self._object))
         tables = {
             "name": self._object.name,
-            "closed": _corners(box_of(closed)),
-            "reach": _corners(box_of([*closed, *opened])),
+            "closed": _corners(closed),
+            "reach": _corners(closed.union(opened)),
             "links": [
                 *(self._link(link.id, index, number) for link in links),
                 *(self._swing(v.name, v.swing, parent, number) for v, parent in swinging if v.swing is not None),
@@ -202,6 +91,15 @@ class _Packer:
             "categories": {label.value: color for label, color in CATEGORY_COLORS.items()},
         }
         return SceneData(tables, b"".join(self._chunks))
+
+    def _box_at(self, values: dict[str, float]) -> Box:
+        """Returns the box around all at joint values; that of a piece which stays where it was is known."""
+        boxes = [
+            self._cache.value("posed box", _posed_box, visual.mesh, T)
+            for visual, T in placed_visuals(self._object, values)
+            if len(visual.mesh.faces)
+        ]
+        return Box.enclosing(boxes) if boxes else box_of([])
 
     def _link(self, link_id: str, index: dict[str, int], number: dict[str, int]) -> Table:
         joint = self._object.joint_of.get(link_id)
@@ -289,6 +187,10 @@ class _Packer:
             "mode": material.alpha_mode,
             "cutoff": material.alpha_cutoff,
         }
+
+
+def _posed_box(mesh: TriangleMesh, T: Mat4) -> Box:
+    return mesh.transformed(T).box
 
 
 def _corners(box: Box) -> list[list[float]]:

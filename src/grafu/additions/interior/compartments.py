@@ -186,10 +186,11 @@ class Compartment:
 
 def find_compartments(scene: Scene, config: InteriorConfig = InteriorConfig()) -> tuple[Compartment, ...]:
     """Returns the compartments of an object at rest, the largest first of each kind of opening; none overlap."""
-    return scene.once(_found, config)
+    return scene.once(compartments_found, config)
 
 
-def _found(scene: Scene, config: InteriorConfig) -> tuple[Compartment, ...]:
+def compartments_found(scene: Scene, config: InteriorConfig) -> tuple[Compartment, ...]:
+    """Does what `find_compartments` states, each time anew."""
     if not scene.parts or scene.extent <= 0:
         return ()
     sizes = config.sizes(scene.extent)

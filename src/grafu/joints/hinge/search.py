@@ -27,9 +27,9 @@ from grafu.joints.hinge.candidates import (
     ruled_pins,
     turns_about_itself,
 )
-from grafu.joints.hinge.hardware import Neighbour, neighbours_of
 from grafu.joints.hinge.judged import JudgedPin
 from grafu.joints.hinge.most_opening import most_opening
+from grafu.joints.hinge.neighbours import Neighbour, neighbours_of
 from grafu.joints.hinge.survey import BorderSurvey, survey
 from grafu.joints.limits import all_blockers, free_opening, in_the_way, sweep, swept_box, widest_above, widest_free
 from grafu.joints.plan import CUP, PIVOT, JointRequest

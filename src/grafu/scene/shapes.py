@@ -1,0 +1,48 @@
+"""Meshes that were merged, and bodies that were prepared for sweeps: worked out once for all scenes that share them."""
+
+from collections.abc import Sequence
+from typing import Final, final
+
+import numpy as np
+
+from grafu.geometry.arrays import Mat3
+from grafu.geometry.intersection import SweptBody
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+
+MOST_SHAPES: Final = 400
+"""Merged meshes, or bodies, that are kept: those of some changes of a model with twenty joints."""
+MOST_USES: Final = 50
+"""Uses after which all is forgotten: each leaves some thousand outcomes of single tests in its bodies."""
+
+
+@final
+class Shapes:
+    """What is known of meshes, by which ones they are; not a value. A scene that changes gives its own on."""
+
+    def __init__(self) -> None:
+        self._merged: dict[tuple[int, ...], tuple[tuple[TriangleMesh, ...], TriangleMesh]] = {}
+        self._bodies: dict[tuple[int, bytes], tuple[TriangleMesh, SweptBody]] = {}
+        self._uses = 0
+
+    def as_one(self, meshes: Sequence[TriangleMesh]) -> TriangleMesh:
+        """Returns meshes merged into one: the same one whenever it is asked for."""
+        key = tuple(id(mesh) for mesh in meshes)
+        if key not in self._merged:
+            self._merged[key] = (tuple(meshes), merge_meshes(meshes))
+        return self._merged[key][1]
+
+    def body(self, mesh: TriangleMesh, depth: float, axes: Mat3) -> SweptBody:
+        """Returns a mesh as a body that tells a touch from a penetration deeper than `depth` metres."""
+        key = (id(mesh), np.append(axes, depth).tobytes())
+        if key not in self._bodies:
+            self._bodies[key] = (mesh, SweptBody(mesh, depth, axes))
+        return self._bodies[key][1]
+
+    def used(self) -> "Shapes":
+        """Returns these for one more run; all is forgotten where it is too much."""
+        self._uses += 1
+        if max(len(self._merged), len(self._bodies)) > MOST_SHAPES or self._uses > MOST_USES:
+            self._merged.clear()
+            self._bodies.clear()
+            self._uses = 1
+        return self

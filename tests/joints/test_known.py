@@ -1,0 +1,169 @@
+"""What was worked out in one scene is found in another exactly where all that was read of it is the same."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.asset.part import Part, PartSource
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.hinge.neighbours import neighbours_of
+from grafu.joints.known import change_between, worked_out
+from grafu.joints.limits import in_the_way
+from grafu.processes.cache import NO_CACHE, Cache
+from grafu.scene.reads import Noted, Noting, Read
+from grafu.scene.scene import JointMotion, MovingBody, Scene
+from grafu.vocabulary import JointType, PartLabel
+
+SIDE = 0.1
+STILL, MOVING = ("board", "side", "top"), ("door", "flap")
+
+
+def cube(at) -> TriangleMesh:
+    low = np.asarray(at, dtype=float)
+    return TriangleMesh.box_mesh(Box(low, low + SIDE))
+
+
+def part(name, at) -> Part:
+    return Part(name, PartLabel.MISC, (Surface(cube(at)),), PartSource("", name))
+
+
+def visual(name, at) -> Visual:
+    return Visual(name, (Surface(cube(at)),), VisualRole.HARDWARE, PartLabel.MISC)
+
+
+def motion(upper) -> JointMotion:
+    return JointMotion(Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0)), JointType.REVOLUTE, upper)
+
+
+def scene_of(places, uppers, hardware) -> Scene:
+    names = [*STILL, "leaf", *MOVING]
+    return Scene(
+        {name: part(name, at) for name, at in zip(names, places, strict=True)},
+        {name: MovingBody(name, (name,)) for name in ("leaf", *MOVING)},
+        2.0,
+        tuple((owner, visual(f"{owner or 'still'}_{k}", at)) for k, (owner, at) in enumerate(hardware)),
+        {name: motion(upper) for name, upper in zip(MOVING, uppers, strict=True)},
+    )
+
+
+PLACE = st.tuples(*[st.sampled_from((0.0, 0.15, 0.3, 0.9))] * 3)
+UPPER = st.sampled_from((0.2, 1.5))
+HARDWARE = st.lists(st.tuples(st.sampled_from(("", "door", "flap")), PLACE), max_size=3)
+SCENES = st.builds(
+    scene_of, st.tuples(*[PLACE] * 3, st.just((0.0, 0.0, 0.0)), *[PLACE] * 2), st.tuples(UPPER, UPPER), HARDWARE
+)
+QUESTIONS = ("still", "mesh", "near", "bodies", "beside", "strikes", "named", "motion", "every part", "boards")
+
+
+def asked(scene: Scene, questions) -> list:
+    """Asks a scene some questions, each about a place, in the ways in which joints do."""
+    found: list = []
+    for question, at in questions:
+        box, mesh = Box(np.asarray(at), np.asarray(at) + SIDE), cube(at)
+        if question == "still":
+            found.append([o.id for o in in_the_way(scene.still_obstacles.without(("top",)), box)])
+        elif question == "mesh":
+            found.append(scene.static_mesh_near(box, 0.05).vertices.tolist())
+        elif question == "near":
+            found.append(scene.is_near_static(mesh, 0.02, ("board", "side")))
+        elif question == "bodies":
+            met = in_the_way(scene.other_bodies("leaf"), box)
+            found.append(sorted(o.id for o in met if o.collider.intersects(type(o.collider)(mesh))))
+        elif question == "beside":
+            found.append(scene.is_another_beside("leaf", box))
+        elif question == "strikes":
+            found.append(sorted(n.id for n in neighbours_of("leaf", scene, 1e-3) if n.runs_into(mesh)))
+        elif question == "named":
+            found.append(scene.parts["door"].mesh.box.low.tolist())
+        elif question == "motion":
+            found.append(scene.joint_motions["flap"].upper)
+        elif question == "every part":
+            found.append([one.mesh.box.low.tolist() for one in scene.parts.values()])
+        else:
+            found.append([one.id for one in scene.static_parts_near(box)])
+    return found
+
+
+@settings(max_examples=60, deadline=None)
+@given(SCENES, SCENES, st.lists(st.tuples(st.sampled_from(QUESTIONS), PLACE), min_size=1, max_size=5))
+def test_what_is_found_is_what_would_be_worked_out(one, other, questions):
+    cache = Cache(50)
+    for scene in (one, other, one):
+        found = worked_out("answer", lambda noted: asked(noted, questions), "leaf", scene, cache, tuple(questions))
+        assert found == asked(scene, questions)
+
+
+PLAIN = scene_of(
+    [(0.3, 0.0, 0.0), (0.9, 0.9, 0.9), (0.0, 0.0, 0.3), (0.0, 0.0, 0.0), (0.9, 0.0, 0.0), (0.0, 0.9, 0.0)],
+    (0.2, 0.2),
+    [("", (0.9, 0.9, 0.0))],
+)
+FAR = {
+    "a part": PLAIN.replaced([part("side", (0.9, 0.9, 0.95))]),
+    "hardware": replace(PLAIN, hardware=(("", visual("still_0", (0.95, 0.9, 0.0))),)),
+    "a path": replace(PLAIN, joint_motions={**PLAIN.joint_motions, "flap": motion(0.3)}),
+}
+NEAR = {
+    "a part": PLAIN.replaced([part("board", (0.25, 0.0, 0.0))]),
+    "hardware": replace(PLAIN, hardware=(*PLAIN.hardware, ("", visual("still_1", (0.3, 0.0, 0.05))))),
+    "another extent": replace(PLAIN, extent=3.0),
+    "what it is": PLAIN.replaced([part("leaf", (0.0, 0.0, 0.05))]),
+}
+
+
+def made(scene, cache) -> int:
+    before = cache.made.get("answer", 0)
+    questions = (("still", (0.3, 0.0, 0.0)), ("strikes", (0.3, 0.0, 0.0)))
+    worked_out("answer", lambda noted: asked(noted, questions), "leaf", scene, cache)
+    return cache.made.get("answer", 0) - before
+
+
+@pytest.mark.parametrize("what", FAR)
+def test_what_lies_far_from_all_that_was_read_changes_nothing(what):
+    cache = Cache(50)
+    assert (made(PLAIN, cache), made(FAR[what], cache)) == (1, 0)
+
+
+@pytest.mark.parametrize("what", NEAR)
+def test_what_lies_near_is_worked_out_again_and_found_when_it_is_undone(what):
+    cache = Cache(50)
+    assert (made(PLAIN, cache), made(NEAR[what], cache), made(PLAIN, cache)) == (1, 1, 0)
+
+
+def test_without_a_cache_nothing_is_noted():
+    kinds = [worked_out("kind", lambda scene: type(scene.parts), "leaf", PLAIN, c) for c in (NO_CACHE, Cache(2))]
+    assert kinds == [dict, Noted]
+
+
+def test_who_reads_the_first_name_reads_that_and_who_goes_on_reads_all():
+    noted = Noted(Read.PARTS, {"a": 1, "b": 2})
+    with Noting() as reads:
+        assert next(iter(noted)) == "a"
+        assert noted["b"] == 2
+        assert len(noted) == 2
+    assert reads.counted == {Read.PARTS}
+    assert (reads.names(Read.PARTS), reads.whole) == (("b",), set())
+    with Noting() as reads:
+        assert list(noted) == ["a", "b"]
+    assert reads.whole == {Read.PARTS}
+
+
+def test_a_change_leads_from_one_scene_to_the_other():
+    after = PLAIN.replaced([part("board", (0.5, 0.0, 0.0))]).with_joint(
+        "leaf", motion(0.7), [visual("moves", (0.1, 0.0, 0.0))], [visual("stands", (0.2, 0.0, 0.0))]
+    )
+    change = change_between(PLAIN, after)
+    assert set(change.parts) == {"board"}
+    again = change.of(PLAIN)
+    assert (again.parts, again.hardware, again.joint_motions) == (after.parts, after.hardware, after.joint_motions)
+    elsewhere = change.of(FAR["a part"])
+    assert elsewhere.parts["side"] == FAR["a part"].parts["side"]
+    assert elsewhere.parts["board"] == after.parts["board"]
