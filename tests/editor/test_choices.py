@@ -75,6 +75,17 @@ def test_whatever_is_sent_is_an_answer_or_one_line(question, part, value):
     assert settings_from_json(settings.to_json()) == settings
 
 
+def test_parts_are_joined_and_split_one_after_the_other():
+    made = with_choice(Settings().with_motion("side", FIXED), "join", "door", "side", KNOWN)
+    made = with_choice(made, "split", "door", None, KNOWN)
+    assert [(str(change.do), *change.parts) for change in made.regrouped] == [
+        ("join", "door", "side"),
+        ("split", "door"),
+    ]
+    assert made.motions == {}
+    assert settings_from_json(made.to_json()) == made
+
+
 def test_accept_states_what_was_built():
     assert with_choice(Settings(), "accept", "door", None, KNOWN).motions == {"door": LEFT}
     assert with_choice(Settings(), "accept", "side", None, KNOWN).motions == {"side": FIXED}
@@ -105,6 +116,9 @@ def test_reject_fixes_a_part_and_leaves_an_added_one_out():
         ("top", "door", "rounded", "about the whole piece"),
         ("handle offset", "door", [1], "two numbers"),
         ("restore", "handle_1", True, "was left out"),
+        ("join", "door", "door", "another part"),
+        ("join", "door", "handle_1", "another part"),
+        ("split", "handle_1", None, "there is no part"),
     ],
 )
 def test_what_is_no_answer_is_refused_in_words(question, part, value, said):

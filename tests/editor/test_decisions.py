@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.additions.handle.config import HandleChoice
+from grafu.asset.regrouping import Regroup, Regrouping
 from grafu.editor.decisions import Prediction, append_lines, decided, decided_before, decision_lines, word_of
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, choice_in_words
 from grafu.joints.plan import JointChoice
@@ -17,6 +18,8 @@ CHANGES = st.one_of(
     st.tuples(st.just("motion"), PARTS, st.none() | st.sampled_from(MOTION_WORDS)),
     st.tuples(st.just("label"), PARTS, st.sampled_from(list(PartLabel))),
     st.tuples(st.just("joint"), PARTS, st.builds(JointChoice, opening=st.none() | st.just(0.5))),
+    st.tuples(st.just("split"), PARTS, st.none()),
+    st.tuples(st.just("join"), PARTS, st.just("side")),
     st.tuples(st.just("front"), PARTS, st.none() | st.just(HandleChoice("knob-round", offset=(0.1, 0.0)))),
 )
 
@@ -25,6 +28,8 @@ def changed(settings, change):
     kind, part, value = change
     if kind == "motion":
         return settings.with_motion(part, value and choice_in_words(value))
+    if kind in ("split", "join"):
+        return settings.with_regrouping(Regrouping(Regroup(kind), (part, value) if value else (part,)))
     return {"label": settings.with_label, "joint": settings.with_joint, "front": settings.with_front}[kind](part, value)
 
 

@@ -159,6 +159,17 @@ def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, lasting):
     assert browser.run(f"{part!r} in grafuEditor.state.settings.motions")
     browser.press("Escape")
     assert browser.run("grafuEditor.inspector.part") == ""
+    names = browser.run("Object.keys(grafuEditor.state.sides)")
+    still = [name for name in names if not browser.run(f"{name!r} in grafuEditor.state.motions")]
+    for one in still[:2]:
+        browser.run(f"grafuEditor.pick({one!r})")
+    browser.press("g", "KeyG")
+    settled(browser, number + 2)
+    assert browser.run("grafuEditor.state.settings.regrouped") == [{"do": "join", "parts": still[:2]}]
+    assert browser.run("grafuEditor.inspector.part") == still[0]
+    browser.press("z", "KeyZ", control=True)
+    settled(browser, number + 3)
+    assert browser.run("grafuEditor.state.settings.regrouped") == []
 
     browser.run(f"grafuEditor.pick({DOOR!r})")
     x, y = place_of(browser, DOOR)

@@ -6,12 +6,16 @@ import json
 import pytest
 from editing import ATTACK, DOOR, PORT, TOKEN, Editing, Inside
 
+from grafu.asset.load import load_asset
 from grafu.editor.access import POLICY
 from grafu.editor.decisions import DECISIONS
 from grafu.editor.session import Session
 from grafu.editor.workspace import open_all
 from grafu.errors import ExportError, UnreadableAsset
+from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import settings_from_bytes
+from grafu.templates.gallery import builtin_gallery
 
 ROUTES = ("/", "/style.css", "/edit.js", "/m/0/", "/m/0/state", "/m/0/geometry", "/m/0/events", "/thumbnail/0", "/none")
 
@@ -84,6 +88,32 @@ def test_undo_and_redo(editing):
     editing.post("/m/0/redo")
     assert motion_of(editing.settled(), DOOR) is None
     assert str(saved(editing).motions[DOOR].moves) == "fixed"
+
+
+def test_parts_are_joined_and_split_and_the_command_repeats_it(editing, model):
+    names = [part["id"] for part in editing.open()["report"]["parts"]]
+    handle = next(name for name in names if name != DOOR and name.startswith("handle"))
+    joined = editing.choose("join", DOOR, handle)
+    assert [part["id"] for part in joined["report"]["parts"]] == [name for name in names if name != handle]
+    split = editing.choose("split", DOOR, None)
+    assert len(split["report"]["parts"]) >= len(names)
+    made = functionalize(load_asset(model), MotionSource.AUTO, builtin_gallery(), PipelineConfig(saved(editing)))
+    assert [part.id for part in made.asset.parts] == [part["id"] for part in split["report"]["parts"]]
+    for _ in range(2):
+        editing.post("/m/0/undo")
+    assert [part["id"] for part in editing.settled()["report"]["parts"]] == names
+    assert saved(editing).regrouped == ()
+
+
+def test_a_part_of_one_shell_is_not_split(editing):
+    names = {part["id"] for part in editing.open()["report"]["parts"]}
+    editing.post(
+        "/m/0/choose",
+        {"question": "split", "part": next(name for name in names if name.startswith("side")), "value": None},
+    )
+    editing.settled()
+    assert "one connected shell" in editing.sessions[0].error
+    assert saved(editing).regrouped == ()
 
 
 @pytest.mark.parametrize(

@@ -89,6 +89,14 @@ def loose_parts(
     )
 
 
+def shells_of(part: Part, whole: Box, config: LooseConfig = _DEFAULT) -> list[tuple[Surface, ...]]:
+    """Returns the surfaces of each connected shell of a part, tiny ones with those that they touch; see `loose_parts`.
+
+    `whole` is the box around all parts.
+    """
+    return _shells(part, whole, _allow, config)
+
+
 def _renamed(part: Part, name: str, surfaces: tuple[Surface, ...], largest: float) -> Part:
     label, by = part.label, part.labelled_by
     if part.box.volume > largest:

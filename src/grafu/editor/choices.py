@@ -12,6 +12,7 @@ from typing import Any, final
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
 from grafu.additions.interior.request import MOST_PANELS, CompartmentChoice
+from grafu.asset.regrouping import Regroup, Regrouping
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import FIXED, MotionChoice, choice_in_words
 from grafu.joints.plan import AUTOMATIC, CUP, PIVOT
@@ -39,6 +40,8 @@ class Choose(StrEnum):
     HANDLE = "handle"  # its handle or grip: a style, or none
     HANDLE_OFFSET = "handle offset"  # how far its handle is moved aside and up, metres
     LABEL = "label"  # its category
+    JOIN = "join"  # another part, by its id, becomes a piece of it
+    SPLIT = "split"  # its connected shells become parts
     SHELVES = "shelves"  # how many shelves the compartment of this number gets
     TOP = "top"  # of the whole: the shape of a missing top, or none
     HINGE = "hinge"  # of the whole: the template that doors get where it finds room
@@ -164,6 +167,16 @@ def _label(settings: Settings, part: str, value: Any, _: Known) -> Settings:
     return settings.with_label(part, PartLabel(_word(value, tuple(PartLabel), "a category")))
 
 
+def _join(settings: Settings, part: str, value: Any, known: Known) -> Settings:
+    if not isinstance(value, str) or value not in known.parts or value == part:
+        raise OptionError(f"a part is joined with another part of the input: got {_said(value)}")
+    return settings.with_regrouping(Regrouping(Regroup.JOIN, (part, value)))
+
+
+def _split(settings: Settings, part: str, _: Any, __: Known) -> Settings:
+    return settings.with_regrouping(Regrouping(Regroup.SPLIT, (part,)))
+
+
 def _shelves(settings: Settings, part: str, value: Any, _: Known) -> Settings:
     if value is None:
         return settings.with_compartment(int(part), None)
@@ -205,6 +218,8 @@ _ANSWERS: dict[Choose, Callable[[Settings, str, Any, Known], Settings]] = {
     Choose.HANDLE: _handle,
     Choose.HANDLE_OFFSET: _handle_offset,
     Choose.LABEL: _label,
+    Choose.JOIN: _join,
+    Choose.SPLIT: _split,
     Choose.SHELVES: _shelves,
     Choose.TOP: _top,
     Choose.HINGE: _hinge,

@@ -42,6 +42,9 @@ def word_of(choice: MotionChoice) -> str:
 def decided(settings: Settings) -> dict[Key, Any]:
     """Returns what the settings decide, by part and question, as JSON values."""
     found: dict[Key, Any] = {(part, "motion"): word_of(choice) for part, choice in settings.motions.items()}
+    for change in settings.regrouped:
+        host, others = change.parts[0], list(change.parts[1:])
+        found[host, str(change.do)] = [*found.get((host, str(change.do)), []), *others] if others else True
     found |= {(part, "label"): str(label) for part, label in settings.labels.items()}
     for part, joint in settings.joints.items():
         found |= {(part, "opening"): joint.opening} if joint.opening is not None else {}

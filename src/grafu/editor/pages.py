@@ -34,6 +34,8 @@ _KEYS: Final = (
     ("o", "open or close the part"),
     ("1 to 4", "hinge side: left, right, top, bottom"),
     ("5 / 6", "slides out / fixed"),
+    ("g", "join with the part that was chosen before"),
+    ("s", "split the part into its shells"),
     ("Ctrl Z / Ctrl Y", "undo / redo"),
     ("j / k", "next / previous model"),
     ("Esc", "choose no part"),
@@ -130,6 +132,8 @@ def _inspector() -> Html:
     group = tag("div", square, others, role="group", aria_label="How it moves")
     actions = (("accept", "Accept"), ("reject", "Reject"), ("automatic", "Automatic"), ("open", "Open or close"))
     buttons = tag("div", *(tag("button", w, type="button", data_do=k) for k, w in actions), class_="actions")
+    divisions = (("join", "Join with the part before"), ("split", "Split into shells"))
+    divide = tag("div", *(tag("button", w, type="button", data_do=k) for k, w in divisions), class_="actions")
     clash = tag("button", "Show the collision", type="button", data_do="collision", hidden=True)
     fields = [
         tag("label", "Opens at most ", _number("opening", 0.1), tag("span", id="unit")),
@@ -138,7 +142,7 @@ def _inspector() -> Html:
         _select("label", "Category", tuple(PartLabel)),
         tag("label", "Shelves behind it ", _number("shelves", 1.0), id="shelves-field", hidden=True),
     ]
-    about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"))
+    about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"), divide)
     body = tag("div", *about, id="about-part", hidden=True)
     return tag("section", pick, body, id="inspector", class_="panel", aria_label="The part that is chosen")
 

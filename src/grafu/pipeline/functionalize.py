@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, final
 from grafu.additions.step import Addition, StepResult
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.part import Asset
+from grafu.asset.regrouping import regrouped
 from grafu.completion.session import has_shipped_weights
 from grafu.errors import OptionError
 from grafu.geometry.budget import UNLIMITED, Budget
@@ -192,6 +193,7 @@ def functionalize(
     """
     stages, settings, joints = Stages(on_stage, budget), config.settings, config.joints
     stated, drawers, knobs, own = len(asset.stated_joints), joints.drawer, settings.small_parts, config.own_handles
+    asset = regrouped(asset, settings.regrouped)
     folds = folds_in(settings.motions, asset, at_scale(joints.fold, metre_on(asset.extent)))
     motions = as_turning(settings.motions, folds)
     asset, chosen = _with_source(asset, source, replace(settings, motions=motions), drawers, stages)

@@ -18,6 +18,7 @@ from grafu.additions.interior.request import CompartmentChoice
 from grafu.articulation.base import BaseKind
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
+from grafu.asset.regrouping import Regroup, Regrouping
 from grafu.errors import AssetError, OptionError
 from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import AUTOMATIC, JointChoice
@@ -38,7 +39,9 @@ class Settings(ShortRepr):
     `joints` by those of moving parts. `weights` is a file of trained weights (ONNX) for the network; None: those that
     came with the package. `hinge` is the template that doors get where it finds room. With `stays` lids and flaps get
     stays where there is room. `base` is what holds the piece: None, it is fixed, and a known wall
-    unit hangs on a wall. A motion source that reads another system's file is no setting: it needs the file.
+    unit hangs on a wall. `regrouped` states which parts are joined or split, in this order, before all
+    else; the other choices go by the ids of the parts after that. A motion source that reads another system's file is
+    no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO
@@ -53,10 +56,25 @@ class Settings(ShortRepr):
     hinge: str = ""
     stays: bool = True
     base: BaseKind | None = None
+    regrouped: tuple[Regrouping, ...] = ()
 
     def __post_init__(self) -> None:
         if self.motion.is_foreign:
             raise ValueError(f"the motion source {self.motion} reads a file, which settings do not name")
+
+    def with_regrouping(self, change: Regrouping) -> "Settings":
+        """Returns the settings with one more change of the parts; what was chosen of parts that it ends is gone."""
+        gone = change.parts[1:] if change.do is Regroup.JOIN else ()
+        return replace(
+            self,
+            regrouped=(*self.regrouped, change),
+            labels={part: label for part, label in self.labels.items() if part not in gone},
+            motions={part: motion for part, motion in self.motions.items() if part not in gone},
+            joints={part: joint for part, joint in self.joints.items() if part not in gone},
+            additions=replace(
+                self.additions, fronts={part: f for part, f in self.additions.fronts.items() if part not in gone}
+            ),
+        )
 
     def with_label(self, part: str, label: PartLabel) -> "Settings":
         """Returns the settings in which a part has this category."""
@@ -141,6 +159,9 @@ def _adapter() -> Any:
 
 def _require_known(given: object, known: object, where: str = "") -> None:
     """Raises OptionError if something was given that is no setting: pydantic passes it over in plain dataclasses."""
+    if isinstance(given, list | tuple) and isinstance(known, list | tuple):
+        for number, (item, like) in enumerate(zip(given, known, strict=False)):
+            _require_known(item, like, f"{where}.{number}")
     if not (isinstance(given, dict) and isinstance(known, dict)):
         return
     for name, value in given.items():

@@ -19,6 +19,7 @@ class Editor {
     this.toolbar = new Toolbar({
       undo: () => this.server.act("undo"), redo: () => this.server.act("redo"), anew: () => this.server.act("anew"),
       stop: () => this.server.act("stop"), export: () => this.server.act("export"), next: () => this.next(),
+      join: () => this.join(), split: () => this.about("split"),
       accept: () => this.about("accept"), reject: () => this.about("reject"),
       collision: () => this.view.showCollision(this.state.collisions[this.inspector.part]),
       automatic: () => this.about("motion"), open: () => this.view.toggle(this.view.jointOf(this.view.view.chosen)),
@@ -67,6 +68,12 @@ class Editor {
 
   about(question) {
     if (this.inspector.part) this.choose(question, this.inspector.part, null);
+  }
+
+  // Joins the part with the one that was chosen before it, which it becomes a piece of.
+  join() {
+    const { before, part } = this.inspector;
+    if (before && part) this.choose("join", before, part).then(() => this.pick(before));
   }
 
   pick(part) {

@@ -3,7 +3,7 @@
 class Inspector {
   constructor({ choose, picked }) {
     Object.assign(this, { choose, picked });
-    this.part = "";
+    this.part = this.before = "";
     this.pick = document.getElementById("pick");
     this.about = document.getElementById("about-part");
     this.pick.addEventListener("change", () => picked(this.pick.value));
@@ -33,8 +33,10 @@ class Inspector {
   }
 
   choosePart(part) {
-    const known = [...this.pick.options].some((option) => option.value === part);
+    const options = [...this.pick.options].map((option) => option.value), known = options.includes(part);
+    if (this.part && this.part !== part) this.before = this.part;
     this.part = known ? part : "";
+    if (!options.includes(this.before) || this.before === this.part || !(this.before in this.state.sides)) this.before = "";
     this.pick.value = this.part;
     this.about.hidden = !this.part;
     if (this.part) this.showPart();
@@ -65,6 +67,10 @@ class Inspector {
     for (const name of ["accept", "automatic", "open"]) {
       document.querySelector(`[data-do="${name}"]`).disabled = this.isAdded || (name === "open" && !joint);
     }
+    const join = document.querySelector('[data-do="join"]');
+    join.disabled = this.isAdded || !this.before;
+    join.textContent = this.before ? `Join with ${this.before}` : "Join with the part before";
+    document.querySelector('[data-do="split"]').disabled = this.isAdded;
     document.querySelector('[data-do="collision"]').hidden = !this.state.collisions[part];
     const choice = settings.joints[part] ?? {}, slides = this.slides;
     const unit = slides ? "cm" : "degrees", factor = slides ? 100 : 180 / Math.PI;
