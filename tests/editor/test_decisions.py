@@ -7,9 +7,10 @@ from hypothesis import strategies as st
 
 from grafu.additions.handle.config import HandleChoice
 from grafu.asset.regrouping import Regroup, Regrouping
-from grafu.editor.decisions import Prediction, append_lines, decided, decided_before, decision_lines, word_of
+from grafu.editor.decisions import Prediction, append_lines, decided, decision_lines, word_of
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, choice_in_words
 from grafu.joints.plan import JointChoice
+from grafu.pipeline.decisions import decided_before
 from grafu.pipeline.settings import Settings
 from grafu.vocabulary import MOTION_WORDS, PartLabel
 
@@ -69,3 +70,4 @@ def test_every_motion_has_a_word():
     for word in MOTION_WORDS:
         assert choice_in_words(word_of(choice_in_words(word))) == choice_in_words(word)
     assert word_of(MotionChoice(Moves.TURNS, Side.LEFT, inwards=True)) == "left"
+    assert choice_in_words(word_of(MotionChoice(Moves.SLIDES, Side.FRONT))) == choice_in_words("pull")

@@ -2,20 +2,21 @@
 
 import asyncio
 import json
+from math import pi
 
 import pytest
-from editing import ATTACK, DOOR, PORT, TOKEN, Editing, Inside
+from editing import ATTACK, DOOR, DRAWER, PORT, TOKEN, Editing, Inside
 
 from grafu.asset.load import load_asset
+from grafu.asset.regrouping import regrouped
 from grafu.editor.access import POLICY
-from grafu.editor.decisions import DECISIONS
 from grafu.editor.session import Session
 from grafu.editor.workspace import open_all
 from grafu.errors import ExportError, UnreadableAsset
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
-from grafu.pipeline.motion_source import MotionSource
+from grafu.evaluation.dataset import category_of, files_of_model, find_models, load_model
+from grafu.pipeline.decisions import DECISIONS
 from grafu.pipeline.settings import settings_from_bytes
-from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType
 
 ROUTES = ("/", "/style.css", "/edit.js", "/m/0/", "/m/0/state", "/m/0/geometry", "/m/0/events", "/thumbnail/0", "/none")
 
@@ -90,17 +91,14 @@ def test_undo_and_redo(editing):
     assert str(saved(editing).motions[DOOR].moves) == "fixed"
 
 
-def test_parts_are_joined_and_split_and_the_command_repeats_it(editing, model):
+def test_parts_are_joined_as_the_settings_state(editing, model):
     names = [part["id"] for part in editing.open()["report"]["parts"]]
     handle = next(name for name in names if name != DOOR and name.startswith("handle"))
     joined = editing.choose("join", DOOR, handle)
     assert [part["id"] for part in joined["report"]["parts"]] == [name for name in names if name != handle]
-    split = editing.choose("split", DOOR, None)
-    assert len(split["report"]["parts"]) >= len(names)
-    made = functionalize(load_asset(model), MotionSource.AUTO, builtin_gallery(), PipelineConfig(saved(editing)))
-    assert [part.id for part in made.asset.parts] == [part["id"] for part in split["report"]["parts"]]
-    for _ in range(2):
-        editing.post("/m/0/undo")
+    made = regrouped(load_asset(model), saved(editing).regrouped)
+    assert [part.id for part in made.parts] == [part["id"] for part in joined["report"]["parts"]]
+    editing.post("/m/0/undo")
     assert [part["id"] for part in editing.settled()["report"]["parts"]] == names
     assert saved(editing).regrouped == ()
 
@@ -192,6 +190,32 @@ def test_a_result_is_opened_with_its_settings(editing, model, tmp_path):
         (found,) = open_all([path], tmp_path / "elsewhere")
         assert found.source == model
         assert str(found.settings.motions[DOOR].moves) == "fixed"
+
+
+def test_what_was_decided_is_ground_truth_of_an_evaluation(editing, model, tmp_path):
+    editing.open()
+    editing.choose("motion", DOOR, "top")
+    editing.choose("turn", DOOR, 60)
+    editing.choose("accept", DRAWER, None)
+    editing.post("/m/0/export")
+    (found,) = find_models(tmp_path / "out")
+    assert (found.id, found.kind, category_of(found)) == ("cabinet", "decided", "decided")
+    assert model in files_of_model(found)
+    truth = load_model(found)
+    joints = {joint.part: joint for joint in truth.stated_joints}
+    assert joints.keys() == {DOOR, DRAWER}
+    door = joints[DOOR]
+    assert (door.type, door.limited, joints[DRAWER].limited) == (JointType.REVOLUTE, True, False)
+    assert door.upper == pytest.approx(pi / 3)
+    assert door.axis.point[2] == pytest.approx(truth.part(DOOR).box.high[2], abs=0.02)
+    assert abs(door.axis.direction[0]) == pytest.approx(1.0)
+
+    decisions = tmp_path / "out" / "cabinet" / DECISIONS
+    record = json.loads(decisions.read_text().splitlines()[0])
+    with decisions.open("a") as stream:
+        stream.write(json.dumps({**record, "part": "side", "chosen": "sideways"}) + "\n")
+    with pytest.raises(UnreadableAsset, match="'sideways'"):
+        load_model(found)
 
 
 def test_results_that_cannot_be_edited_are_left_out_of_a_folder(editing, tmp_path):

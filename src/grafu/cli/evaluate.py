@@ -33,7 +33,7 @@ JSON and LaTeX, with index.md that states how each figure was measured, and DIR/
 Finished work is kept in DIR/rows.jsonl: after it was stopped or killed, the same command resumes.
 
 data:    a folder of models whose joints are annotated (PartNet-Mobility, HSSD with S2O annotations, URDF, the authors'
-         releases), or synth:SEED:COUNT for synthetic furniture
+         releases), results with decisions made in grafu edit, or synth:SEED:COUNT for synthetic furniture
 methods: annotation, rule, network, and what others predicted: particulate:DIR, singapo:DIR, grafu-pred:DIR, urdf:DIR,
          where DIR holds one entry per model id
 tables:  motion, masking (labels hidden), static (tops, grasps, interiors), models (worst first), ood (farthest from

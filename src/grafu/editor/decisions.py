@@ -1,26 +1,20 @@
-"""What was decided by hand, as lines of `decisions.jsonl`: what was predicted, with its score, and what was chosen.
-
-A line is a JSON object; `chosen` null takes back what an earlier line of the same part and question states. So the last
-line of each is what holds.
-"""
+"""What is decided by hand, as lines of `decisions.jsonl`: what was predicted, with its score, and what was chosen."""
 
 import json
 import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Final, final
+from typing import Any, final
 
-from grafu.asset.json_files import read_own
-from grafu.errors import AssetError, ExportError
-from grafu.joints.motion_choice import MotionChoice, choice_in_words
+from grafu.errors import ExportError
+from grafu.joints.motion_choice import MotionChoice, Moves, Side, choice_in_words
+from grafu.pipeline.decisions import Key
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
 from grafu.version import __version__
 from grafu.vocabulary import MOTION_WORDS
 
-DECISIONS: Final = "decisions.jsonl"
-Key = tuple[str, str]
 _WORDS = {choice_in_words(word): word for word in reversed(MOTION_WORDS)}
 
 
@@ -35,7 +29,8 @@ class Prediction:
 
 def word_of(choice: MotionChoice) -> str:
     """Returns the word that states a motion; one that opens inwards has the word of its side."""
-    outwards = MotionChoice(choice.moves, choice.side)
+    is_pull = choice.moves is Moves.SLIDES and choice.side is Side.FRONT
+    outwards = MotionChoice(choice.moves, None if is_pull else choice.side)
     return _WORDS.get(outwards, str(choice.moves) if choice.side is None else f"{choice.moves}-{choice.side}")
 
 
@@ -107,25 +102,3 @@ def append_lines(path: Path, records: list[dict[str, Any]]) -> None:
             os.fsync(stream.fileno())
     except OSError as error:
         raise ExportError(f"cannot write the decisions `{path}`: {error.strerror or type(error).__name__}") from error
-
-
-def decided_before(path: Path, model: str) -> dict[Key, Any]:
-    """Returns what the lines of a file decide about a model; a line that is damaged, say cut short, is passed over."""
-    try:
-        text = read_own(path, "decisions of grafu").decode(errors="replace")
-    except AssetError:
-        return {}
-    found: dict[Key, Any] = {}
-    for line in text.splitlines():
-        record = _parsed(line)
-        if record.get("model") == model and isinstance(record.get("part"), str):
-            found[record["part"], str(record.get("question"))] = record.get("chosen")
-    return {key: value for key, value in found.items() if value is not None}
-
-
-def _parsed(line: str) -> dict[str, Any]:
-    try:
-        record = json.loads(line)
-    except (ValueError, RecursionError):
-        return {}
-    return record if isinstance(record, dict) else {}

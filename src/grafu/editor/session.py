@@ -14,20 +14,12 @@ from typing import Any, final
 from grafu.editor.builder import Answer, Builds
 from grafu.editor.building import FILES, STATE, Order
 from grafu.editor.choices import Known, with_choice
-from grafu.editor.decisions import (
-    DECISIONS,
-    Key,
-    Prediction,
-    append_lines,
-    decided,
-    decided_before,
-    decision_lines,
-    predictions_of,
-)
+from grafu.editor.decisions import Prediction, append_lines, decided, decision_lines, predictions_of
 from grafu.editor.history import History
 from grafu.editor.workspace import Workspace
 from grafu.errors import FunctionalizationError
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
+from grafu.pipeline.decisions import DECISIONS, Key, decided_before
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
 

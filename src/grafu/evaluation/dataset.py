@@ -1,7 +1,8 @@
 """Which models there are to measure on, and each as an asset whose joints are the truth. It measures nothing.
 
 A dataset is a folder (PartNet-Mobility, HSSD with S2O annotations, files of every format that is read, the authors'
-releases, any mixture of them), one model, or `synth:SEED:COUNT`: furniture that is made on the spot.
+releases, results that were gone through in `grafu edit`, any mixture of them), one model, or `synth:SEED:COUNT`:
+furniture that is made on the spot.
 """
 
 from collections import Counter
@@ -19,14 +20,16 @@ from grafu.asset.part import ROBOTS, Asset, Part
 from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.layout import LayoutKind
 from grafu.errors import AssetError, OptionError, UnreadableAsset
+from grafu.evaluation.dataset_decided import files_of_decided, is_decided, read_decided
 from grafu.evaluation.dataset_release import is_release, read_release_model, release_models
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
 
 _RELEASES: Final = get_args(LayoutKind)
+_DECIDED: Final = "decided"
 _KIND_OF: Final = {**{name: name for name in READERS}, "gltf": "glb", "mesh folder": "mesh", "mesh file": "mesh"}
-KINDS: Final = (*dict.fromkeys(_KIND_OF.values()), *_RELEASES, "made")
-"""The kinds of models: what reads them, `glb`, `mesh`, a release, or made on the spot."""
+KINDS: Final = (*dict.fromkeys(_KIND_OF.values()), *_RELEASES, _DECIDED, "made")
+"""The kinds of models: what reads them, `glb`, `mesh`, a release, decided by hand, or made on the spot."""
 TEST_SEED = 990_002  # of the synthetic furniture that nothing is trained on or chosen by
 _MADE = "synth"
 _TEST_COUNT = 100
@@ -37,7 +40,7 @@ _DEEPEST = 3  # folders below the one that is asked for
 EXPECTED = (
     "PartNet-Mobility folders (mobility.urdf, or mobility_v2.json with result.json), HSSD models (<id>.glb with "
     "<id>.artpre.json), URDF or other robot files, GLB or other scenes, folders of meshes, a release "
-    "(graphs_unfunctional or graph_unfunc), "
+    "(graphs_unfunctional or graph_unfunc), results with decisions.jsonl, "
     f"or {_MADE}:SEED:COUNT"
 )
 
@@ -110,7 +113,16 @@ def load_model(ref: ModelRef) -> Asset:
         return _made_asset(_specimen(ref))
     if ref.kind in _RELEASES:
         return read_release_model(_path(ref))
+    if ref.kind == _DECIDED:
+        return read_decided(_path(ref))
     return load_asset(_path(ref)).as_annotated()
+
+
+def files_of_model(ref: ModelRef) -> tuple[Path, ...]:
+    """Returns the files or folders that a model is read from; none of a made one."""
+    if ref.kind == _DECIDED:
+        return files_of_decided(_path(ref))
+    return () if ref.path is None else (ref.path,)
 
 
 def category_of(ref: ModelRef) -> str:
@@ -125,6 +137,8 @@ def _models_in(folder: Path, split: str, depth: int) -> list[ModelRef]:
     """Returns the models in a folder: a release, a model of its own, scene files, or what lies in its folders."""
     if is_release(folder):
         return [ModelRef(model_id, kind, path) for model_id, kind, path in release_models(folder, split)]
+    if is_decided(folder):
+        return [ModelRef(folder.resolve().name, _DECIDED, folder)]
     if is_partnet_mobility(folder):
         return [ModelRef(folder.resolve().name, "partnet-mobility", folder)]
     entries = sorted(p for p in folder.iterdir() if not p.name.startswith((".", "__")))

@@ -16,7 +16,7 @@ from grafu.asset.options import Limits
 from grafu.asset.resources import ModelFiles
 from grafu.completion.session import SHIPPED_WEIGHTS
 from grafu.errors import AssetError, OptionError
-from grafu.evaluation.dataset import ModelRef
+from grafu.evaluation.dataset import ModelRef, files_of_model
 from grafu.evaluation.distribution import TRAINING_COUNT, TRAINING_SEED
 from grafu.evaluation.methods import LEVELS, Method
 from grafu.evaluation.records import ModelFacts, ResultRow
@@ -111,7 +111,8 @@ def mask_tasks(models: Sequence[ModelRef], method: Method, levels: Sequence[floa
 
 
 def _of_model(model: ModelRef) -> dict[str, str]:
-    return {"model": model.id, "kind": model.kind, "files": _state_of(model.path) if model.path else ""}
+    files = " ".join(map(_state_of, files_of_model(model)))
+    return {"model": model.id, "kind": model.kind, "files": files}
 
 
 def _of_method(method: Method, model: ModelRef) -> dict[str, str]:
