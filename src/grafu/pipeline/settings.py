@@ -164,8 +164,9 @@ def _require_known(given: object, known: object, where: str = "") -> None:
             _require_known(item, like, f"{where}.{number}")
     if not (isinstance(given, dict) and isinstance(known, dict)):
         return
+    by_name = {str(key): value for key, value in known.items()}
     for name, value in given.items():
         path = f"{where}.{name}" if where else str(name)
-        if str(name) not in {str(key) for key in known}:
+        if str(name) not in by_name:
             raise OptionError(f"there is no setting `{path}`")
-        _require_known(value, known[name] if name in known else known[str(name)], path)
+        _require_known(value, by_name[str(name)], path)
