@@ -1,4 +1,4 @@
-"""Parts that are joined and split by hand: no face is lost, names of parts follow, and what cannot be is told."""
+"""Parts that are joined and split by hand: no face is lost, names of parts follow, and what cannot be is an error."""
 
 import numpy as np
 import pytest

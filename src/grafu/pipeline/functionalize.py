@@ -216,8 +216,7 @@ def functionalize(
     body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))  # top, drawer boxes
     plan, grown = plan.with_attached(body.attached), to_build(asset, body, plan)
     build = partial(realize, plan, grown, gallery.preferring(settings.hinge), joints, cache)
-    realized = stages.timed("realize", build, partial(without_joints, plan, grown))  # joints
-    body, realized = without_idle(body, realized)
+    body, realized = without_idle(body, stages.timed("realize", build, partial(without_joints, plan, grown)))
     wanted = additions_wanted(asset, settings.additions)
     fit = partial(cache.value, "fittings", add_after_joints, realized.scene, completion, plan, wanted, own)
     fittings, before_panels = stages.timed("fittings", fit, partial(nothing_after_joints, realized.scene))
