@@ -13,13 +13,15 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.intersection import LARGE
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.hinge.neighbours import neighbours_of
 from grafu.joints.known import change_between, worked_out
 from grafu.joints.limits import in_the_way
 from grafu.processes.cache import NO_CACHE, Cache
 from grafu.scene.reads import Noted, Noting, Read
 from grafu.scene.scene import JointMotion, MovingBody, Scene
+from grafu.scene.shapes import MOST_USES, Shapes
 from grafu.vocabulary import JointType, PartLabel
 
 SIDE = 0.1
@@ -154,6 +156,21 @@ def test_who_reads_the_first_name_reads_that_and_who_goes_on_reads_all():
     with Noting() as reads:
         assert list(noted) == ["a", "b"]
     assert reads.whole == {Read.PARTS}
+
+
+def test_shapes_live_on_until_they_are_large_or_many():
+    shapes, meshes, axes = Shapes(), [cube((0.0, 0.0, 0.0)), cube((0.5, 0.0, 0.0))], np.eye(3)
+    merged, body = shapes.as_one(meshes), shapes.body(meshes[0], 1e-3, axes)
+    many = merge_meshes([cube((0.01 * k, 0.0, 0.0)) for k in range(LARGE // 12 + 1)])
+    large = shapes.body(many, 1e-3, axes)
+    shapes.tidy()
+    assert shapes.as_one(meshes) is merged
+    assert shapes.body(meshes[0], 1e-3, axes) is body
+    assert shapes.body(many, 1e-3, axes) is not large
+    for _ in range(MOST_USES):
+        shapes.tidy()
+    assert shapes.as_one(meshes) is not merged
+    np.testing.assert_array_equal(shapes.as_one(meshes).vertices, merged.vertices)
 
 
 def test_a_change_leads_from_one_scene_to_the_other():

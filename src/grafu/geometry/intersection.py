@@ -26,7 +26,7 @@ _CORE = 0.2
 _MOST_CONTACTS = 5000
 _ANY_CONTACT = fcl.CollisionRequest()
 _numbers = count()
-_LARGE = 5_000  # faces
+LARGE = 5_000  # faces
 _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
 
 
@@ -70,7 +70,7 @@ def forget_large_shapes() -> None:
 
     What was prepared of them before stays as it is.
     """
-    for key in [key for key, model in _models.items() if len(model.kept) > _LARGE]:
+    for key in [key for key, model in _models.items() if len(model.kept) > LARGE]:
         _models.pop(key, None)
 
 

@@ -66,7 +66,8 @@ def realize(
     requests = in_order(plan.joints)
     free = tuple(replace(request, choice=AUTOMATIC) for request in requests)
     scene, closed, axes = cache.value("closed", _closed_scene, asset, free, config)
-    scene = scene.sharing(cache.value("shapes", Shapes).used())
+    shapes = cache.value("shapes", Shapes)
+    scene = scene.sharing(shapes)
     requests = [replace(r, axis=axes[r.moving]) if r.moving in axes else r for r in requests]
     levels = Builder(gallery, config, cache).all_levels(requests, scene)
     articulated = _assembled(asset, levels)
@@ -74,6 +75,7 @@ def realize(
     skipped = [*plan.refused, *levels.skipped]
     timings = (("realize", perf_counter() - started),)
     final = _final_scene(levels).afresh()
+    shapes.tidy()
     forget_large_shapes()
     return Realized(articulated, RealizationReport((*installed, *skipped), timings), final)
 

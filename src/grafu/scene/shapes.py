@@ -6,7 +6,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.geometry.arrays import Mat3
-from grafu.geometry.intersection import SweptBody
+from grafu.geometry.intersection import LARGE, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 
 MOST_SHAPES: Final = 400
@@ -38,11 +38,11 @@ class Shapes:
             self._bodies[key] = (mesh, SweptBody(mesh, depth, axes))
         return self._bodies[key][1]
 
-    def used(self) -> "Shapes":
-        """Returns these for one more run; all is forgotten where it is too much."""
+    def tidy(self) -> None:
+        """Forgets what takes up much room, at the end of a use: large bodies, and all where it is too much."""
         self._uses += 1
-        if max(len(self._merged), len(self._bodies)) > MOST_SHAPES or self._uses > MOST_USES:
-            self._merged.clear()
-            self._bodies.clear()
-            self._uses = 1
-        return self
+        is_much = max(len(self._merged), len(self._bodies)) > MOST_SHAPES or self._uses >= MOST_USES
+        self._uses = 0 if is_much else self._uses
+        self._merged = {} if is_much else self._merged
+        small = {} if is_much else self._bodies
+        self._bodies = {key: kept for key, kept in small.items() if len(kept[0].faces) <= LARGE}
