@@ -124,7 +124,7 @@ OF_MODULES = {
         "candidates.py": {"_NO_AREA": TOLERANCE},
         "creases.py": {"_SAME_UV": TOLERANCE},
         "division.py": {"_Z": NUMBERING},
-        "fronts.py": {"_RING_CELLS": SAMPLES, "_SHEET": TOLERANCE},
+        "fronts.py": {"_RING_CELLS": SAMPLES, "SHEET": TOLERANCE},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
         "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES, "_MANY": SAMPLES, "_SPARE": TOLERANCE},
     },
