@@ -115,9 +115,16 @@ COMPOUNDS = {
     ],
     PartLabel.TOP_PANEL: ["drawer_case_top", "top_slab"],
     PartLabel.SIDE_PANEL: ["drawer_cheek", "cavity_wall_left", "outer_side"],
-    PartLabel.FACE_FRAME: ["drawer_lintel", "drawer_jamb_0"],
+    PartLabel.FACE_FRAME: ["drawer_lintel", "drawer_jamb_0", "Exterior_doorframe_PAINT"],
     PartLabel.DIVIDER: ["drawer_divider"],
-    PartLabel.DOOR: ["opening_on_hinge_1_door", "hingeleftdoor.002", "microdoor", "leftGlassDoor", "door_stile_0"],
+    PartLabel.DOOR: [
+        "opening_on_hinge_1_door",
+        "sweethome3d_opening_on_hinge_1_door_PAINT",
+        "hingeleftdoor.002",
+        "microdoor",
+        "leftGlassDoor",
+        "door_stile_0",
+    ],
     PartLabel.DRAWER: ["drawer of the desk", "Kitchen_drawer_main", "cabinet1_drawer_top_left", "drawer_0_left_side"],
     PartLabel.HANDLE: ["handle of the upper drawer", "drawerhandle", "handle_post_0", "Handle-Joint-top"],
     PartLabel.UNKNOWN: [
@@ -165,5 +172,7 @@ def test_words_behind_the_noun_that_nobody_knows_blur_a_name():
     assert sense_of("drawer_sprocket").is_blurred
     assert not sense_of("drawer_2_main").is_blurred
     assert not sense_of("frieze_drawer").is_blurred
+    assert sense_of("sweethome3d_opening_on_hinge_1_door_sprocket").is_blurred
+    assert sense_of("sweethome3d_opening_on_rail_2_door_glass").is_piece
     assert not is_whole_part("drawer_sprocket")
     assert sense_of("CabinetBody").is_container

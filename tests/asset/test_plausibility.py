@@ -65,6 +65,13 @@ def test_a_blurred_name_is_believed_where_the_part_is_a_front():
     assert found["drawer_sprocket_2"] is PartLabel.MISC
 
 
+@pytest.mark.parametrize(("name", "expected"), [("door_aluminum", PartLabel.MISC), ("door", PartLabel.DOOR)])
+def test_a_lump_on_a_leaf_is_no_door_where_its_name_is_blurred(name, expected):
+    """The lockset of a building's door: it stands at the outside of all, and is thin against that."""
+    leaf, lump = part("door_leaf", (0, 0, 0), (0.9, 0.05, 2)), part(name, (0.8, -0.05, 0.9), (0.86, 0.09, 1.1))
+    assert labels(leaf, lump)[name] is expected
+
+
 def test_a_front_that_a_containers_name_mentions_is_one():
     found = labels(part("stairs", *CASE), part("drawerstairs3", *LEAF), part("drawer_unit", *INSIDE))
     assert found["drawerstairs3"] is PartLabel.DRAWER

@@ -8,6 +8,7 @@ a rail, `door_handle` a handle, `opening_on_hinge_1_door` a door. Words that mea
 (`drawer_left_side`) leave it what it is.
 """
 
+import re
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, final
@@ -34,6 +35,7 @@ TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
     ),
     (PartLabel.MISC, "bumper, gasket, seal, spring, piston, damper, latch, catch, magnet, stopper, stop, spacer"),
     (PartLabel.FACE_FRAME, "face frame, faceframe, front frame, stile, mullion, top rail, bottom rail, mid rail, jamb"),
+    (PartLabel.FACE_FRAME, "doorframe, doorjamb"),
     (PartLabel.FACE_FRAME, "lintel, fascia, front panel, fixed front, false front, cabinet frame, =frame, =front"),
     (PartLabel.LEG, "leg, foot, feet, pedestal"),
     (PartLabel.SHELF, "shelf, shelve, shelves, shelving, bookshelf, plank, rack"),
@@ -92,6 +94,8 @@ _CONTAINERS = word_set(
     "dishwasher washer "
     "bed stair nightstand shell housing"
 )
+# Sweet Home 3D writes before a name on what it opens: that is no word about what the part is.
+_OPENING: Final = re.compile(r"^sweethome3d_opening_on_(?:hinge|rail)_\d+_?", re.IGNORECASE)
 _AND = word_set("and or plus")
 _CHESTS = word_set("chest trunk coffer")
 _BEDS = word_set("bed cot crib cradle mattress pillow duvet")
@@ -121,7 +125,7 @@ class Sense:
 @lru_cache(maxsize=20_000)
 def sense_of(name: str) -> Sense:
     """Returns what a name states; where it states nothing, the label is `unknown`."""
-    for phrase in _phrases(spoken(name)):
+    for phrase in _phrases(spoken(_OPENING.sub("", name) or name)):
         found = _sense(tuple(singular(w) for w in phrase))
         if found.label is not PartLabel.UNKNOWN or found.is_container or found.is_either:
             return found

@@ -14,7 +14,7 @@ ENGLISH: Final = """
     left right upper lower middle center centre inner outer case cabinet carcass corpus body cupboard wardrobe dresser
     desk table bench unit chest counter bookcase sideboard kitchen fridge freezer oven stove microwave dishwasher sink
     basin glass window mirror leg foot feet base plinth pull grip rail runner slide slider lid flap tray rack divider
-    partition stile mullion wall plate floor stair stairs bed bedside nightstand bedroom
+    partition stile mullion wall plate floor stair stairs bed bedside nightstand bedroom doorframe doorjamb
 """
 
 GERMAN: Final = """

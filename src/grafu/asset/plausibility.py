@@ -65,7 +65,7 @@ class PlausibilityConfig:
     in_line: float = 0.05
     """How far a blind front's sides may lie from those of the door below it (fraction of the door's largest side)."""
     thick: float = 0.35
-    """Largest thickness of a top (fraction of its middle side)."""
+    """Largest thickness of a top, and of a door whose name is blurred (fraction of its middle side)."""
 
     def __post_init__(self) -> None:
         require_ratios(self, *self.__dataclass_fields__)
@@ -215,7 +215,9 @@ def _label(part: Part, scene: _Scene) -> PartLabel:
         blurred = sense_of(part.source.name).is_blurred
         if _is_body(box, scene):
             return BODY
-        return PartLabel.MISC if second < config.strip or (blurred and not _is_front(box, scene)) else part.label
+        is_lump = part.label is PartLabel.DOOR and box.size.min() > config.thick * np.sort(box.size)[1]
+        denied = blurred and (is_lump or not _is_front(box, scene))
+        return PartLabel.MISC if second < config.strip or denied else part.label
     if part.label is PartLabel.HANDLE:
         return PartLabel.UNKNOWN if second > config.grasped else part.label
     if part.label is PartLabel.MISC and sense_of(part.source.name).is_fitting:
