@@ -100,7 +100,9 @@ def test_a_bin_on_its_front_slides_out_with_it_and_a_board_does_not():
         *(box("b", (x, 0.0, 0.15), (x + 0.005, 0.4, 0.55)) for x in (0.05, 0.245)),
         *(box("b", (0.05, y, 0.15), (0.25, y + 0.005, 0.55)) for y in (0.0, 0.395)),
     ]
-    bucket = replace(box("bucket", (0, 0, 0), (1, 1, 1)), surfaces=tuple(s for wall in walls for s in wall.surfaces))
+    bucket = replace(
+        box("bucket", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=tuple(s for wall in walls for s in wall.surfaces)
+    )
     board = box("board", (0.05, 0.0, 0.15), (0.25, 0.4, 0.55))
 
     assert [r.attached for r in requests(FRONT, *CASE, bucket)] == [("bucket",)]
