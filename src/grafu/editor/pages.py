@@ -140,7 +140,7 @@ def _inspector() -> Html:
         _select("template", "Hinge or rail", ()),
         _select("handle", "Handle", handle_styles()),
         _select("label", "Category", tuple(PartLabel)),
-        tag("label", "Shelves behind it ", _number("shelves", 1.0), id="shelves-field", hidden=True),
+        tag("label", "Shelves behind it (empty: automatic) ", _number("shelves", 1.0), id="shelves-field", hidden=True),
     ]
     about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"), divide)
     body = tag("div", *about, id="about-part", hidden=True)
@@ -174,6 +174,4 @@ def _select(name: str, label: str, values: Sequence[str]) -> Html:
 
 
 def _number(name: str, step: float) -> Html:
-    return tag(
-        "input", type="number", min=0, step=f"{step:g}", data_choice=name, placeholder="automatic", autocomplete="off"
-    )
+    return tag("input", type="number", min=0, step=f"{step:g}", data_choice=name, autocomplete="off")
