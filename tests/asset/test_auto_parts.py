@@ -91,6 +91,14 @@ def test_segmented_inputs_and_named_panels_are_left_alone():
     assert cut(panel).parts == (panel,)
 
 
+def test_shelves_that_are_a_whole_case_are_cut_and_a_board_called_shelf_is_not():
+    shelves = cut(welded(label=PartLabel.SHELF, name="shelves"), welded((CASE[0],), name="other"))
+    assert sum(p.id.startswith("shelves_front") for p in shelves.parts) == 2
+
+    board = welded(FRONTS, PartLabel.SHELF, "shelf")
+    assert [p.id for p in cut(board, welded((CASE[0],))).parts] == ["shelf", "body"]
+
+
 def test_a_robot_of_several_links_is_left_alone_and_one_of_one_link_is_not():
     body, other = welded(), welded((CASE[0],), name="other")
     links = [replace(p, source=PartSource(p.id, link=link)) for p, link in ((body, "base"), (other, "arm"))]
