@@ -7,7 +7,6 @@ more until its rear.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import product
 from typing import final
 
 import numpy as np
@@ -20,13 +19,13 @@ from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3, Points, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.raycast import RayCaster
+from grafu.geometry.raycast import RayCaster, wall_distances
 
 RAYS = 9
 """Rays across a front and upwards."""
 PLACES = (0.2, 0.5, 0.8)
 """Where walls around a compartment are looked for, as fractions of its sides."""
-_X, _Y, _Z = np.eye(3)
+_Y = np.array([0.0, 1.0, 0.0])
 
 
 @final
@@ -99,54 +98,41 @@ def _may_face(part: Box, front: Box, config: SolidBodyConfig) -> bool:
 def _solid_span(caster: RayCaster, front: Box, config: SolidBodyConfig) -> tuple[float, float] | None:
     """Returns the y of a part's face right behind a front, and of what comes next of it; None: it is not solid."""
     half = config.middle / 2 * front.size
-    across = [np.linspace(front.center[i] - half[i], front.center[i] + half[i], RAYS) for i in (0, 2)]
+    across = [(i, np.linspace(front.center[i] - half[i], front.center[i] + half[i], RAYS)) for i in (0, 2)]
     y = float(front.low[1]) - config.start
-    origins = np.array([(x, y, z) for x, z in product(*across)])
-    first = caster.along(origins, _Y)
+    first = wall_distances(caster.along, vec3(0.0, y, 0.0), across[0], across[1], 1.0)
     face = float(np.median(first))
     if not np.isfinite(face) or y + face > float(front.high[1]) + config.near:
         return None
     level = np.abs(first - face) <= config.flat
     if level.mean() < config.faced:
         return None
-    within = origins[level] + (face + config.flat + config.start) * _Y
-    beyond = caster.along(within, _Y)
+    within = y + face + config.flat + config.start
+    beyond = wall_distances(caster.along, vec3(0.0, within, 0.0), across[0], across[1], 1.0)[level]
     is_deep = np.isfinite(beyond) & (beyond >= config.least_depth)
     if is_deep.mean() < config.faced:
         return None
-    return y + face, float(within[0, 1] + np.quantile(beyond[is_deep], 1 - config.faced))
+    return y + face, within + float(np.quantile(beyond[is_deep], 1 - config.faced))
 
 
 def _room(caster: RayCaster, front: Box, around: Box, span: tuple[float, float], config: SolidBodyConfig) -> Box | None:
     """Returns the compartment behind a front: within its outline and the part's faces, less the walls."""
     wall = min(config.wall, config.wall_ratio * float(min(front.size[0], front.size[2])))
-    low = vec3(float(front.low[0]) + wall / 2, span[0], float(front.low[2]) + wall / 2)
-    high = vec3(float(front.high[0]) - wall / 2, span[1] - wall, float(front.high[2]) - wall / 2)
-    seen = Box(np.array(low), vec3(float(high[0]), span[1], float(high[2])))
-    for axis, along in ((0, _X), (2, _Z)):
-        origins = _places(seen, axis)
-        for sign in (-1.0, 1.0):
-            reach = caster.along(origins, sign * along)
-            outer = float((around.high if sign > 0 else around.low)[axis])
-            nearest = float(reach.min())
-            limit = outer if not np.isfinite(nearest) else float(origins[0, axis]) + sign * nearest
-            if sign > 0:
-                high[axis] = min(high[axis], limit - wall)
-            else:
-                low[axis] = max(low[axis], limit + wall)
-    size = high - low
+    low, high = np.array(front.low) + wall / 2, np.array(front.high) - wall / 2
+    low[1], high[1] = span
+    middle, places = (low + high) / 2, [low[i] + np.array(PLACES) * (high[i] - low[i]) for i in range(3)]
+    ends = np.array(low), np.array(high)
+    for axis, up in ((0, 2), (2, 0)):
+        grid = (1, places[1]), (up, places[up])
+        below, above = (float(wall_distances(caster.along, middle, *grid, sign).min()) for sign in (-1.0, 1.0))
+        low_wall = middle[axis] - below if np.isfinite(below) else around.low[axis]
+        high_wall = middle[axis] + above if np.isfinite(above) else around.high[axis]
+        ends[0][axis], ends[1][axis] = max(low[axis], low_wall + wall), min(high[axis], high_wall - wall)
+    ends[1][1] -= wall
+    size = ends[1] - ends[0]
     if min(size[0], size[2]) < config.least_side or size[1] < config.least_depth:
         return None
-    return Box(low, high)
-
-
-def _places(seen: Box, axis: int) -> Points:
-    """Returns places in the middle plane of a box across an axis, from which its walls are looked for."""
-    others = [i for i in range(3) if i != axis]
-    points = np.repeat(np.array(seen.center)[None], len(PLACES) ** 2, axis=0)
-    for k, (a, b) in enumerate(product(PLACES, PLACES)):
-        points[k, others] = [seen.low[i] + at * seen.size[i] for i, at in zip(others, (a, b), strict=True)]
-    return points
+    return Box(*ends)
 
 
 def _joined(found: list[SolidBehind], wall: float) -> Iterable[SolidBehind]:
