@@ -61,6 +61,11 @@ def test_models_of_data_sets_face_as_these_state(kind):
     assert settle_frame(Reading(kind, parts, replace(URDF, front="+Y")), LoadOptions()).front == "+Y"
 
 
+def test_a_description_in_the_form_of_a_data_set_that_states_no_front_is_looked_at():
+    parts = nameless_cabinet("-X")
+    assert settle_frame(Reading("partnet-mobility", parts, URDF), LoadOptions()).front == "-X"
+
+
 def test_where_all_sides_look_alike_nothing_is_told():
     plates = [box(f"p{k}", (-0.5, -0.5, 0.3 * k), (0.5, 0.5, 0.3 * k + 0.02)) for k in range(4)]
     assert most_shown_side(plates, whole_box(tuple(plates)), "+Z", is_stated=False) is None

@@ -334,6 +334,22 @@ def test_a_knob_on_a_static_panel_moves_with_nothing(touched: str, is_attached: 
     assert ("knob" in {refusal.part for refusal in completion.refused}) is not is_attached
 
 
+@pytest.mark.parametrize(("behind", "is_attached"), [(0.06, False), (0.005, True)])
+def test_what_lies_apart_behind_a_door_is_no_handle_of_it(behind: float, is_attached: bool) -> None:
+    """Whatever the network states; a leaf of a building's door, at no side of its frame, has handles on both faces."""
+    knob = box_of("knob")
+    inside = moved(knob, vec3(0.0, behind - float(knob.low[1]), 0.0))
+    graph = cupboard()
+    nodes = tuple(replace(node, box=inside) if node.id == "knob" else node for node in graph.nodes)
+    before = PartNode("before", PartLabel.MISC, Box(vec3(0.0, -0.52, 0.0), vec3(1.0, -0.5, 1.0)))
+
+    in_case = complete(replace(graph, nodes=nodes), told())
+    in_frame = complete(replace(graph, nodes=(*nodes, before)), told())
+
+    assert bool(in_case.completed.attachments) is is_attached
+    assert in_frame.completed.attachments == (Attached("door", "knob"),)
+
+
 def test_unlabelled_parts_get_their_labels_and_others_keep_theirs() -> None:
     graph = relabelled(cupboard(), dict.fromkeys(("door", "knob", "back"), PartLabel.UNKNOWN))
     said = told()

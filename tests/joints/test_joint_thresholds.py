@@ -36,6 +36,7 @@ from grafu.joints.rail_footing_config import RailFootingConfig
 from grafu.joints.stay_config import StayConfig
 from grafu.joints.swivel_mirrors import MirrorConfig
 from grafu.joints.tilting_fronts import TiltConfig
+from grafu.joints.trays import TrayConfig
 from grafu.joints.waste_bins import WasteBinConfig
 from grafu.joints.wide_bars import WideBarConfig
 from grafu.joints.window_config import WindowConfig
@@ -105,6 +106,7 @@ REASONS = {
     "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "sliding_doors.py": {"_UP": NUMBERING},
+    "trays.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_OUT": NUMBERING},
     "stays.py": {"_SIDES": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
     "windows.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
@@ -118,7 +120,7 @@ CONFIGS = (
     DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
     PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig,
-    TiltConfig, TimeConfig, WasteBinConfig, WideBarConfig, WindowConfig,
+    TiltConfig, TimeConfig, TrayConfig, WasteBinConfig, WideBarConfig, WindowConfig,
 )  # fmt: skip
 
 

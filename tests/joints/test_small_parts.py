@@ -22,10 +22,14 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
+from grafu.graph.parse import parse_graph
+from grafu.joints.config import RealizationConfig
+from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings
+from grafu.pipeline.shown_by_shape import shown_by_shape
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
 from judging import swept_collisions
@@ -149,6 +153,24 @@ def test_a_dial_on_the_body_turns_without_a_mark():
     (joint,) = small_joints(made_of(*CASE, DOOR, PANEL, DIAL)).values()
     assert (joint.parent, joint.child) != ("door", "dial")
     assert np.allclose(joint.axis.direction, (0, -1, 0))
+
+
+@pytest.mark.parametrize(
+    ("label", "settled", "is_dropped"),
+    [
+        (PartLabel.UNKNOWN, (), True),
+        (PartLabel.UNKNOWN, ("dial",), False),
+        (PartLabel.DRAWER, (), False),
+    ],
+)
+def test_a_nameless_part_of_the_shape_of_a_knob_is_no_drawer_whatever_was_predicted(label, settled, is_dropped):
+    dial = replace(knob("dial", radius=0.02), label=label)
+    plate = replace(box("plate", (0.1, -0.02, 0.4), (0.2, 0.0, 0.5)), label=PartLabel.UNKNOWN)
+    asset = scene(*CASE, dial, plate)
+    out = Axis(dial.box.center, vec3(0.0, -1.0, 0.0))
+    plan = RealizationPlan(tuple(JointRequest(p.id, JointType.PRISMATIC, out, "network") for p in (dial, plate)), ())
+    shown, _ = shown_by_shape(plan, asset, parse_graph(asset), RealizationConfig(), settled)
+    assert [r.moving for r in shown.joints] == (["plate"] if is_dropped else ["dial", "plate"])
 
 
 def test_a_knob_beside_the_door_stays_on_the_body():

@@ -141,7 +141,8 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     convention = reading.convention
     stated = convention.front if convention.front is not None and convention.front[1] != up[1] else None
     votes = front_votes(reading.parts, whole, up)
-    if not any(votes.values()) and reading.kind not in _DATA_SETS:
+    faces_one_way = stated is not None and reading.kind in _DATA_SETS
+    if not any(votes.values()) and not faces_one_way:
         shown = most_shown_side(reading.parts, whole, up, stated is not None)
         if shown is not None and shown != stated:
             return _Choice(shown, "most parts, and steps between them, are seen there")

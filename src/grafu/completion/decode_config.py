@@ -66,6 +66,10 @@ class DecodeConfig:
     grasp: float = 0.08
     """A door or drawer farther than this from a handle is not its: a bar stands off by the length of its posts."""
 
+    at_side: float = 0.25
+    """What lies behind a door is inside the object where the middle of the door is at least this far from that of the
+    object, along its thin axis (fraction of the object's size along it); leaves of buildings have two faces."""
+
     least_edge: float = 0.02
     """Below this probability of every hinge (or rail), nothing that the network sees carries a part: it moves as a
     rule finds, or is refused with the reason."""
@@ -115,7 +119,8 @@ class DecodeConfig:
     """Half a side of a new part at least (the authors' 0.005 of the object): thinner is an error of the regression."""
 
     slack: float = 0.01
-    """How far boxes are grown before they are compared: thin boards seldom overlap exactly."""
+    """How far boxes are grown before they are compared: thin boards seldom overlap exactly. A handle that is farther
+    than this behind a door is not its."""
 
     mirror: bool = True
     """Whether the last result is the mean of two passes, on the graph and on its mirror image across X. It costs one
@@ -133,6 +138,7 @@ class DecodeConfig:
             self.edge_for_label,
             self.flank,
             self.some_parent,
+            self.at_side,
         )
         if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.slides, self.nested, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")

@@ -30,6 +30,7 @@ from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, Hing
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.motion import opening_face
 from grafu.refusal import Reason, Refusal
+from grafu.vocabulary import PartLabel
 
 _LEAST = 1e-3  # what the rule did not vote for stays possible
 
@@ -62,7 +63,8 @@ def choose_parent(handle: PartNode, view: GraphView) -> tuple[Attached, Decision
     """Returns the door or drawer that a handle is fixed to, or why there is none."""
     if not len(view.moving_bodies):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
-    slots = view.moving_bodies[view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.extent]
+    near = view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.extent
+    slots = np.array([k for k in view.moving_bodies[near] if not _is_behind(handle, view.graph.nodes[k], view)], int)
     if not len(slots) or sits_on_static(handle, view.graph):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     ratios, none = parent_ratios(view.place[handle.id], slots, view)
@@ -73,6 +75,18 @@ def choose_parent(handle: PartNode, view: GraphView) -> tuple[Attached, Decision
         )
     ranking = ranking_of(view.ids(slots), ratios)
     return Attached(ranking.choice, handle.id), decision_of(handle.id, "parent", ranking)
+
+
+def _is_behind(handle: PartNode, door: PartNode, view: GraphView) -> bool:
+    """Whether a handle lies inside the object, apart from a door at one of its sides: a bracket or a part of a rack."""
+    if door.label is not PartLabel.DOOR:
+        return False
+    whole, axis = view.graph.box, door.box.thin_axis
+    out = float(door.box.center[axis] - whole.center[axis])
+    if abs(out) < view.config.at_side * whole.size[axis]:
+        return False
+    gap = door.box.low[axis] - handle.box.high[axis] if out > 0 else handle.box.low[axis] - door.box.high[axis]
+    return bool(gap > view.config.slack * view.extent)
 
 
 def parent_ratios(slot: int, slots: Indices, view: GraphView) -> tuple[Scalars, float]:

@@ -5,7 +5,7 @@ another are one knob, and so are the shells of a piece. What nothing shows to tu
 and every knob of a drawer.
 """
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
@@ -15,6 +15,7 @@ import numpy as np
 import shapely
 
 from grafu.articulation.articulated_object import Joint, Visual, VisualRole
+from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
@@ -138,9 +139,20 @@ def knobs(
             yield JointRequest(widest.piece.name, JointType.CONTINUOUS, axis, SOURCE, 2 * pi, attached=attached)
 
 
+def are_shaped_as_knobs(parts: Iterable[Part], whole: Box, config: SmallPartConfig) -> frozenset[str]:
+    """Returns the ids of the parts with the size and the shape of a knob; `whole` is the box of their object."""
+    largest = _largest(config.of_piece[0], whole, config)
+    small = (Piece("", Visual(p.id, p.surfaces, label=p.label)) for p in parts if p.box.size.max() <= largest)
+    return frozenset(piece.name for piece in small if _turned([piece], largest, config) is not None)
+
+
 def largest_side(ratio: float, every: Sequence[Piece], config: SmallPartConfig) -> float:
     """Returns the largest side of a knob or button, metres: `ratio` of the object's, as scales are estimates."""
-    return max(config.knob[1], ratio * float(Box.enclosing(piece.mesh.box for piece in every).size.max()))
+    return _largest(ratio, Box.enclosing(piece.mesh.box for piece in every), config)
+
+
+def _largest(ratio: float, whole: Box, config: SmallPartConfig) -> float:
+    return max(config.knob[1], ratio * float(whole.size.max()))
 
 
 def _clusters(pieces: Sequence[Piece], config: SmallPartConfig) -> list[list[Piece]]:

@@ -80,7 +80,8 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
 def _shown_by_shape(result: Functionalized) -> frozenset[str]:
     """Returns the parts whose motion shape or name shows, whatever the source stated: it is no guess of the source."""
     stated = result.completion.source
-    return frozenset(r.moving for r in result.plan.joints if r.source == RULE != stated)
+    shown = {r.moving for r in result.plan.joints if r.source == RULE != stated}
+    return small_parts(result.report, result.plan) | shown
 
 
 def skipped_record(refusal: Refusal) -> SkippedRecord:

@@ -10,7 +10,7 @@ from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.building_doors import building_door, with_building_doors
-from grafu.joints.config import RealizationConfig
+from grafu.joints.config import RealizationConfig, SmallPartConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_supports import with_supported_leaves
 from grafu.joints.extension_leaves import with_shown_extensions
@@ -24,6 +24,7 @@ from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.joints.swivel_mirrors import swivel_mirrors
 from grafu.joints.tilting_fronts import with_shown_tilts
+from grafu.joints.trays import with_trays
 from grafu.joints.waste_bins import with_waste_bins
 from grafu.joints.wide_bars import with_wide_bars
 from grafu.joints.windows import window, with_windows
@@ -58,9 +59,24 @@ def shown_by_shape(
     plan = with_wide_bars(plan, asset, settled)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
     plan = with_racks(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
-    plan = with_waste_bins(plan, asset, graph)
+    plan = with_trays(with_waste_bins(plan, asset, graph), asset, graph)
     plan = with_lifts(plan, graph, at_scale(joints.lift, metre_on(asset.extent)))
+    plan = _without_knobs(plan, asset, settled, at_scale(joints.small, metre_on(asset.extent)))
     return _without_turntables(plan, asset, small)
+
+
+def _without_knobs(
+    plan: RealizationPlan, asset: Asset, settled: Collection[str], config: SmallPartConfig
+) -> RealizationPlan:
+    """Returns the plan without nameless parts of the size and shape of a knob: no door or drawer has these."""
+    nameless = (r.moving for r in plan.joints if r.moving not in settled)
+    guessed = [part for name in nameless if (part := asset.part(name)).label is PartLabel.UNKNOWN]
+    if not guessed:
+        return plan
+    from grafu.joints.small_knobs import are_shaped_as_knobs  # local: most runs do without
+
+    shaped = are_shaped_as_knobs(guessed, asset.box, config)
+    return replace(plan, joints=tuple(r for r in plan.joints if r.moving not in shaped))
 
 
 def _without_turntables(
