@@ -52,6 +52,20 @@ def test_a_leaf_that_ends_in_its_frame_is_cut_to_the_opening_and_works(lap):
     assert area(after["frame"]) > area(asset.part("frame"))  # it keeps the edges
 
 
+def test_a_leaf_that_reaches_into_one_post_alone_is_cut_on_that_side():
+    """A post that stands before a cabinet's side, and a door in it by 13 mm: with nothing cut it collides at rest."""
+    side = box("side", (0.36, 0.0, 0.0), (0.38, 0.4, 0.6))
+    post = box("post", (0.36, -0.05, 0.0), (0.4, 0.0, 0.6))
+    leaf = box("door", (0.0, -0.03, 0.02), (0.373, -0.01, 0.58))
+    axis = Axis(vec3(0.373, -0.03, 0.0), vec3(0.0, 0.0, 1.0))
+    result = realized(scene(side, post, leaf, joints=(hinged(axis=axis),)))
+    outcome = installed(result)["door"]
+    assert (outcome.collision_share, outcome.restricted) == (0.0, False)
+    (cut,) = [c for c in outcome.clearances if c.part == "door"]
+    assert (cut.kind, cut.why) == ("trimmed", "its edges lay in post, which keeps them")
+    assert 0.013 < cut.amount <= 0.019
+
+
 def test_nothing_is_cut_off_where_no_material_may_be_taken():
     outcome = installed(realized(door(0.016), RealizationConfig(trim=False))).get("door")
     assert outcome is None or (outcome.clearances == () and outcome.collision_share > 0)

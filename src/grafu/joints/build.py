@@ -115,14 +115,18 @@ def _cleared(search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]]:
     cleared = make_clearance(search.scene, path, search.config)
     again = door_search(search.request, cleared.scene, search.config)
     is_wider = again.best().free > search.best().free or again.free_ratio() > search.free_ratio()
+    if search.config.trim and (again if is_wider else search).met_at_rest():
+        found = _fitted(search, sides=1)
+        if found is not None:
+            return found
     return (again, cleared.clearances) if is_wider else (search, ())
 
 
-def _fitted(search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]] | None:
+def _fitted(search: DoorSearch, sides: int = 2) -> tuple[DoorSearch, tuple[Clearance, ...]] | None:
     """Returns the search in the scene with a leaf cut to the opening of its frame; None where that does not free it."""
     request, config = search.request, search.config
     axes = part_axes(search.scene.parts[request.moving].mesh)
-    for scene, clearances in leaf_in_frame(search.scene, request.moving, axes, search.met_at_rest(), config):
+    for scene, clearances in leaf_in_frame(search.scene, request.moving, axes, search.met_at_rest(), config, sides):
         again = door_search(request, scene, config)
         if again.best().free >= config.restricted * again.wanted and not again.met_at_rest():
             return again, clearances

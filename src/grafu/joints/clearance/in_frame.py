@@ -39,9 +39,9 @@ class _Edges:
         return float(max(self.low.max(), self.high.max()))
 
     @property
-    def is_within(self) -> bool:
-        """Whether it reaches into the frame on two sides: one leaf of a pair does so at one side and above."""
-        return int(np.count_nonzero(self.low > 0) + np.count_nonzero(self.high > 0)) > 1
+    def sides(self) -> int:
+        """On how many sides it reaches into the frame: one leaf of a pair does so at one side and above."""
+        return int(np.count_nonzero(self.low > 0) + np.count_nonzero(self.high > 0))
 
     def inside(self, box: Box, gap: float) -> Box:
         """Returns what of the leaf's box lies in the opening, with a gap, metres, at the edges that are cut."""
@@ -51,16 +51,17 @@ class _Edges:
 
 
 def leaf_in_frame(
-    scene: Scene, moving: str, axes: Mat3, ids: Sequence[str], config: RealizationConfig
+    scene: Scene, moving: str, axes: Mat3, ids: Sequence[str], config: RealizationConfig, sides: int = 2
 ) -> Iterator[tuple[Scene, tuple[Clearance, ...]]]:
     """Yields the scene with a leaf cut to the opening of the frame that it is drawn in, with ever wider gaps.
 
-    Nothing is yielded unless the leaf reaches into one of the static parts `ids` on two sides, through much of its
-    thickness, deeper than narrowing it would free it, and by at most `config.clearance.lapped`.
+    Nothing is yielded unless the leaf reaches into one of the static parts `ids` on so many `sides` at least, through
+    much of its thickness, deeper than narrowing it would free it, and by at most `config.clearance.lapped`.
     """
     leaf, unit = scene.parts[moving], config.depth * scene.extent
     box = box_in(axes, leaf.mesh)
-    frame, edges = next(((f, e) for f, e in _frames(scene, box, axes, ids, config) if e.is_within), (None, None))
+    found = (pair for pair in _frames(scene, box, axes, ids, config) if pair[1].sides >= sides)
+    frame, edges = next(found, (None, None))
     if frame is None or edges is None or edges.deepest <= GAPS[-1] * unit:
         return
     opening = _solid(edges.inside(box, 0.0), axes)
