@@ -101,6 +101,14 @@ def test_a_panel_with_buttons_on_it_is_static():
     assert labels(part("oven", *CASE), panel)["Panel"] is PartLabel.UNKNOWN
 
 
+@pytest.mark.parametrize(("height", "count", "is_static"), [(0.12, 2, True), (0.12, 1, False), (0.5, 2, False)])
+def test_a_narrow_band_with_several_buttons_on_it_is_static_whatever_it_is_called(height, count, is_static):
+    band = part("Pannel", (0.0, -0.02, 1.0 - height), (0.8, 0.0, 1.0))
+    buttons = [part(f"Button{k}", (0.5 + 0.1 * k, -0.04, 0.92), (0.55 + 0.1 * k, -0.02, 0.97)) for k in range(count)]
+    found = labels(part("washer", *CASE), band, *buttons)["Pannel"]
+    assert found is (PartLabel.MISC if is_static else PartLabel.UNKNOWN)
+
+
 def test_the_box_of_an_appliance_is_its_body_and_its_panel_is_static():
     case = part("kitchen", (0, 0, 0), (2, 0.6, 2))
     oven = part("kitchen_oven_main", (0.1, 0.0, 0.2), (0.7, 0.5, 0.8))

@@ -22,6 +22,7 @@ from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, Piv
 from grafu.joints.lever_config import LeverConfig
 from grafu.joints.lift_arm_config import LiftArmConfig
 from grafu.joints.plan import PlanConfig
+from grafu.joints.portholes import PortholeConfig
 from grafu.joints.pull_outs import PullOutConfig
 from grafu.joints.racks import RackConfig
 from grafu.joints.rail_config import (
@@ -102,6 +103,7 @@ REASONS = {
     "motion_choice.py": {"_BOARD": OUTLINE, "_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
+    "portholes.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING},
     "pull_outs.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING},
     "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
@@ -119,8 +121,8 @@ CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
-    PlanConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig, StayConfig, SurveyConfig,
-    TiltConfig, TimeConfig, TrayConfig, WasteBinConfig, WideBarConfig, WindowConfig,
+    PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig,
+    StayConfig, SurveyConfig, TiltConfig, TimeConfig, TrayConfig, WasteBinConfig, WideBarConfig, WindowConfig,
 )  # fmt: skip
 
 

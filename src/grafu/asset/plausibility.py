@@ -54,6 +54,8 @@ class PlausibilityConfig:
     """... and how far it may lie from the outside (fraction of the object's largest side)."""
     touch: float = 0.01
     """How far a button may stand off the panel that it sits on (fraction of the object's largest side)."""
+    band: float = 0.25
+    """Greatest height of a band with several buttons on it (fraction of the object's largest side)."""
     as_high: float = 0.85
     """A control panel beside a door has at least this much of its height, and the door of the panel's (fraction) ..."""
     next_to: float = 0.06
@@ -131,14 +133,13 @@ def with_plausible_labels(
 
 
 def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
-    """Returns an unlabelled panel on which buttons or a display sit as one that is static."""
-    if part.label is not PartLabel.UNKNOWN or "panel" not in spoken(part.source.name) or not controls:
+    """Returns an unlabelled panel or narrow band on which buttons or a display sit as one that is static."""
+    if part.label is not PartLabel.UNKNOWN or not controls or _is_body(part.box, scene):
         return part
-    if _is_body(part.box, scene) or not any(
-        part.box.overlaps(box, scene.config.touch * scene.extent) for box in controls
-    ):
-        return part
-    return replace(part, label=PartLabel.MISC, labelled_by="name")
+    held = sum(part.box.overlaps(box, scene.config.touch * scene.extent) for box in controls)
+    is_band = held > 1 and float(np.sort(part.box.size)[1]) <= scene.config.band * scene.extent
+    is_panel = held and (is_band or "panel" in spoken(part.source.name))
+    return replace(part, label=PartLabel.MISC, labelled_by="name") if is_panel else part
 
 
 def with_bodies(parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()) -> tuple[Part, ...]:

@@ -6,15 +6,13 @@ from grafu.asset.part import Asset
 from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.parse import parse_graph
-from grafu.joints.building_doors import with_door_labels
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.joints.windows import with_window_labels
 from grafu.pipeline.certainty import certainty_words, guesses_of
 from grafu.pipeline.functionalize import MOTIONS, PipelineConfig, choose_source
 from grafu.pipeline.inspection import ExpectedMotion, Forecast, StaticPart
 from grafu.pipeline.mechanisms import with_mechanisms
 from grafu.pipeline.motion_source import MotionSource
-from grafu.pipeline.shown_by_shape import shown_by_shape
+from grafu.pipeline.shown_by_shape import shown_by_shape, with_labels_by_shape
 from grafu.pipeline.stages import Stages, by_contacts, without_network
 
 
@@ -27,7 +25,7 @@ def forecast(asset: Asset, budget: Budget = UNLIMITED, config: PipelineConfig = 
         WeightsError: if the network's weights are damaged.
     """
     source = choose_source(asset, MotionSource.AUTO)
-    bare = with_window_labels(with_door_labels(asset.without_annotation()))
+    bare = with_labels_by_shape(asset.without_annotation())
     plan, completion = _planned(bare, source, Stages(lambda _: None, budget), config)
     confidence: dict[str, float] = {}
     for guess in guesses_of(completion):

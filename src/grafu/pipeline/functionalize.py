@@ -17,7 +17,6 @@ from grafu.geometry.config_checks import at_scale
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
-from grafu.joints.building_doors import with_door_labels
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
 from grafu.joints.folding import as_turning, folds_in
@@ -28,7 +27,6 @@ from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import RealizationReport
 from grafu.joints.waste_bins import with_stated_bins
-from grafu.joints.windows import with_window_labels
 from grafu.pipeline.additions import add_after_joints, add_before_joints, without_idle
 from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, complete_by_weights
@@ -38,7 +36,7 @@ from grafu.pipeline.mechanisms import with_mechanisms
 from grafu.pipeline.motion_choices import corrected, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
-from grafu.pipeline.shown_by_shape import additions_wanted, shown_by_shape, small_parts_wanted
+from grafu.pipeline.shown_by_shape import additions_wanted, shown_by_shape, small_parts_wanted, with_labels_by_shape
 from grafu.pipeline.stages import (
     Stages,
     by_contacts,
@@ -258,7 +256,7 @@ def _with_source(
     _require_attached(asset, chosen)
     if MOTIONS[chosen].reads_annotation:
         return asset, chosen
-    return with_window_labels(with_door_labels(asset.without_annotation())), chosen
+    return with_labels_by_shape(asset.without_annotation()), chosen
 
 
 def _as_built(

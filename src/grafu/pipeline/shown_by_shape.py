@@ -9,7 +9,7 @@ from grafu.additions.interior.request import NOTHING, PREDICTED
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.joints.building_doors import building_door, with_building_doors
+from grafu.joints.building_doors import building_door, with_building_doors, with_door_labels
 from grafu.joints.config import RealizationConfig, SmallPartConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_supports import with_supported_leaves
@@ -18,6 +18,7 @@ from grafu.joints.folding import with_folds
 from grafu.joints.lifts import with_lifts
 from grafu.joints.parallel_lifts import with_named_lifts
 from grafu.joints.plan import RealizationPlan
+from grafu.joints.portholes import with_porthole_labels
 from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
 from grafu.joints.shown_folds import shown_folds
@@ -27,7 +28,7 @@ from grafu.joints.tilting_fronts import with_shown_tilts
 from grafu.joints.trays import with_trays
 from grafu.joints.waste_bins import with_waste_bins
 from grafu.joints.wide_bars import with_wide_bars
-from grafu.joints.windows import window, with_windows
+from grafu.joints.windows import window, with_window_labels, with_windows
 from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
@@ -39,6 +40,11 @@ class WantedSmallParts:
 
     any: bool
     chosen: frozenset[str] | None = None
+
+
+def with_labels_by_shape(asset: Asset) -> Asset:
+    """Returns the asset in which the leaves of a building's door or window, and a round door, have these labels."""
+    return with_porthole_labels(with_window_labels(with_door_labels(asset)))
 
 
 def shown_by_shape(
