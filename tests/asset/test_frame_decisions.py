@@ -166,6 +166,20 @@ def test_fronts_in_the_middle_of_the_whole_show_the_front_by_what_is_seen_of_the
     assert found.front == front
 
 
+@pytest.mark.parametrize("front", ["+X", "-X", "-Y", "+Y"])
+def test_a_leaf_in_the_middle_of_its_frame_faces_the_side_of_its_handle(front):
+    # the handle reaches farther out than the leaf: it shifts the middle of the whole away from the leaf
+    labelled = (
+        (box("frame_left", (-0.28, -0.03, 0.0), (-0.22, 0.03, 0.6)), PartLabel.FACE_FRAME),
+        (box("frame_right", (0.22, -0.03, 0.0), (0.28, 0.03, 0.6)), PartLabel.FACE_FRAME),
+        (box("door", (-0.21, -0.02, 0.01), (0.21, 0.02, 0.59)), PartLabel.DOOR),
+        (cylinder("handle", ((0.17, -0.12, 0.28), (0.17, -0.02, 0.28)), 0.025), PartLabel.HANDLE),
+    )
+    asset = Asset("door", "", "made", tuple(replace(p, label=label, labelled_by="name") for p, label in labelled))
+    found = settle_frame(reading_of(asset, turned("+Z", front)), LoadOptions(up="+Z"))
+    assert found.front == front
+
+
 QUARTERS = [turned(up, front) for up in DIRECTIONS for front in DIRECTIONS if up[1] != front[1]]
 
 

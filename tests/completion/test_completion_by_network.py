@@ -334,6 +334,21 @@ def test_a_knob_on_a_static_panel_moves_with_nothing(touched: str, is_attached: 
     assert ("knob" in {refusal.part for refusal in completion.refused}) is not is_attached
 
 
+def test_a_grip_far_from_its_door_goes_with_the_post_that_it_touches() -> None:
+    grip = PartNode("grip", PartLabel.HANDLE, moved(box_of("knob"), vec3(0.0, -0.15, 0.0)))
+    post = PartNode("post", PartLabel.HANDLE, Box(vec3(0.9, -0.17, 0.34), vec3(0.92, -0.05, 0.36)))
+    graph = cupboard()
+    nodes = (*graph.nodes, grip, post)
+    touching = replace(graph, nodes=nodes, edges=(Contact("grip", "post"), Contact("post", "knob")))
+
+    loose = complete(replace(graph, nodes=nodes), told())
+    held = complete(touching, told())
+
+    assert {edge.child for edge in loose.completed.attachments}.isdisjoint({"grip"})
+    assert Attached("door", "grip") in held.completed.attachments
+    assert "grip" not in {refusal.part for refusal in held.refused}
+
+
 @pytest.mark.parametrize(("behind", "is_attached"), [(0.06, False), (0.005, True)])
 def test_what_lies_apart_behind_a_door_is_no_handle_of_it(behind: float, is_attached: bool) -> None:
     """Whatever the network states; a leaf of a building's door, at no side of its frame, has handles on both faces."""
@@ -341,7 +356,7 @@ def test_what_lies_apart_behind_a_door_is_no_handle_of_it(behind: float, is_atta
     inside = moved(knob, vec3(0.0, behind - float(knob.low[1]), 0.0))
     graph = cupboard()
     nodes = tuple(replace(node, box=inside) if node.id == "knob" else node for node in graph.nodes)
-    before = PartNode("before", PartLabel.MISC, Box(vec3(0.0, -0.52, 0.0), vec3(1.0, -0.5, 1.0)))
+    before = PartNode("before", PartLabel.MISC, Box(vec3(0.0, -0.52, 0.0), vec3(0.02, -0.5, 1.0)))
 
     in_case = complete(replace(graph, nodes=nodes), told())
     in_frame = complete(replace(graph, nodes=(*nodes, before)), told())

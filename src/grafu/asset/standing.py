@@ -190,11 +190,13 @@ def _votes(
     parts: tuple[Part, ...], whole: Box, up: str, config: FrontEvidenceConfig, caster: RayCaster | None = None
 ) -> dict[str, float]:
     votes = {d: 0.0 for d in DIRECTIONS if d[1] != up[1]}
+    boxes = [part.box for part in parts if part.label is not PartLabel.HANDLE]
+    body = Box.enclosing(boxes) if boxes else whole  # handles shift the middle of a leaf and its frame
     for part in parts:
         if part.label.is_movable:
             ratio = float(part.box.size.max() / whole.size.max())
             seen = _seen_side(part, caster, votes, config) if caster is not None and ratio >= config.small else None
-            _add(votes, seen or (_side(part, whole, votes, config) if ratio >= config.telling else None), 1.0)
+            _add(votes, seen or (_side(part, body, votes, config) if ratio >= config.telling else None), 1.0)
         elif part.label is PartLabel.HANDLE:
             _add(votes, _nearest_side(part.box, whole, votes, config), config.handle)
         elif part.label is PartLabel.BACK_PANEL:

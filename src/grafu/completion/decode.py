@@ -68,8 +68,26 @@ def decode_graph(
         else:
             found.append(answer[0])
             decisions += (answer[1],)
+    found += _on_handles(found, [refusal.part for refusal in refused], view.graph)
+    kept = tuple(refusal for refusal in refused if refusal.part not in {edge.child for edge in found})
     held = GraphView(with_edges(view.graph, found), probabilities, given, config)
-    return DecodedGraph(held, decisions, tuple(refused))
+    return DecodedGraph(held, decisions, kept)
+
+
+def _on_handles(found: Sequence[Attached], left: Sequence[str], graph: FunctionalGraph) -> list[Attached]:
+    """Returns the edges of handles that are on no door or drawer, but touch a handle that is: grips on posts."""
+    parent_of = {edge.child: edge.parent for edge in (*graph.attachments, *found)}
+    edges: list[Attached] = []
+    waiting = list(left)
+    while waiting:
+        next_to = {name: [n for n in graph.neighbours[name] if n in parent_of] for name in waiting}
+        name = next((name for name in waiting if next_to[name]), None)
+        if name is None:
+            break
+        parent_of[name] = parent_of[min(next_to[name])]
+        edges.append(Attached(parent_of[name], name))
+        waiting.remove(name)
+    return edges
 
 
 def complete_decoded(

@@ -67,8 +67,8 @@ class DecodeConfig:
     """A door or drawer farther than this from a handle is not its: a bar stands off by the length of its posts."""
 
     at_side: float = 0.25
-    """What lies behind a door is inside the object where the middle of the door is at least this far from that of the
-    object, along its thin axis (fraction of the object's size along it); leaves of buildings have two faces."""
+    """What lies behind a door is inside the body where the middle of the door is at least this far from that of all
+    supports, along its thin axis (fraction of their size along it); leaves of buildings have two faces."""
 
     least_edge: float = 0.02
     """Below this probability of every hinge (or rail), nothing that the network sees carries a part: it moves as a

@@ -78,12 +78,13 @@ def choose_parent(handle: PartNode, view: GraphView) -> tuple[Attached, Decision
 
 
 def _is_behind(handle: PartNode, door: PartNode, view: GraphView) -> bool:
-    """Whether a handle lies inside the object, apart from a door at one of its sides: a bracket or a part of a rack."""
-    if door.label is not PartLabel.DOOR:
+    """Whether a handle lies inside the body, apart from a door at one of its sides: a bracket or a part of a rack."""
+    if door.label is not PartLabel.DOOR or not len(view.supports):
         return False
-    whole, axis = view.graph.box, door.box.thin_axis
-    out = float(door.box.center[axis] - whole.center[axis])
-    if abs(out) < view.config.at_side * whole.size[axis]:
+    axis = door.box.thin_axis
+    low, high = view.low[view.supports, axis].min(), view.high[view.supports, axis].max()
+    out = float(door.box.center[axis] - (low + high) / 2)
+    if abs(out) < view.config.at_side * (high - low):
         return False
     gap = door.box.low[axis] - handle.box.high[axis] if out > 0 else handle.box.low[axis] - door.box.high[axis]
     return bool(gap > view.config.slack * view.extent)
