@@ -1,21 +1,26 @@
 """Two leaves above each other that fold up: the upper one on the case, the lower one on it, coupled."""
 
 from dataclasses import replace
-from math import degrees
+from math import degrees, radians
 
 import numpy as np
 import pytest
 
 import grafu
 from fold_judge import cuts, cutting_over_sweep, loose, opened, pairs_of
+from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.physics import physics_of
-from grafu.asset.part import Asset, PartSource
+from grafu.asset.part import AnnotatedJoint, Asset, PartSource
 from grafu.errors import OptionError
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.pipeline.motion_choices import motions_of
 from grafu.pipeline.move_options import move_options
 from grafu.synth.cabinets.wall_units import WallUnit, make_wall_unit
+from grafu.vocabulary import JointType
 
 UNIT = WallUnit(leaves=2)
 
@@ -85,3 +90,33 @@ def test_it_is_read_back_as_what_was_stated(result):
 def test_a_flap_alone_cannot_fold_up():
     with pytest.raises(OptionError, match="none stands above or below it"):
         folded(make_wall_unit(WallUnit()), {"door": "fold-up"})
+
+
+def test_stated_leaves_whose_lower_one_ends_at_the_floor_fold_up_as_far_as_is_stated():
+    """The stated axis lies on the backs of the leaves; a front corner sinks a little as the lower one turns alone."""
+    asset = make_wall_unit(UNIT)
+    upper, lower = asset.part("door_1"), asset.part("door_2")
+    down = lower.mesh.vertices[:, 2:] < lower.box.center[2]
+    sunk = TriangleMesh(np.where(down, lower.mesh.vertices * (1.0, 1.0, 0.0), lower.mesh.vertices), lower.mesh.faces)
+    leaf = replace(lower, surfaces=(replace(lower.surfaces[0], mesh=sunk),), carried_by="door_1")
+    top = vec3(0.0, float(upper.box.low[1]), float(upper.box.high[2]))
+    seam = vec3(0.0, float(lower.box.high[1]), float(lower.box.high[2]))
+    joints = (
+        AnnotatedJoint("door_1", JointType.REVOLUTE, Axis(top, vec3(-1.0, 0.0, 0.0)), 0.0, radians(85)),
+        AnnotatedJoint(
+            "door_2",
+            JointType.REVOLUTE,
+            Axis(seam, vec3(1.0, 0.0, 0.0)),
+            0.0,
+            radians(170),
+            coupling=Coupling("door_1", 2.0, 0.0),
+        ),
+    )
+    parts = tuple(leaf if part.id == "door_2" else part for part in asset.parts)
+
+    made = grafu.functionalize(replace(asset, parts=parts, joints=joints), motion="annotation").object
+
+    joint_of = made.joint_of
+    assert degrees(joint_of["door_1"].limits.upper) == pytest.approx(85, abs=0.5)
+    assert joint_of["door_2"].coupling.multiplier == 2.0
+    assert cutting_over_sweep(made) | cuts(made, opened(made, 0.0)) == set()

@@ -195,6 +195,8 @@ class RealizationConfig(ShortRepr):
     """Least vertical part of a leaf's direction, from its axis to its far side, at which it is a flap, and no lid."""
     sloping: float = 0.2
     """Thickness of a board that may slope as it is closed, such as the front of a desk, over its size (fraction)."""
+    rising: float = 0.3
+    """Least vertical part of a sloping board's direction, upwards from its axis, at which it is a front and no lid."""
     short: float = 0.01
     """How far short of a collision a limit stays (fraction of the opening that was asked for)."""
     restricted: float = 0.7
@@ -273,7 +275,16 @@ class RealizationConfig(ShortRepr):
         require_positive(self, "hinge_bridge", "lid_opening", "no_hardware_gap", "rack_gap", "carved_faces")
         require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
         require_ratios(
-            self, "level_axis", "upright", "sloping", "short", "restricted", "max_trim", "max_carve", "max_carve_hidden"
+            self,
+            "level_axis",
+            "upright",
+            "sloping",
+            "rising",
+            "short",
+            "restricted",
+            "max_trim",
+            "max_carve",
+            "max_carve_hidden",
         )
         require_ratios(self, "max_carve_seen", "rail_ratio", "least_opening", "kept")
         require_ratios(self, "no_hardware_width", "no_hardware_wide")

@@ -43,7 +43,9 @@ def plan_from_annotation(asset: Asset, config: PlanConfig = PlanConfig()) -> Rea
     who = " and ".join(sorted(others)) or "the input"
     joints = {joint.part: joint for joint in reversed(asset.joints)}  # a part's first joint counts
     made = {part: request_of_joint(_in_step(joint, joints), asset, config) for part, joint in joints.items()}
-    requests = tuple(_linked(made[part], joints, made, asset) for part in dict.fromkeys(j.part for j in asset.joints))
+    linked = [_linked(made[part], joints, made, asset) for part in dict.fromkeys(j.part for j in asset.joints)]
+    leaders = {request.coupling.leader for request in linked if request.coupling is not None}
+    requests = tuple(_stopped(request) if request.moving in leaders else request for request in linked)
     stated = {request.moving for request in requests} | {p.id for p in asset.parts if p.carried_by}
     refused = tuple(
         Refusal(part.id, Reason.NO_MOTION, f"{who} states no joint for it")
@@ -162,6 +164,11 @@ def _linked(
     multiplier = own * joint.coupling.multiplier * its
     offset = own * joint.coupling.offset + request.drawn_at - multiplier * leader.drawn_at
     return replace(request, parent=parent, coupling=Coupling(leader.moving, multiplier, offset))
+
+
+def _stopped(leader: JointRequest) -> JointRequest:
+    """Returns a leader that turns no further than is stated: what follows it would be driven beyond its own range."""
+    return replace(leader, stop=leader.reference) if leader.kind.turns and leader.stop is None else leader
 
 
 def _sign(request: JointRequest, joint: AnnotatedJoint) -> float:

@@ -14,8 +14,9 @@ from grafu.scene.border import BorderFrame
 def most_opening(request: JointRequest, frame: BorderFrame, mesh: TriangleMesh, config: RealizationConfig) -> float:
     """Returns how far what hangs so opens at most, radians: a door to `door_opening`, a lid past upright.
 
-    A flap opens until it is level; one that goes up opens wider where that is stated. Nothing opens further than it is
-    to stop, unless the user chose an opening or a leader states it.
+    A flap opens until it is level, and so does the front of a desk that slopes up from its hinges, however flat; one
+    that goes up opens wider where that is stated. Nothing opens further than it is to stop, unless the user chose an
+    opening or a leader states it.
     """
     most = config.door_opening
     if request.choice.opening is not None or request.coupling is not None:
@@ -24,9 +25,9 @@ def most_opening(request: JointRequest, frame: BorderFrame, mesh: TriangleMesh, 
     if abs(float(axis[2])) <= config.level_axis:
         leaf = _along(mesh, axis, across, config.sloping)
         level = atan2(float(leaf[2]), -float(np.cross(axis, leaf)[2])) % pi
-        if abs(float(across[2])) < config.upright:
+        if abs(float(across[2])) < config.upright and float(leaf[2]) < config.rising:
             most = min(config.lid_opening, most)
-        elif float(across[2]) < 0:
+        elif float(leaf[2]) < 0:
             most = max(level, min(request.reference or 0.0, most))
         else:
             most = level

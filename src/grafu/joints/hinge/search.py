@@ -225,8 +225,12 @@ class DoorSearch:
         return widest_free(self.body, motion, reach, near, self.config.fine_poses, self.config.short)
 
     def _above_floor(self, axis: Axis, reach: float) -> float:
-        """Returns the widest opening at which nothing of the door is below the floor; upright axes keep its height."""
-        if abs(float(axis.direction[2])) > self.config.level_axis:
+        """Returns the widest opening at which nothing of the door is below the floor.
+
+        Upright axes keep its height, and what follows the leaf that carries it is raised by that.
+        """
+        is_carried = self.request.coupling is not None and bool(self.request.parent)
+        if is_carried or abs(float(axis.direction[2])) > self.config.level_axis:
             return reach
         mesh = self.scene.moving_mesh(self.request.moving)
         return widest_above(mesh, axis, reach, self.scene.floor, self.config.coarse_poses)
