@@ -41,6 +41,28 @@ class ColumnConfig(ShortRepr):
 
 @final
 @dataclass(frozen=True, slots=True)
+class OverlayConfig(ShortRepr):
+    """When a front lies on a panel, which is then no front itself.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    least: float = 0.2
+    """Least area of the front (fraction of the panel's) ..."""
+    most: float = 0.9
+    """... and its greatest: the front of a drawer is as large as what is behind it."""
+    spare: float = 0.02
+    """How far the front may stand out of the panel's outline, and a handle out of the front's (fraction)."""
+    before: float = 0.005
+    """How far the front may reach into the panel (fraction of the object's largest side)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
 class DecodeConfig:
     """How scores become a graph. Lengths are fractions of the object's largest side, probabilities in 0..1.
 
@@ -105,6 +127,9 @@ class DecodeConfig:
 
     columns: ColumnConfig = ColumnConfig()
     """Of doors right above each other."""
+
+    overlay: OverlayConfig = OverlayConfig()
+    """Of fronts that lie on panels."""
 
     edge_for_label: float = 0.2
     """What remains of the probability that an unlabelled part is a door, drawer or handle if no part can carry it."""

@@ -5,7 +5,8 @@ that they added as nodes of the input, until none fires: the number of handles h
 of two forward passes, on the graph and on its mirror image: their errors differ.
 
 Labels of unlabelled parts: the network's category, weighed by whether anything could carry such a part, and by whether
-it is one of a row of fronts, which agree, or of a column of wide ones, which are rather drawers.
+it is one of a row of fronts, which agree, or of a column of wide ones, which are rather drawers. A panel on which a
+smaller front with a handle lies is no front.
 
 Labels that the input states are kept, whatever the network states.
 """
@@ -17,6 +18,7 @@ from grafu.completion.answers import decision_of
 from grafu.completion.decode import complete_decoded, decode_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
+from grafu.completion.overlaid import without_overlaid
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
@@ -45,7 +47,8 @@ def choose_labels(
     """
     labels: dict[str, PartLabel] = {}
     decisions = []
-    weights = _with_columns(_weights(probabilities, len(graph.nodes), config), graph, config)
+    weights = without_overlaid(_weights(probabilities, len(graph.nodes), config), graph, config)
+    weights = _with_columns(weights, graph, config)
     for k, node in enumerate(graph.nodes):
         if node.label is not PartLabel.UNKNOWN:
             continue

@@ -1,0 +1,67 @@
+"""Frames that look like fronts: what a smaller front with a handle lies upon is no door or drawer. Boxes alone tell."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from grafu.completion.decode_config import DecodeConfig, OverlayConfig
+from grafu.geometry.box import Box
+from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.vocabulary import PartLabel
+
+
+def without_overlaid(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
+    """Returns the weights of labels (nodes, labels) in which unlabelled parts behind smaller fronts are no fronts.
+
+    Such a part is likely a door or a drawer by itself: a panel with openings, one of which the smaller front closes. It
+    is one where a handle stands on it beside the smaller one, as on a door with a mirror.
+    """
+    likely = [
+        LABELS.index(node.label) if node.label is not PartLabel.UNKNOWN else int(weights[k].argmax())
+        for k, node in enumerate(graph.nodes)
+    ]
+    fronts = [k for k, label in enumerate(likely) if label in (DOOR, DRAWER)]
+    handles = [graph.nodes[k].box for k, label in enumerate(likely) if label == HANDLE]
+    made = weights
+    for k in fronts:
+        node = graph.nodes[k]
+        if node.label is not PartLabel.UNKNOWN:
+            continue
+        others = (graph.nodes[i].box for i in fronts if i != k)
+        if any(_lies_on(other, node.box, graph.box, handles, config.overlay) for other in others):
+            made = made.copy() if made is weights else made
+            made[k, [DOOR, DRAWER]] = 0.0
+    return made
+
+
+def _lies_on(front: Box, panel: Box, whole: Box, handles: list[Box], config: OverlayConfig) -> bool:
+    """Whether a front lies before a panel, within its outline, and has all the handles of both."""
+    thin = panel.thin_axis
+    across = [axis for axis in range(3) if axis != thin]
+    ratio = float(np.prod(front.size[across]) / max(np.prod(panel.size[across]), 1e-12))
+    if not config.least <= ratio <= config.most or not _is_within(front, panel, across, config.spare):
+        return False
+    slack = config.before * float(whole.size.max())
+    if panel.center[thin] < whole.center[thin]:
+        is_before = front.high[thin] <= panel.low[thin] + slack
+    else:
+        is_before = front.low[thin] >= panel.high[thin] - slack
+    held = list(_centers_on(panel, handles, across, slack))
+    return bool(is_before and held and all(_is_within(one, front, across, config.spare) for one in held))
+
+
+def _centers_on(panel: Box, handles: list[Box], across: list[int], slack: float) -> Iterator[Box]:
+    """Yields the handles, as points, whose middles lie in a panel's outline."""
+    for handle in handles:
+        middle = Box(handle.center, handle.center)
+        if bool(np.all(middle.low[across] >= panel.low[across] - slack)) and bool(
+            np.all(middle.high[across] <= panel.high[across] + slack)
+        ):
+            yield middle
+
+
+def _is_within(inner: Box, outer: Box, across: list[int], spare: float) -> bool:
+    room = spare * outer.size[across]
+    low, high = inner.low[across] - outer.low[across], outer.high[across] - inner.high[across]
+    return bool(np.all(low >= -room) and np.all(high >= -room))

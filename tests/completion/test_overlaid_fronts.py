@@ -1,0 +1,67 @@
+"""A panel on which a smaller front with a handle lies is no front; a door with a mirror, or with a panel, is one."""
+
+import numpy as np
+import pytest
+
+from grafu.completion.decode_config import DecodeConfig
+from grafu.completion.overlaid import without_overlaid
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.vocabulary import PartLabel
+
+BODY = Box(vec3(0.0, 0.02, 0.0), vec3(1.0, 0.5, 1.0))
+PANEL = Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 0.02, 1.0))
+FRONT = Box(vec3(0.05, -0.02, 0.05), vec3(0.95, 0.0, 0.6))
+BESIDE = Box(vec3(0.8, -0.04, 0.7), vec3(0.82, 0.0, 0.8))
+ON_FRONT = Box(vec3(0.8, -0.04, 0.4), vec3(0.82, -0.02, 0.5))
+
+
+def fronts(front=FRONT, handles=(ON_FRONT,), panel=PartLabel.UNKNOWN) -> tuple[bool, bool]:
+    """Returns whether the panel, and what lies on it, are still doors, after both were predicted to be some."""
+    boxes = (BODY, PANEL, front, *handles)
+    nodes = tuple(PartNode(str(k), panel if k == 1 else PartLabel.UNKNOWN, box) for k, box in enumerate(boxes))
+    weights = np.full((len(nodes), len(LABELS)), 0.01)
+    weights[0, LABELS.index(PartLabel.SIDE_PANEL)] = 0.9
+    weights[1:3, DOOR], weights[1:3, DRAWER], weights[3:, HANDLE] = 0.8, 0.1, 0.9
+    made = without_overlaid(weights, FunctionalGraph("g", nodes, ()), DecodeConfig())
+    assert np.array_equal(made[[0, 3]], weights[[0, 3]]) if handles else True
+    return made[1, DOOR] + made[1, DRAWER] > 0, made[2, DOOR] > 0
+
+
+def test_a_panel_behind_a_smaller_front_is_none():
+    assert fronts() == (False, True)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        {"handles": (BESIDE,)},
+        {"handles": (BESIDE, ON_FRONT)},
+        {"handles": ()},
+        {"front": Box(vec3(0.01, -0.02, 0.01), vec3(0.99, 0.0, 0.99))},
+        {
+            "front": Box(vec3(0.4, -0.02, 0.4), vec3(0.7, 0.0, 0.6)),
+            "handles": (Box(vec3(0.5, -0.04, 0.5), vec3(0.52, -0.02, 0.52)),),
+        },
+        {"front": Box(vec3(0.05, 0.02, 0.05), vec3(0.95, 0.04, 0.6))},
+        {"front": Box(vec3(0.5, -0.02, 0.05), vec3(1.4, 0.0, 0.6))},
+        {"panel": PartLabel.DOOR},
+    ],
+    ids=["a mirror", "both have handles", "no handle", "as large", "small", "behind it", "beside it", "by its name"],
+)
+def test_other_panels_stay_fronts(case):
+    assert fronts(**case) == (True, True)
+
+
+def test_it_holds_on_every_side_of_the_object():
+    for turns in range(4):
+        c, s = np.cos(turns * np.pi / 2), np.sin(turns * np.pi / 2)
+        R = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        boxes = [Box.around(box.corners() @ R.T) for box in (BODY, PANEL, FRONT, ON_FRONT)]
+        nodes = tuple(PartNode(str(k), PartLabel.UNKNOWN, box) for k, box in enumerate(boxes))
+        weights = np.full((4, len(LABELS)), 0.01)
+        weights[0, 0], weights[1:3, DOOR], weights[3, HANDLE] = 0.9, 0.8, 0.9
+        made = without_overlaid(weights, FunctionalGraph("g", nodes, ()), DecodeConfig())
+        assert made[1, DOOR] == 0.0 < made[2, DOOR]
