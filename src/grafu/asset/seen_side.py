@@ -3,7 +3,7 @@
 Coordinates are the input's; directions are spelled like `-Y`. No label and no joint is asked.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -24,7 +24,8 @@ class SeenSideConfig:
     """When what is seen from one side tells that it is the front.
 
     Of 137 models of five sources 89 tell a front with `clear`, 86 of them the true one; 80 with `against`, 78 of them.
-    Of 14 real GLB files 4 do not face +Z.
+    Of 14 real GLB files 4 do not face +Z. Of 127 models 87 tell a front with `clear` and `plain`, 85 of them the true
+    one; with the links of robot descriptions in place of their parts 100 and 99.
 
     Raises:
         ValueError: if a number is not above 0.
@@ -38,6 +39,10 @@ class SeenSideConfig:
     """How many times more than any other side the front shows of parts, where nothing states a front ..."""
     against: float = 1.3
     """... and where the format states another."""
+    plain: float = 2.0
+    """How many times more it shows of parts where it need not show the most steps ..."""
+    stepped: float = 0.5
+    """... but this much of the most (fraction)."""
     trace: float = 0.02
     """What every side may show of parts (nats of entropy)."""
 
@@ -60,7 +65,7 @@ def most_shown_side(
     """Returns the side that shows the most parts and the most steps between them; None where these do not agree.
 
     The back and the sides of furniture are a board or few; doors, drawers, handles and open compartments are at the
-    front.
+    front. The links of a robot description count first: its body may be built of many boxes.
 
     Args:
         parts: the parts, in the input's coordinates.
@@ -69,15 +74,25 @@ def most_shown_side(
         is_stated: whether the format states a front, which takes more to overrule.
         config: when a side tells.
     """
-    meshes = [part.mesh for part in parts]
-    owners = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
-    caster = RayCaster(merge_meshes(meshes))
-    appearances = {side: _appearance(caster, owners, whole, side, config) for side in DIRECTIONS if side[1] != up[1]}
+    caster = RayCaster(merge_meshes([part.mesh for part in parts]))
+    bodies = [part.source.link or part.id for part in parts], [part.id for part in parts]
+    for names in bodies if len(set(bodies[0])) < len(parts) else bodies[1:]:
+        number = np.unique(names, return_inverse=True)[1]
+        owners = np.repeat(number, [len(part.mesh.faces) for part in parts])
+        sides = (side for side in DIRECTIONS if side[1] != up[1])
+        shown = _most({side: _appearance(caster, owners, whole, side, config) for side in sides}, is_stated, config)
+        if shown is not None:
+            return shown
+    return None
+
+
+def _most(appearances: Mapping[str, _Appearance], is_stated: bool, config: SeenSideConfig) -> str | None:
     first, second = sorted(appearances, key=lambda side: -appearances[side].parts)[:2]
+    others, most = appearances[second].parts + config.trace, max(one.steps for one in appearances.values())
     least = config.against if is_stated else config.clear
-    is_clear = appearances[first].parts >= least * (appearances[second].parts + config.trace)
-    is_stepped = appearances[first].steps >= max(appearance.steps for appearance in appearances.values())
-    return first if is_clear and is_stepped else None
+    is_clear = appearances[first].parts >= least * others and appearances[first].steps >= most
+    is_plain = appearances[first].parts >= config.plain * others and appearances[first].steps >= config.stepped * most
+    return first if is_clear or is_plain else None
 
 
 def _appearance(
