@@ -19,6 +19,7 @@ from grafu.asset.cutting import CutConfig
 from grafu.asset.drafts import GroupConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
+from grafu.asset.grips import DrawnGripConfig
 from grafu.asset.loose import LooseConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
@@ -194,6 +195,7 @@ IN_FUNCTIONS = {
 }
 CONFIGS = (
     AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
+    DrawnGripConfig,
     DynamicsConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LooseConfig,
     MassConfig, MatchConfig,

@@ -8,13 +8,14 @@ one part; handles among them ride on it. Every other node with a mesh is a part 
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import final
 
 import numpy as np
 
+from grafu.asset.grips import grip_among
 from grafu.asset.labels import is_piece, is_whole_part, label_of
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Part, PartSource
@@ -83,9 +84,22 @@ def parts_of_drafts(drafts: list[PartDraft], config: GroupConfig = GroupConfig()
             grouped[key] = _Grouped(draft.name, label, (draft,), f"group {draft.group}" if draft.group else "")
         else:
             grouped[key] = _Grouped(draft.group_name, label_of(draft.group_name), (draft,))
+    grouped = {key: one for group, all_of_it in grouped.items() for key, one in _with_grip(group, all_of_it)}
     ids = unique_ids((g.name, g.label is PartLabel.HANDLE) for g in grouped.values())
     by_key = dict(zip(grouped, ids, strict=True))
     return tuple(_part(g, by_key[key], by_key.get(g.carrier)) for key, g in grouped.items())
+
+
+def _with_grip(key: str, grouped: _Grouped) -> Iterator[tuple[str, _Grouped]]:
+    """Yields a group, and apart from it the handle of a door that is drawn in nameless pieces."""
+    drafts = [d for d in grouped.drafts if _box([d]) is not None]
+    nameless = all(label_of(d.label_name or d.name) in (PartLabel.UNKNOWN, PartLabel.DOOR) for d in drafts)
+    is_door = grouped.label is PartLabel.DOOR and len(drafts) > 1 and nameless
+    grip = grip_among([box for d in drafts if (box := _box([d])) is not None]) if is_door else ()
+    pieces = tuple(drafts[k] for k in grip)
+    yield key, replace(grouped, drafts=tuple(d for d in grouped.drafts if not any(d is one for one in pieces)))
+    if pieces:
+        yield f"grip of {key}", _Grouped(f"{grouped.name} handle", PartLabel.HANDLE, pieces, key)
 
 
 def _part(grouped: _Grouped, part_id: str, carrier: str | None) -> Part:

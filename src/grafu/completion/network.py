@@ -6,7 +6,7 @@ of two forward passes, on the graph and on its mirror image: their errors differ
 
 Labels of unlabelled parts: the network's category, weighed by whether anything could carry such a part, and by whether
 it is one of a row of fronts, which agree, or of a column of wide ones, which are rather drawers. A panel on which a
-smaller front with a handle lies is no front.
+smaller front with a handle lies is no front, nor is a rod; what touches handles alone is a piece of one.
 
 Labels that the input states are kept, whatever the network states.
 """
@@ -18,7 +18,7 @@ from grafu.completion.answers import decision_of
 from grafu.completion.decode import complete_decoded, decode_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
-from grafu.completion.overlaid import without_overlaid
+from grafu.completion.label_shapes import held_by_handles, without_overlaid, without_slim
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, with_parts
@@ -47,7 +47,8 @@ def choose_labels(
     """
     labels: dict[str, PartLabel] = {}
     decisions = []
-    weights = without_overlaid(_weights(probabilities, len(graph.nodes), config), graph, config)
+    weights = without_slim(_weights(probabilities, len(graph.nodes), config), graph, config)
+    weights = without_overlaid(weights, graph, config)
     weights = _with_columns(weights, graph, config)
     for k, node in enumerate(graph.nodes):
         if node.label is not PartLabel.UNKNOWN:
@@ -56,7 +57,9 @@ def choose_labels(
         ranking = ranking_of([label.value for label in LABELS], np.maximum(weights[k], _LEAST) * allowed)
         labels[node.id] = PartLabel(ranking.choice)
         decisions.append(decision_of(node.id, "label", ranking))
-    return labels, tuple(decisions)
+    grips = held_by_handles(graph, labels)
+    kept = (decision for decision in decisions if decision.part not in grips)
+    return labels | dict.fromkeys(grips, PartLabel.HANDLE), tuple(kept)
 
 
 def _weights(probabilities: Probabilities, count: int, config: DecodeConfig) -> np.ndarray:

@@ -35,7 +35,7 @@ class WideBarConfig:
     LENGTHS = ("out",)
     alone: float = 0.8
     """Least width of the door (fraction of the piece's): doors side by side may have such bars, and be side-hung."""
-    wide: float = 0.6
+    wide: float = 0.5
     """Least width of the bar (fraction of the door's)."""
     slim: float = 0.2
     """Greatest height of the bar (fraction of its width)."""
@@ -78,8 +78,11 @@ def _turned(request: JointRequest, asset: Asset, config: WideBarConfig) -> Joint
 
 
 def _is_handle(part: Part, request: JointRequest) -> bool:
-    rides = part.carried_by == request.moving or part.id in request.attached
-    return rides and part.label is PartLabel.HANDLE
+    """Whether a part is a handle of the door: so is what has no label and was predicted to be attached to it."""
+    is_attached = part.id in request.attached
+    if part.label is PartLabel.UNKNOWN:
+        return is_attached
+    return part.label is PartLabel.HANDLE and (is_attached or part.carried_by == request.moving)
 
 
 def _side(bar: Box, door: Part, config: WideBarConfig) -> Side | None:

@@ -1,6 +1,10 @@
-"""Frames that look like fronts: what a smaller front with a handle lies upon is no door or drawer. Boxes alone tell."""
+"""What boxes and contacts state about the labels of unlabelled parts, whatever the network states.
 
-from collections.abc import Iterator
+What a smaller front with a handle lies upon is no door or drawer, nor is what is slim as a rod; what touches nothing
+but handles is a piece of one.
+"""
+
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -9,6 +13,34 @@ from grafu.geometry.box import Box
 from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
+
+
+def without_slim(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
+    """Returns the weights of labels (nodes, labels) in which unlabelled rods are no doors or drawers."""
+    least = config.strip * float(graph.box.size.max())
+    slim = [
+        k
+        for k, node in enumerate(graph.nodes)
+        if node.label is PartLabel.UNKNOWN and float(np.sort(node.box.size)[1]) < least
+    ]
+    if not slim:
+        return weights
+    made = weights.copy()
+    made[np.ix_(slim, [DOOR, DRAWER])] = 0.0
+    return made
+
+
+def held_by_handles(graph: FunctionalGraph, labels: Mapping[str, PartLabel]) -> frozenset[str]:
+    """Returns the unlabelled nodes that touch handles and nothing else: the bar of a handle on its posts.
+
+    `labels` are those that were found for unlabelled nodes.
+    """
+    settled = {node.id: labels.get(node.id, node.label) for node in graph.nodes}
+    return frozenset(
+        name
+        for name in labels
+        if (touched := graph.neighbours[name]) and all(settled[other] is PartLabel.HANDLE for other in touched)
+    )
 
 
 def without_overlaid(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:

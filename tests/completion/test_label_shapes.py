@@ -1,13 +1,16 @@
-"""A panel on which a smaller front with a handle lies is no front; a door with a mirror, or with a panel, is one."""
+"""What boxes and contacts state about labels: panels behind smaller fronts, rods, and the bars of handles."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from grafu.completion.decode_config import DecodeConfig
-from grafu.completion.overlaid import without_overlaid
+from grafu.completion.label_shapes import held_by_handles, without_overlaid, without_slim
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
+from grafu.graph.edges import Contact
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import PartLabel
 
@@ -65,3 +68,25 @@ def test_it_holds_on_every_side_of_the_object():
         weights[0, 0], weights[1:3, DOOR], weights[3, HANDLE] = 0.9, 0.8, 0.9
         made = without_overlaid(weights, FunctionalGraph("g", nodes, ()), DecodeConfig())
         assert made[1, DOOR] == 0.0 < made[2, DOOR]
+
+
+@pytest.mark.parametrize(
+    ("height", "label", "is_front"), [(0.01, "unknown", False), (0.05, "unknown", True), (0.01, "drawer", True)]
+)
+def test_a_rod_is_no_drawer_unless_its_name_states_it(height, label, is_front):
+    rod = PartNode("rod", PartLabel(label), Box(vec3(0.1, -0.05, 0.5), vec3(0.9, -0.05 + height, 0.5 + height)))
+    weights = np.full((2, len(LABELS)), 0.1)
+    weights[1, DRAWER] = 0.8
+    graph = FunctionalGraph("g", (PartNode("body", PartLabel.UNKNOWN, BODY), rod), ())
+    assert bool(without_slim(weights, graph, DecodeConfig())[1, DRAWER] > 0) is is_front
+
+
+def test_what_touches_handles_alone_is_a_piece_of_a_handle():
+    boxes = {"front": FRONT, "post": ON_FRONT, "bar": BESIDE, "foot": BODY}
+    nodes = tuple(PartNode(name, PartLabel.UNKNOWN, box) for name, box in boxes.items())
+    edges = (Contact("front", "post"), Contact("post", "bar"), Contact("front", "foot"))
+    graph = FunctionalGraph("g", nodes, edges)
+    labels = {"front": PartLabel.DRAWER, "post": PartLabel.HANDLE, "bar": PartLabel.BAR, "foot": PartLabel.LEG}
+    assert held_by_handles(graph, labels) == {"bar"}
+    assert held_by_handles(graph, labels | {"post": PartLabel.BAR}) == frozenset()
+    assert held_by_handles(replace(graph, edges=(*edges, Contact("bar", "front"))), labels) == frozenset()

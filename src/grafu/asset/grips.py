@@ -1,0 +1,85 @@
+"""The handle among pieces of one door that no name tells apart, as the shapes of a body in a robot description.
+
+It reads no names and no files: the bar stands before the leaf, on posts or by itself.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, final
+
+import numpy as np
+
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_ratios
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class DrawnGripConfig:
+    """What counts as the handle of a door that is drawn in several pieces.
+
+    Raises:
+        ValueError: if a number is not between 0 and 1.
+    """
+
+    thin: float = 0.35
+    """Greatest thickness of the leaf (fraction of its next side)."""
+    small: float = 0.12
+    """Greatest face of a piece of the handle (fraction of the leaf's)."""
+    touch: float = 0.01
+    """How far these pieces may lie from the leaf and from each other, and stand out of its outline (fraction of the
+    leaf's largest side)."""
+    out: float = 0.04
+    """How far the handle stands out of the leaf at least (fraction of its largest side): mouldings are flatter."""
+    shared: float = 0.3
+    """Greatest face of all pieces of the handle together (fraction of the leaf's): more are a frame."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
+
+
+DEFAULT_DRAWN_GRIP_CONFIG: Final = DrawnGripConfig()
+
+
+def grip_among(boxes: Sequence[Box], config: DrawnGripConfig = DEFAULT_DRAWN_GRIP_CONFIG) -> tuple[int, ...]:
+    """Returns the numbers of the pieces of a door that are its handle; none where no leaf or no handle is plain."""
+    leaf = max(range(len(boxes)), key=lambda k: _face(boxes[k]), default=None)
+    if leaf is None or boxes[leaf].size.min() > config.thin * np.sort(boxes[leaf].size)[1]:
+        return ()
+    plate = boxes[leaf]
+    slack = config.touch * float(plate.size.max())
+    around = plate.grown(slack)
+    across = [axis for axis in range(3) if axis != plate.thin_axis]
+    small = [
+        k
+        for k, box in enumerate(boxes)
+        if k != leaf and _face(box) <= config.small * _face(plate) and _is_before(box, plate, around, across)
+    ]
+    found: list[int] = []
+    queue = [plate]
+    while queue:
+        near = queue.pop()
+        new = [k for k in small if k not in found and near.overlaps(boxes[k], slack)]
+        found += new
+        queue += [boxes[k] for k in new]
+    faces = sum(_face(boxes[k]) for k in found)
+    stands_out = found and _reach([boxes[k] for k in found], plate) >= config.out * float(plate.size.max())
+    return tuple(sorted(found)) if stands_out and faces <= config.shared * _face(plate) else ()
+
+
+def _is_before(box: Box, plate: Box, around: Box, across: list[int]) -> bool:
+    """Whether a piece lies in the outline of a leaf, and with its middle out of the leaf's plane."""
+    thin = plate.thin_axis
+    within = np.all(box.low[across] >= around.low[across]) and np.all(box.high[across] <= around.high[across])
+    return bool(within and not plate.low[thin] < box.center[thin] < plate.high[thin])
+
+
+def _reach(boxes: Sequence[Box], plate: Box) -> float:
+    """Returns how far pieces stand out of a leaf to the farther side."""
+    thin, all_of_them = plate.thin_axis, Box.enclosing(boxes)
+    return float(max(plate.low[thin] - all_of_them.low[thin], all_of_them.high[thin] - plate.high[thin]))
+
+
+def _face(box: Box) -> float:
+    first, second = np.sort(box.size)[1:]
+    return float(first * second)
