@@ -212,6 +212,8 @@ def test_what_is_no_compartment_is_none_and_says_so(parts) -> None:
 
     assert find_compartments(scene) == ()
     assert [r.why[:14] for r in furnish((), AUTO, scene).refused] == ["no compartment"]
+    hint = PanelHint("shelf", PartLabel.SHELF, Box(vec3(-0.3, -0.1, 0.4), vec3(0.3, 0.1, 0.42)))
+    assert furnish((), PREDICTED, scene, hints=(hint,)).refused == ()  # nothing is missing where it has no room
 
 
 def test_a_cabinet_without_a_top_has_room_behind_its_door() -> None:

@@ -68,6 +68,8 @@ def furnish(
     if request.kind is InteriorKind.NONE and not chosen:
         return Furnished()
     if not compartments:
+        if request.kind is InteriorKind.PREDICTED and not chosen:  # nothing is missing where there is no room for it
+            return Furnished()
         return Furnished((), (refused_panel(None, None, Reason.NO_COMPARTMENT, why_inapplicable(scene, config)),))
     sizes = config.sizes(scene.extent)
     wanted, refused = _arranged(compartments, request, sizes, config, hints)
