@@ -267,6 +267,23 @@ def test_with_other_thresholds_the_verdict_is_another():
     assert strict.least_confidence == 0.95
 
 
+@pytest.mark.parametrize(
+    ("note", "is_green"),
+    [
+        ("mesh door.stl is missing and was left out", False),
+        ("textured_objs/new-2.obj is missing and was left out", False),
+        ("texture oak.png is missing and was left out", True),
+        ("shape <plane> is not read and was left out", True),
+    ],
+)
+def test_a_mesh_that_could_not_be_read_is_something_to_look_at(note, is_green):
+    report = sound(0)
+    read = report.input.model_copy(update={"notes": (note,)})
+    verdict = verdict_of(report.model_copy(update={"input": read}))
+    assert (verdict.colour is Colour.GREEN) is is_green
+    assert [line.why for line in verdict.lines] == ([] if is_green else [note])
+
+
 def test_what_the_budget_did_not_hold_is_something_to_look_at():
     verdict = verdict_of(sound(0).model_copy(update={"notes": ("no interiors: the budget was used up",)}))
 

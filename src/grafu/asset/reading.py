@@ -161,3 +161,8 @@ def has_area(mesh: TriangleMesh) -> Mask:
     twice_area = np.linalg.norm(np.cross(ab, ac), axis=1)
     longest = np.maximum.reduce([(e * e).sum(axis=1) for e in (ab, ac, bc)])
     return twice_area > _FLATNESS * np.maximum(longest, 1e-300)
+
+
+def tells_of_lost_mesh(note: str) -> bool:
+    """Whether a reader's note states that a mesh was left out: a piece of the model is missing, and not its look."""
+    return note.startswith(("mesh ", "textured_objs/")) and "was left out" in note

@@ -10,6 +10,7 @@ from math import prod
 from typing import final
 
 from grafu.articulation.motion_kind import motion_kind
+from grafu.asset.reading import tells_of_lost_mesh
 from grafu.geometry.config_checks import require_ratios
 from grafu.pipeline.report_schema import (
     NOT_ADDED,
@@ -115,7 +116,8 @@ def _faults(report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:
     for skip in not_built(report):
         if not (_is_motion(skip) and skip.request in without):
             yield _fault(report, skip.request, FaultKind.NOT_BUILT, skip.detail or skip.sentence or str(skip.reason))
-    yield from (_fault(report, "", FaultKind.NOTED, note, "") for note in report.notes)
+    lost = (note for note in report.input.notes if tells_of_lost_mesh(note))
+    yield from (_fault(report, "", FaultKind.NOTED, note, "") for note in (*report.notes, *lost))
     if not (report.joints or without or fixed_by_user(report)):
         yield _fault(report, "", FaultKind.NOTHING_MOVES, "no part is a door or a drawer")
 
