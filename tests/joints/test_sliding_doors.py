@@ -82,7 +82,15 @@ def test_a_door_that_is_called_sliding_turns_where_another_stands_in_its_way(end
     assert joints["sliding_door"].type is JointType.REVOLUTE
 
 
-@pytest.mark.parametrize(("name", "kind"), [("sliding_door", JointType.PRISMATIC), ("door", JointType.REVOLUTE)])
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("sliding_door", JointType.PRISMATIC),
+        ("slidedoor", JointType.PRISMATIC),
+        ("door_slidelink", JointType.PRISMATIC),
+        ("door", JointType.REVOLUTE),
+    ],
+)
 def test_a_single_door_that_is_called_sliding_slides_to_where_there_is_room(name, kind):
     *shell, front, _ = two_sliding_doors(0.003, stated=False).parts
     leaf = box(name, tuple(front.box.low), tuple(front.box.high))

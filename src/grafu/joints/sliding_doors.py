@@ -20,7 +20,7 @@ from grafu.joints.plan import JointRequest, RealizationPlan
 
 SOURCE = "rule"
 """`JointRequest.source` of a sliding door: its name tells."""
-_WORDS = frozenset({"sliding", "bypass"})
+_WORDS = ("sliding", "slide", "bypass")  # or what begins so: `slidelink`
 _UP = 2
 
 
@@ -33,7 +33,7 @@ class NamedSlideConfig:
         ValueError: if a fraction is not between 0 and 1.
     """
 
-    thin: float = 0.15
+    thin: float = 0.2
     """Greatest thickness of a leaf (fraction of its shorter other side)."""
     room: float = 0.5
     """Within the piece it needs room beside it for at least this fraction of its width."""
@@ -59,7 +59,7 @@ def with_sliding_doors(
 def _sliding(request: JointRequest, asset: Asset, doors: list[Part], config: NamedSlideConfig) -> JointRequest:
     """Returns the request of a hinged door that is called sliding as one that slides; any other as it is."""
     leaf = asset.part(request.moving)
-    if not _WORDS & set(spoken(leaf.source.name)):
+    if not any(word.startswith(_WORDS) for word in spoken(leaf.source.name)):
         return request
     shift = next(_shifts(leaf, asset, doors, config), None)
     if shift is None:
