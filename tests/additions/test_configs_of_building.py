@@ -7,6 +7,7 @@ import pytest
 
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.compartment.config import SolidBodyConfig
+from grafu.additions.door_frame.config import DoorFrameConfig
 from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripSize, GripSizes, GripTrials, GroundConfig
 from grafu.additions.handle.config import HandleConfig, HandleTrials
@@ -27,7 +28,8 @@ from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, Rail
 from grafu.joints.rail_footing_config import RailFootingConfig
 
 CONFIGS = (
-    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, ClearanceConfig, CutoutConfig, DrawerBoxConfig,
+    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, ClearanceConfig, CutoutConfig, DoorFrameConfig,
+    DrawerBoxConfig,
     EvidenceConfig, FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig,
     GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig,
     PinConfig, PivotConfig, RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig,
@@ -40,6 +42,7 @@ POSITIVE = [
     (CarcassConfig, "back"),
     (ClearanceConfig, "play"),
     (SolidBodyConfig, "wall"),
+    (DoorFrameConfig, "gap"),
     (CutoutConfig, "opening"),
     (DrawerBoxConfig, "wall"),
     (EvidenceConfig, "flange"),

@@ -27,6 +27,7 @@ REASONS = {
     "carcass/missing_panels.py": {"RAY_GRID": SAMPLES, "NAMED": WORDS},
     "compartment/complete.py": {"_LINING": NUMBERING},
     "compartment/solid.py": {"RAYS": SAMPLES, "PLACES": SAMPLES, "_Y": NUMBERING},
+    "door_frame/complete.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING},
     "drawer_box/boards.py": {
         "RAYS_PER_SIDE": SAMPLES,
         "SPREAD": SAMPLES,

@@ -89,4 +89,5 @@ def test_what_touches_handles_alone_is_a_piece_of_a_handle():
     labels = {"front": PartLabel.DRAWER, "post": PartLabel.HANDLE, "bar": PartLabel.BAR, "foot": PartLabel.LEG}
     assert held_by_handles(graph, labels) == {"bar"}
     assert held_by_handles(graph, labels | {"post": PartLabel.BAR}) == frozenset()
+    assert held_by_handles(replace(graph, edges=(Contact("front", "post"),)), labels) == frozenset()
     assert held_by_handles(replace(graph, edges=(*edges, Contact("bar", "front"))), labels) == frozenset()

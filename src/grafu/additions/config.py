@@ -6,6 +6,7 @@ from typing import final
 
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.compartment.config import SolidBodyConfig
+from grafu.additions.door_frame.config import DoorFrameConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig
 from grafu.additions.handle.config import HandleChoice, HandleConfig
@@ -30,6 +31,8 @@ class AdditionConfig(ShortRepr):
     """Whether an added top takes the place of one that is there."""
     solid_bodies: SolidBodyConfig | None = field(default_factory=SolidBodyConfig)
     """How compartments are cut into what is solid right behind doors and drawers."""
+    door_frame: DoorFrameConfig | None = field(default_factory=DoorFrameConfig)
+    """The frame of a door of a building that is drawn alone."""
     drawer_boxes: DrawerBoxConfig | None = field(default_factory=DrawerBoxConfig)
     carcass: CarcassConfig | None = None
     handles: HandleConfig | None = field(default_factory=HandleConfig)
@@ -53,6 +56,6 @@ class AdditionConfig(ShortRepr):
 
 
 NO_ADDITIONS = AdditionConfig(
-    top=None, solid_bodies=None, drawer_boxes=None, handles=None, grips=None, interior=NOTHING
+    top=None, solid_bodies=None, door_frame=None, drawer_boxes=None, handles=None, grips=None, interior=NOTHING
 )
 """Motions alone."""

@@ -64,6 +64,7 @@ class DeficiencyKind(StrEnum):
     BACK = "back panel"  # the back of a carcass is open
     BOTTOM = "bottom panel"  # its bottom is open
     DRAWER_BOX = "drawer box"  # a drawer is only a front, or its box lacks boards
+    DOOR_FRAME = "door frame"  # a door of a building is drawn without one
     COMPARTMENT = "compartment"  # what carries a door or drawer is solid right behind it
     LABEL = "label"  # the part's category is not known
 

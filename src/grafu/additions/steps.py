@@ -10,6 +10,7 @@ from typing import final
 from grafu.additions.carcass.complete import add_carcass_boards
 from grafu.additions.compartment.complete import cut_compartments
 from grafu.additions.config import AdditionConfig
+from grafu.additions.door_frame.complete import add_door_frame
 from grafu.additions.drawer_box.complete import add_drawer_boxes
 from grafu.additions.handle.step import FrontConfig, add_chosen, add_grasps, clear_fronts
 from grafu.additions.interior.turned import InteriorChoice, add_panels
@@ -41,6 +42,7 @@ def _interior(config: AdditionConfig) -> InteriorChoice:
 
 BEFORE_JOINTS = (
     Step("tops", lambda scene, asked, config: add_tops(scene, asked, TopChoice(config.top, config.replaces_top))),
+    Step("door frames", lambda scene, asked, config: add_door_frame(scene, asked, config.door_frame)),
     Step("compartments", lambda scene, asked, config: cut_compartments(scene, asked, config.solid_bodies)),
     Step("drawer boxes", lambda scene, asked, config: add_drawer_boxes(scene, asked, config.drawer_boxes)),
     Step("carcass boards", lambda scene, asked, config: add_carcass_boards(scene, asked, config.carcass)),

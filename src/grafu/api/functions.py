@@ -99,6 +99,7 @@ def functionalize(
     handles: bool | str = True,
     drawer_boxes: bool = True,
     compartments: bool = True,
+    door_frame: bool = True,
     interior: str = "predicted",
     carcass: bool = False,
     trim: bool = True,
@@ -121,6 +122,7 @@ def functionalize(
         handles: whether handles or grips are added, or their style: a template's id, `grip`, `groove`, `edge`, `hole`.
         drawer_boxes: whether a drawer that is only a front gets a box.
         compartments: whether what is solid behind doors and drawers gets compartments.
+        door_frame: whether a door of a building that is drawn alone gets a frame.
         interior: shelves and dividers: `predicted`, `auto`, `none`, or counts such as `shelves=2,dividers=1`.
         carcass: whether missing backs and bottoms are added.
         trim: whether material may be taken away to give a part clearance.
@@ -146,6 +148,7 @@ def functionalize(
         handles=require_bool_or_word(handles, "handles", "a style"),
         drawer_boxes=require(drawer_boxes, bool, "drawer_boxes", "True or False"),
         compartments=require(compartments, bool, "compartments", "True or False"),
+        door_frame=require(door_frame, bool, "door_frame", "True or False"),
         interior=require(interior, str, "interior", "a word such as `auto`"),
         carcass=require(carcass, bool, "carcass", "True or False"),
     )

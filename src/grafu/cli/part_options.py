@@ -100,6 +100,7 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--no-compartments", action="store_true", help="leave what is solid behind doors and drawers as it is"
     )
+    group.add_argument("--no-door-frame", action="store_true", help="add no frame to a door that is drawn without one")
     group.add_argument(
         "--top", choices=TOP_SHAPES, metavar="SHAPE", help=f"shape of added tops: {', '.join(TOP_SHAPES)}"
     )
@@ -156,6 +157,7 @@ def addition_config(
             handles=False if options.no_handles else options.handle,
             drawer_boxes=False if options.no_drawer_boxes else None,
             compartments=False if options.no_compartments else None,
+            door_frame=False if options.no_door_frame else None,
             interior=options.interior,
             carcass=True if options.complete == "carcass" else None,
         )

@@ -33,13 +33,15 @@ def without_slim(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConf
 def held_by_handles(graph: FunctionalGraph, labels: Mapping[str, PartLabel]) -> frozenset[str]:
     """Returns the unlabelled nodes that touch handles and nothing else: the bar of a handle on its posts.
 
-    `labels` are those that were found for unlabelled nodes.
+    `labels` are those that were found for unlabelled nodes. A door that touches its handle alone stays a door.
     """
     settled = {node.id: labels.get(node.id, node.label) for node in graph.nodes}
     return frozenset(
         name
-        for name in labels
-        if (touched := graph.neighbours[name]) and all(settled[other] is PartLabel.HANDLE for other in touched)
+        for name, label in labels.items()
+        if not label.is_movable
+        and (touched := graph.neighbours[name])
+        and all(settled[other] is PartLabel.HANDLE for other in touched)
     )
 
 

@@ -75,7 +75,7 @@ def building_door(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig(
     if frame is None or not leaves:
         return None
     others = [part for part in asset.parts if part is not frame and part not in leaves]
-    on_leaf = tuple(tuple(part for part in others if _is_on(part, leaf, config)) for leaf in leaves)
+    on_leaf = tuple(tuple(part for part in others if is_on_leaf(part, leaf, config)) for leaf in leaves)
     known = {part.id for parts in on_leaf for part in parts}
     return FramedLeaves(frame, leaves, on_leaf) if all(part.id in known for part in others) else None
 
@@ -161,7 +161,7 @@ def _request(
         axis = Axis(leaf.box.center, vec3(np.copysign(1.0, shift), 0.0, 0.0))
         wide = float(leaf.box.size[_WIDTH])
         return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, wide, (), attached, abs(shift))
-    side = _hinged_side(leaf, leaves, on_it, config)
+    side = hinged_side(leaf, leaves, on_it, config)
     return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, frame, on_it, config))
 
 
@@ -180,14 +180,14 @@ def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: Bui
     return before and not behind
 
 
-def _is_on(part: Part, leaf: Part, config: BuildingDoorConfig) -> bool:
+def is_on_leaf(part: Part, leaf: Part, config: BuildingDoorConfig) -> bool:
     """Whether a part lies within the outline of a leaf, seen from before it, and close to it."""
     width = float(leaf.box.size[_WIDTH])
     room = width * np.array([config.threshold, config.before, config.threshold])
     return bool(np.all(part.box.low >= leaf.box.low - room) and np.all(part.box.high <= leaf.box.high + room))
 
 
-def _hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], config: BuildingDoorConfig) -> Side:
+def hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], config: BuildingDoorConfig) -> Side:
     """Returns the edge away from handles and locks; without these the outer edge of several leaves, else the left."""
     box = leaf.box
     small = [part.box for part in on_it if part.box.size.max() <= config.small * box.size[_UP]]

@@ -6,6 +6,7 @@ from dataclasses import replace
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.compartment.config import SolidBodyConfig
 from grafu.additions.config import AdditionConfig
+from grafu.additions.door_frame.config import DoorFrameConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripKind
 from grafu.additions.handle.config import HandleConfig
@@ -26,6 +27,7 @@ def choose_additions(
     handles: bool | str | None = None,
     drawer_boxes: bool | None = None,
     compartments: bool | None = None,
+    door_frame: bool | None = None,
     interior: str | None = None,
     carcass: bool | None = None,
 ) -> AdditionConfig:
@@ -38,6 +40,7 @@ def choose_additions(
         handles: whether handles and grips are added, or their style: a template's id or one of `GRIPS`.
         drawer_boxes: whether a drawer that is only a front gets a box.
         compartments: whether what is solid behind doors and drawers gets compartments.
+        door_frame: whether a door of a building that is drawn alone gets a frame.
         interior: `none`, `auto`, `predicted`, or counts for each compartment such as `shelves=2,dividers=1`.
         carcass: whether missing backs and bottoms are added.
 
@@ -51,6 +54,8 @@ def choose_additions(
         config = replace(config, drawer_boxes=(config.drawer_boxes or DrawerBoxConfig()) if drawer_boxes else None)
     if compartments is not None:
         config = replace(config, solid_bodies=(config.solid_bodies or SolidBodyConfig()) if compartments else None)
+    if door_frame is not None:
+        config = replace(config, door_frame=(config.door_frame or DoorFrameConfig()) if door_frame else None)
     if carcass is not None:
         config = replace(config, carcass=(config.carcass or CarcassConfig()) if carcass else None)
     if interior is not None:

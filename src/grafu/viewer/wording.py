@@ -19,7 +19,7 @@ _ADDED_FOR = {
     DeficiencyKind.BACK: PartLabel.BACK_PANEL,
     DeficiencyKind.BOTTOM: PartLabel.BOTTOM_PANEL,
 }
-_BY_STYLE = (DeficiencyKind.DRAWER_BOX, DeficiencyKind.COMPARTMENT)
+_BY_STYLE = (DeficiencyKind.DRAWER_BOX, DeficiencyKind.COMPARTMENT, DeficiencyKind.DOOR_FRAME)
 _STRAIGHT = 0.9999  # a direction this near to an axis is called by its name
 
 
@@ -43,8 +43,9 @@ def added(report: Report) -> list[str]:
     kinds = Counter(part.category for part in report.added if part.style not in _BY_STYLE)
     hardware = [(hinges, "hinge"), (rails, "rail"), (sum(joint.stays for joint in report.joints), "stay")]
     counts = [*hardware, *((count, kind.value) for kind, count in kinds.items())]
-    cut = sum(part.style == DeficiencyKind.COMPARTMENT for part in report.added)
-    by_style = (len(boxes), DeficiencyKind.DRAWER_BOX.value), (cut, DeficiencyKind.COMPARTMENT.value)
+    styles = Counter(part.style for part in report.added)
+    singly = ((styles[kind], kind.value) for kind in _BY_STYLE if kind is not DeficiencyKind.DRAWER_BOX)
+    by_style = ((len(boxes), DeficiencyKind.DRAWER_BOX.value), *singly)
     return [counted(count, what) for count, what in (*counts, *by_style) if count]
 
 
@@ -134,8 +135,8 @@ def _mended(lack: DeficiencyRecord, report: Report) -> bool:
         return part is not None and part.category is not PartLabel.UNKNOWN
     if lack.kind is DeficiencyKind.DRAWER_BOX:
         return any(a.link == lack.part and a.category is not PartLabel.HANDLE for a in report.added)
-    if lack.kind is DeficiencyKind.COMPARTMENT:
-        return any(a.style == DeficiencyKind.COMPARTMENT for a in report.added)
+    if lack.kind in _BY_STYLE:
+        return any(a.style == lack.kind for a in report.added)
     return any(added.category is _ADDED_FOR[lack.kind] for added in report.added)
 
 

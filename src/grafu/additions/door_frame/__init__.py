@@ -1,0 +1,1 @@
+"""Frames of doors that are drawn without one."""

@@ -1,0 +1,55 @@
+"""Adds a frame of two jambs and a head around a door of a building that is drawn alone: something must carry it."""
+
+import numpy as np
+
+from grafu.additions.door_frame.config import DoorFrameConfig
+from grafu.additions.likeness import surface_like
+from grafu.additions.step import (
+    Addition,
+    Deficiency,
+    DeficiencyKind,
+    StepRequest,
+    StepResult,
+    added_part,
+    free_ids,
+)
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import at_scale
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.joints.lone_leaves import lone_leaf_of
+from grafu.scene.scene import Scene
+from grafu.vocabulary import PartLabel
+
+_WIDTH, _DEPTH, _UP = 0, 1, 2
+
+
+def add_door_frame(scene: Scene, request: StepRequest, config: DoorFrameConfig | None) -> StepResult:
+    """Returns the scene with a frame around a leaf that is drawn alone; without a config only the lack is stated."""
+    leaf = lone_leaf_of(tuple(scene.parts.values()))
+    joint = next((one for one in request.plan.joints if leaf is not None and one.moving == leaf.id), None)
+    if leaf is None or joint is None or scene.still_parts:
+        return StepResult(scene)
+    lacking = (Deficiency(DeficiencyKind.DOOR_FRAME, leaf.id, "nothing is drawn that could carry it"),)
+    if config is None:
+        return StepResult(scene, deficiencies=lacking)
+    moving = scene.moving_mesh(leaf.id).box
+    mesh = _frame(leaf.box, moving, at_scale(config, scene.metre))
+    (name,) = free_ids("door_frame", 1, scene.parts)
+    part = added_part(name, PartLabel.FACE_FRAME, (surface_like(mesh, [leaf]),))
+    why = f"{leaf.id} is drawn without a frame"
+    return StepResult(scene.with_parts([part]), (Addition(part, why, "door frame"),), deficiencies=lacking)
+
+
+def _frame(leaf: Box, moving: Box, config: DoorFrameConfig) -> TriangleMesh:
+    """Returns two jambs beside a leaf and all that rides on it, and a head above, flush with the leaf's front face."""
+    low, high = np.minimum(leaf.low, moving.low) - config.gap, np.maximum(leaf.high, moving.high) + config.gap
+    front, back = float(leaf.low[_DEPTH]), float(leaf.low[_DEPTH] + max(config.depth, leaf.size[_DEPTH]))
+    floor, head = float(leaf.low[_UP]), float(high[_UP])
+    outer = float(low[_WIDTH]) - config.width, float(high[_WIDTH]) + config.width
+    spans = (
+        ((outer[0], floor), (float(low[_WIDTH]), head)),
+        ((float(high[_WIDTH]), floor), (outer[1], head)),
+        ((outer[0], head), (outer[1], head + config.width)),
+    )
+    boxes = (Box(np.array([a[0], front, a[1]]), np.array([b[0], back, b[1]])) for a, b in spans)
+    return merge_meshes([TriangleMesh.box_mesh(box) for box in boxes])
