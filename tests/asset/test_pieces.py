@@ -47,6 +47,14 @@ def test_slivers_that_stretch_a_piece_keep_it_from_no_front(width, joins):
     assert (len(parts) == 1) is joins
 
 
+@pytest.mark.parametrize(("left", "joins"), [(0.1, True), (0.7, False)])
+def test_what_is_called_a_door_within_another_is_its_pane(left, joins):
+    frame = part("Doors.003", (0, 0, 0), (1, 0.03, 1), PartLabel.DOOR)
+    pane = part("Doors.002", (left, 0.01, 0.1), (left + 0.8, 0.02, 0.9), PartLabel.DOOR)
+    parts, _ = with_joined_pieces((pane, frame), WHOLE)
+    assert {p.id: len(p.surfaces) for p in parts} == ({"Doors.003": 2} if joins else {"Doors.002": 1, "Doors.003": 1})
+
+
 def test_a_box_joins_the_plate_that_is_called_the_drawer():
     front = part("bottom_left_drawer", (0, 0, 0), (1, 0.02, 0.3))
     box = part("drawer_container", (0.05, 0.02, 0.03), (0.95, 0.6, 0.27))

@@ -24,6 +24,8 @@ from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.vocabulary import PartLabel
 
+# Sweet Home 3D numbers what opens as one: `sweethome3d_opening_on_hinge_1_door`, `sweethome3d_window_pane_on_hinge_1`.
+_OPENING = re.compile(r"^sweethome3d_(?:opening|window_pane)_on_((?:hinge|rail)_\d+)(?:_|$)", re.IGNORECASE)
 # Where a numbered beginning may end: after `drawer_1` in `drawer_1_front`, after `Door02` in `Door02Panel`.
 _NUMBERED = re.compile(r"\d+(?=[ _.-]*[^\W\d_])")
 
@@ -73,7 +75,7 @@ class _Grouped:
 def parts_of_drafts(drafts: list[PartDraft], config: GroupConfig = GroupConfig()) -> tuple[Part, ...]:
     """Returns one part per group or single piece, in order; handles stay parts of their own and ride on their group."""
     grouped: dict[str, _Grouped] = {}
-    for index, draft in enumerate(_with_name_groups(drafts, config.spare)):
+    for index, draft in enumerate(_with_openings(_with_name_groups(drafts, config.spare))):
         label = label_of(draft.label_name or draft.name)
         alone = not draft.group or label is PartLabel.HANDLE
         key = f"piece {index}" if alone else f"group {draft.group}"
@@ -108,6 +110,26 @@ def _part(grouped: _Grouped, part_id: str, carrier: str | None) -> Part:
     source = PartSource(grouped.name, ", ".join(sorted(files)), grouped.drafts[0].link)
     by = "none" if grouped.label is PartLabel.UNKNOWN else "name"
     return Part(part_id, grouped.label, surfaces, source, by, carrier)  # type: ignore[arg-type]
+
+
+def _with_openings(drafts: list[PartDraft]) -> list[PartDraft]:
+    """Returns the drafts with a group for all that Sweet Home 3D opens as one leaf: its faces, bars and panes."""
+    members: dict[str, list[int]] = {}
+    for index, draft in enumerate(drafts):
+        found = None if draft.group else _OPENING.match(draft.name)
+        if found is not None:
+            members.setdefault(found[1].lower(), []).append(index)
+    out = list(drafts)
+    for opening, named in members.items():
+        leaves = [i for i in named if label_of(drafts[i].name) is not PartLabel.HANDLE]
+        if len(leaves) < 2:
+            continue
+        called = [i for i in leaves if label_of(drafts[i].name).is_movable]
+        hung = f"sweethome3d_opening_on_{opening}_door"  # what turns, and is called by its sides: `in` and `out`
+        name = drafts[called[0]].name if called else hung if opening.startswith("hinge") else drafts[leaves[0]].name
+        for i in named:
+            out[i] = replace(drafts[i], group=f"opening {opening}", group_name=name)
+    return out
 
 
 def _with_name_groups(drafts: list[PartDraft], spare: float) -> list[PartDraft]:

@@ -102,6 +102,9 @@ def with_joined_pieces(
         plates = [p for p in named if p not in pieces and _is_plate(p.box, config)] if pieces else []
         for piece, host in _pairs(pieces, plates, label, whole.diagonal, config):
             hosts.setdefault(host.id, []).append(piece)
+    taken = {piece.id for members in hosts.values() for piece in members}
+    for piece, host in _inside_doors([p for p in parts if p.id not in taken], whole.diagonal, config):
+        hosts.setdefault(host.id, []).append(piece)
     joined = {piece.id: host for host, members in hosts.items() for piece in members}
     kept = tuple(with_pieces(p, hosts.get(p.id, []), joined) for p in parts if p.id not in joined)
     held = _held(kept, whole.diagonal, config)
@@ -111,6 +114,14 @@ def with_joined_pieces(
     if left:
         notes.append(f"{in_words(left)}: taken for no drawer, as no front covers it")
     return tuple(replace(p, label=PartLabel.MISC) if p in left else p for p in kept), notes
+
+
+def _inside_doors(parts: Sequence[Part], size: float, config: PieceConfig) -> list[tuple[Part, Part]]:
+    """Returns what is called a door and lies within another one, with that: a pane in its frame."""
+    doors = sorted((p for p in parts if p.label is PartLabel.DOOR), key=lambda p: -_face_area(p.box))
+    around = [door.box.grown(config.touch * size) for door in doors]
+    inner = ((k, i) for k, p in enumerate(doors) for i in range(k) if around[i].contains(p.box.corners()).all())
+    return _followed([(doors[k], doors[i]) for k, i in dict(reversed(list(inner))).items()])
 
 
 def _left_over(parts: tuple[Part, ...], hosts: Mapping[str, Sequence[Part]]) -> list[Part]:
