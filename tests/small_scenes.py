@@ -30,6 +30,18 @@ def cylinder(name, ends, radius=0.006, carried_by=None) -> Part:
     return replace(part, surfaces=(Surface(TriangleMesh.from_trimesh(tube)),))
 
 
+# An open case of 0.6 x 0.55 x 0.82 m whose front lies at y = 0, labelled.
+BASE_CASE = [
+    replace(part, label=label)
+    for part, label in (
+        (box("left", (0.0, 0.0, 0.0), (0.02, 0.55, 0.82)), PartLabel.SIDE_PANEL),
+        (box("right", (0.58, 0.0, 0.0), (0.6, 0.55, 0.82)), PartLabel.SIDE_PANEL),
+        (box("floor", (0.02, 0.0, 0.08), (0.58, 0.55, 0.1)), PartLabel.BOTTOM_PANEL),
+        (box("top", (0.02, 0.0, 0.8), (0.58, 0.55, 0.82)), PartLabel.TOP_PANEL),
+        (box("back", (0.02, 0.53, 0.1), (0.58, 0.55, 0.8)), PartLabel.BACK_PANEL),
+    )
+]
+
 # A door of 0.4 x 0.6 m in the plane y = 0 that hangs on its left edge, and the wall that it hangs on.
 DOOR = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.6))
 SIDE = box("side", (-0.02, 0.0, 0.0), (0.0, 0.4, 0.6))

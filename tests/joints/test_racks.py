@@ -18,21 +18,11 @@ from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
 from judging import swept_collisions
-from small_scenes import box, cylinder, scene
+from small_scenes import BASE_CASE, box, cylinder, scene
 
 DOOR = box("door", (0.0, -0.03, 0.1), (0.6, -0.001, 0.8))
 BAR = cylinder("handle", ((0.05, -0.07, 0.74), (0.55, -0.07, 0.74)))
 POSTS = [cylinder(f"handle_post_{k}", ((x, -0.07, 0.74), (x, -0.03, 0.74))) for k, x in enumerate((0.1, 0.5))]
-CASE = [
-    replace(part, label=label)
-    for part, label in (
-        (box("left", (0.0, 0.0, 0.0), (0.02, 0.55, 0.82)), PartLabel.SIDE_PANEL),
-        (box("right", (0.58, 0.0, 0.0), (0.6, 0.55, 0.82)), PartLabel.SIDE_PANEL),
-        (box("floor", (0.02, 0.0, 0.08), (0.58, 0.55, 0.1)), PartLabel.BOTTOM_PANEL),
-        (box("top", (0.02, 0.0, 0.8), (0.58, 0.55, 0.82)), PartLabel.TOP_PANEL),
-        (box("back", (0.02, 0.53, 0.1), (0.58, 0.55, 0.8)), PartLabel.BACK_PANEL),
-    )
-]
 
 
 def basket(name="basket", low=0.3, x=(0.025, 0.575), label=PartLabel.SHELF):
@@ -51,13 +41,13 @@ def request(level=True):
 
 
 def racks(*parts, level=True):
-    asset = scene(DOOR, *CASE, *parts)
+    asset = scene(DOOR, *BASE_CASE, *parts)
     plan = with_racks(RealizationPlan((request(level),), ()), asset, parse_graph(asset))
     return {one.moving: one for one in plan.joints[1:]}
 
 
 def test_baskets_slide_out_once_the_door_is_open():
-    asset = scene(DOOR, BAR, *POSTS, *CASE, basket("low_basket", 0.2), basket("high_basket", 0.5))
+    asset = scene(DOOR, BAR, *POSTS, *BASE_CASE, basket("low_basket", 0.2), basket("high_basket", 0.5))
     config = PipelineConfig(Settings(motions={"door": choice_in_words("drop")}))
     made = functionalize(asset, MotionSource.NETWORK, builtin_gallery(), config)
     joints = made.object.joint_of

@@ -16,18 +16,8 @@ from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
 from judging import swept_collisions
-from small_scenes import box, cylinder, scene
+from small_scenes import BASE_CASE, box, cylinder, scene
 
-CASE = [
-    replace(part, label=label)
-    for part, label in (
-        (box("left", (0.0, 0.0, 0.0), (0.02, 0.55, 0.82)), PartLabel.SIDE_PANEL),
-        (box("right", (0.58, 0.0, 0.0), (0.6, 0.55, 0.82)), PartLabel.SIDE_PANEL),
-        (box("floor", (0.02, 0.0, 0.08), (0.58, 0.55, 0.1)), PartLabel.BOTTOM_PANEL),
-        (box("top", (0.02, 0.0, 0.8), (0.58, 0.55, 0.82)), PartLabel.TOP_PANEL),
-        (box("back", (0.02, 0.53, 0.1), (0.58, 0.55, 0.8)), PartLabel.BACK_PANEL),
-    )
-]
 ONE = (box("door", (0.0, -0.02, 0.1), (0.6, -0.001, 0.8)),)
 TWO = (box("door", (0.0, -0.02, 0.1), (0.298, -0.001, 0.8)), box("other", (0.302, -0.02, 0.1), (0.6, -0.001, 0.8)))
 
@@ -51,7 +41,7 @@ def turning(door, at, level=False):
 
 
 def trays(*parts, doors=ONE, level=False):
-    asset = scene(*doors, *CASE, *parts)
+    asset = scene(*doors, *BASE_CASE, *parts)
     requests = tuple(turning(door, at, level) for door, at in zip(doors, (0.0, 0.6), strict=False))
     plan = with_trays(RealizationPlan(requests, ()), asset, parse_graph(asset))
     return {one.moving: one for one in plan.joints[len(doors) :]}
@@ -60,7 +50,7 @@ def trays(*parts, doors=ONE, level=False):
 def test_trays_slide_out_once_the_door_is_open():
     grip = cylinder("handle", ((0.57, -0.05, 0.4), (0.57, -0.05, 0.5)))
     posts = [cylinder(f"handle_post_{k}", ((0.57, -0.05, z), (0.57, -0.02, z))) for k, z in enumerate((0.41, 0.49))]
-    asset = scene(*ONE, grip, *posts, *CASE, tray("low", z=(0.2, 0.26)), tray("high", z=(0.5, 0.56)))
+    asset = scene(*ONE, grip, *posts, *BASE_CASE, tray("low", z=(0.2, 0.26)), tray("high", z=(0.5, 0.56)))
     config = PipelineConfig(Settings(motions={"door": choice_in_words("left")}))
     made = functionalize(asset, MotionSource.NETWORK, builtin_gallery(), config)
     joints = made.object.joint_of

@@ -1,4 +1,4 @@
-"""The handle among pieces of one door that no name tells apart, as the shapes of a body in a robot description.
+"""What sits on a front, and the handle among pieces of one door that no name tells apart: shapes of a robot's body.
 
 It reads no names and no files: the bar stands before the leaf, on posts or by itself.
 """
@@ -43,33 +43,48 @@ DEFAULT_DRAWN_GRIP_CONFIG: Final = DrawnGripConfig()
 
 def grip_among(boxes: Sequence[Box], config: DrawnGripConfig = DEFAULT_DRAWN_GRIP_CONFIG) -> tuple[int, ...]:
     """Returns the numbers of the pieces of a door that are its handle; none where no leaf or no handle is plain."""
-    leaf = max(range(len(boxes)), key=lambda k: _face(boxes[k]), default=None)
+    leaf = max(range(len(boxes)), key=lambda k: face_area(boxes[k]), default=None)
     if leaf is None or boxes[leaf].size.min() > config.thin * np.sort(boxes[leaf].size)[1]:
         return ()
     plate = boxes[leaf]
-    slack = config.touch * float(plate.size.max())
-    around = plate.grown(slack)
-    across = [axis for axis in range(3) if axis != plate.thin_axis]
-    small = [
-        k
-        for k, box in enumerate(boxes)
-        if k != leaf and _face(box) <= config.small * _face(plate) and _is_before(box, plate, around, across)
-    ]
+    largest = float(plate.size.max())
+    found = pieces_before(plate, boxes, config.small, config.touch * largest)
+    faces = sum(face_area(boxes[k]) for k in found)
+    stands_out = found and _reach([boxes[k] for k in found], plate) >= config.out * largest
+    return found if stands_out and faces <= config.shared * face_area(plate) else ()
+
+
+def pieces_before(plate: Box, boxes: Sequence[Box], small: float, slack: float) -> tuple[int, ...]:
+    """Returns the numbers of the boxes that sit on a plate: they touch it or each other, and lie out of its plane.
+
+    Args:
+        plate: a front.
+        boxes: what may sit on it.
+        small: their largest face (fraction of the plate's).
+        slack: how far they may lie apart and stand out of the plate's outline, metres.
+    """
+    most, around = small * face_area(plate), plate.grown(slack)
+    left = [k for k, box in enumerate(boxes) if face_area(box) <= most and _is_before(box, plate, around)]
     found: list[int] = []
     queue = [plate]
     while queue:
         near = queue.pop()
-        new = [k for k in small if k not in found and near.overlaps(boxes[k], slack)]
+        new = [k for k in left if k not in found and near.overlaps(boxes[k], slack)]
         found += new
         queue += [boxes[k] for k in new]
-    faces = sum(_face(boxes[k]) for k in found)
-    stands_out = found and _reach([boxes[k] for k in found], plate) >= config.out * float(plate.size.max())
-    return tuple(sorted(found)) if stands_out and faces <= config.shared * _face(plate) else ()
+    return tuple(sorted(found))
 
 
-def _is_before(box: Box, plate: Box, around: Box, across: list[int]) -> bool:
-    """Whether a piece lies in the outline of a leaf, and with its middle out of the leaf's plane."""
+def face_area(box: Box) -> float:
+    """Returns the area of the largest face of a box."""
+    first, second = np.sort(box.size)[1:]
+    return float(first * second)
+
+
+def _is_before(box: Box, plate: Box, around: Box) -> bool:
+    """Whether a box lies in the outline of a plate, and with its middle out of the plate's plane."""
     thin = plate.thin_axis
+    across = [axis for axis in range(3) if axis != thin]
     within = np.all(box.low[across] >= around.low[across]) and np.all(box.high[across] <= around.high[across])
     return bool(within and not plate.low[thin] < box.center[thin] < plate.high[thin])
 
@@ -78,8 +93,3 @@ def _reach(boxes: Sequence[Box], plate: Box) -> float:
     """Returns how far pieces stand out of a leaf to the farther side."""
     thin, all_of_them = plate.thin_axis, Box.enclosing(boxes)
     return float(max(plate.low[thin] - all_of_them.low[thin], all_of_them.high[thin] - plate.high[thin]))
-
-
-def _face(box: Box) -> float:
-    first, second = np.sort(box.size)[1:]
-    return float(first * second)

@@ -13,6 +13,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.asset.grips import face_area, pieces_before
 from grafu.asset.labels import is_piece
 from grafu.asset.names import spoken
 from grafu.asset.part import Part
@@ -118,7 +119,7 @@ def with_joined_pieces(
 
 def _inside_doors(parts: Sequence[Part], size: float, config: PieceConfig) -> list[tuple[Part, Part]]:
     """Returns what is called a door and lies within another one, with that: a pane in its frame."""
-    doors = sorted((p for p in parts if p.label is PartLabel.DOOR), key=lambda p: -_face_area(p.box))
+    doors = sorted((p for p in parts if p.label is PartLabel.DOOR), key=lambda p: -face_area(p.box))
     around = [door.box.grown(config.touch * size) for door in doors]
     inner = ((k, i) for k, p in enumerate(doors) for i in range(k) if around[i].contains(p.box.corners()).all())
     return _followed([(doors[k], doors[i]) for k, i in dict(reversed(list(inner))).items()])
@@ -139,10 +140,10 @@ def _pairs(
     """Returns each piece that belongs to a front, with it: to a piece that is one, or to a plate named as a whole."""
     own = [p for p in pieces if label is PartLabel.DOOR or _is_front(p)]
     fronts = {p.id: _Host(p, _faces(p)) for p in (*own, *plates)}
-    ranked = sorted(fronts.values(), key=lambda f: -_face_area(f.part.box))
+    ranked = sorted(fronts.values(), key=lambda f: -face_area(f.part.box))
     pairs: list[tuple[Part, Part]] = []
     taken: set[str] = set()
-    for piece in sorted(pieces, key=lambda p: _face_area(p.box)):
+    for piece in sorted(pieces, key=lambda p: face_area(p.box)):
         others = [f for f in ranked if f.part.id not in taken and f.part is not piece]
         touching = piece.id in fronts
         host = _host(piece, others, size, config, touching) or (
@@ -162,22 +163,11 @@ def _held(parts: tuple[Part, ...], size: float, config: PieceConfig) -> dict[str
     """
     moving = [p for p in parts if p.label.is_movable]
     found: dict[str, str] = {}
-    for front in sorted((p for p in moving if _is_plate(p.box, config)), key=lambda p: -_face_area(p.box)):
-        seen = _Host(front, front.box.thin_axis)
-        small = [p for p in moving if p.id not in found and _face_area(p.box) <= config.small * _face_area(front.box)]
-        small = [p for p in small if seen.misses(p) <= config.touch * size and not _in_plane(front.box, p.box)]
-        reached = [front]
-        while reached:
-            last = reached.pop()
-            near = [p for p in small if p.id not in found and last.box.overlaps(p.box, config.touch * size)]
-            found |= dict.fromkeys((p.id for p in near), front.id)
-            reached += near
+    for front in sorted((p for p in moving if _is_plate(p.box, config)), key=lambda p: -face_area(p.box)):
+        left = [p for p in moving if p.id not in found]
+        sitting = pieces_before(front.box, [p.box for p in left], config.small, config.touch * size)
+        found |= dict.fromkeys((left[k].id for k in sitting), front.id)
     return found
-
-
-def _in_plane(front: Box, piece: Box) -> bool:
-    axis = front.thin_axis
-    return bool(front.low[axis] < piece.center[axis] < front.high[axis])
 
 
 def _followed(pairs: list[tuple[Part, Part]]) -> list[tuple[Part, Part]]:
@@ -220,7 +210,7 @@ def _host(piece: Part, fronts: list[_Host], size: float, config: PieceConfig, to
 
 
 def _may_hold(front: Part, piece: Part, config: PieceConfig) -> bool:
-    return front.label is not PartLabel.DOOR or _face_area(front.box) >= config.leaf * _face_area(piece.box)
+    return front.label is not PartLabel.DOOR or face_area(front.box) >= config.leaf * face_area(piece.box)
 
 
 def _faces(front: Part) -> int:
@@ -228,11 +218,6 @@ def _faces(front: Part) -> int:
     corners = front.mesh.triangles
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return int(np.argmax(np.abs(doubled).sum(axis=0)))
-
-
-def _face_area(box: Box) -> float:
-    first, second = np.sort(box.size)[1:]
-    return float(first * second)
 
 
 def with_pieces(part: Part, members: Sequence[Part], joined: Mapping[str, str]) -> Part:
