@@ -3,13 +3,17 @@
 Racks, pull-out units and the bins of tilting fronts are found in this way; those of fronts turned about Z are not.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from grafu.asset.part import Asset
+from grafu.asset.part import Asset, Part
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
+from grafu.joints.plan import JointRequest
 
 _DEPTH = 1
 _ACROSS = [0, 2]
@@ -35,6 +39,14 @@ def touched_by(group: Collection[str], asset: Asset, graph: FunctionalGraph, own
     """
     parts = {part.id for part in asset.parts}
     return {name for member in group for name in graph.neighbours[member] if name in parts} - {*group, *own}
+
+
+def sliding_out(parts: Sequence[Part], source: str) -> JointRequest:
+    """Returns the joint of parts that slide out towards -Y as one: that of the largest, with the others on it."""
+    largest = max(parts, key=lambda part: float(np.prod(np.sort(part.box.size)[1:])))
+    others = tuple(part.id for part in parts if part is not largest)
+    axis = Axis(Box.enclosing(part.box for part in parts).center, vec3(0.0, -1.0, 0.0))
+    return JointRequest(largest.id, Slide.joint_type, axis, source, attached=others)
 
 
 def static_boxes(asset: Asset, moving: Collection[str]) -> Mapping[str, Box]:

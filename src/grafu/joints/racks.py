@@ -7,24 +7,20 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import vec3
-from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster, depths_below
 from grafu.geometry.touching import near_pairs
-from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
-from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes
+from grafu.joints.behind_fronts import groups_within, is_within_outline, sliding_out, static_boxes
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.scale import metre_on
 
 SOURCE = "rule"
 """`JointRequest.source` of a rack: its shape and the door before it show that it slides."""
 _UP, _DEPTH = 2, 1
-_OUT = vec3(0.0, -1.0, 0.0)
 _RAYS = 24  # along each side of an outline
 
 
@@ -107,10 +103,7 @@ def _racks(
         deep = box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
         mesh = merge_meshes([part.mesh for part in parts])
         if wide and deep and is_grid(mesh, config) and _hangs_together(mesh, config):
-            largest = max(parts, key=lambda part: float(np.prod(np.sort(part.box.size)[1:])))
-            others = tuple(part.id for part in parts if part is not largest)
-            axis = Axis(box.center, _OUT)
-            found.append(JointRequest(largest.id, Slide.joint_type, axis, SOURCE, attached=others))
+            found.append(sliding_out(parts, SOURCE))
     return found
 
 

@@ -8,14 +8,11 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import vec3
-from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.geometry.mesh import merge_meshes
-from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes
+from grafu.joints.behind_fronts import groups_within, is_within_outline, sliding_out, static_boxes
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.waste_bins import is_bucket
 from grafu.scene.scale import metre_on
@@ -23,7 +20,6 @@ from grafu.scene.scale import metre_on
 SOURCE = "rule"
 """`JointRequest.source` of a tray: its rim, and the gaps at its sides, show that it slides."""
 _ACROSS, _DEPTH, _UP = 0, 1, 2
-_OUT = vec3(0.0, -1.0, 0.0)
 
 
 @final
@@ -104,9 +100,7 @@ def _trays(
             continue
         if not is_bucket(merge_meshes([part.mesh for part in parts])):
             continue
-        largest = max(parts, key=lambda part: float(np.prod(np.sort(part.box.size)[1:])))
-        others = tuple(part.id for part in parts if part is not largest)
-        found.append(JointRequest(largest.id, Slide.joint_type, Axis(box.center, _OUT), SOURCE, attached=others))
+        found.append(sliding_out(parts, SOURCE))
     return found
 
 
