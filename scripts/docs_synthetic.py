@@ -9,7 +9,7 @@ from dataclasses import fields
 from grafu.data.corruption.config import OFFICIAL, PAPER, STRATEGY_NAMES
 from grafu.data.corruption.strategies import STRATEGIES, probabilities
 from grafu.synth.families.table import FAMILIES
-from grafu.synth.noise import cutting, distortion, housing, modelling_styles, naming
+from grafu.synth.noise import cutting, distortion, housing, modelling_styles, naming, part_names
 from grafu.synth.noise.modelling_styles import STYLES
 from grafu.synth.sampling import carpentry, style
 from grafu.synth.sampling.traditions import TRADITIONS, Tradition
@@ -60,11 +60,12 @@ handle stays, and so does a top that something stands on. Cases under a common w
 of their own, push-to-open fronts never a handle; the repaired version holds what a completion would add.
 """
 WORDING_HEAD = f"""\
-## Labels, faces, cuts
+## Labels, names, faces, cuts
 
 A divider in one data set is a side panel in another ([naming]({SYNTH}/noise/naming.py)); such labels are those of the
 model and of its ground truth. What is joined and cut is in [cutting]({SYNTH}/noise/cutting.py), how finely faces are
-drawn in [modelling styles]({SYNTH}/noise/modelling_styles.py).
+drawn in [modelling styles]({SYNTH}/noise/modelling_styles.py). A part has the label that is read from its name
+([names of parts]({SYNTH}/noise/part_names.py)).
 """
 
 # A tradition's tables of weights, in the order of the page, and what each decides.
@@ -214,11 +215,16 @@ def wording_tables() -> str:
         "rotated by quarter turns": distortion.TURNED,
         "rotated by up to four degrees": distortion.YAWED,
         "one front ajar": modelling_styles.AJAR,
+        "handles in pieces, bars and posts": cutting.HANDLES_IN_PIECES,
         "one label wrong": modelling_styles.MISLABELLED,
+        "some parts named as others": part_names.MISNAMED,
+        "of the parts of such a model": part_names.WRONG,
         "of face frames: modelled as bars": cutting.FRAME_IN_BARS,
     }
     texts = [
         ratio_table({name: ratio for name, (_, ratio) in naming.STYLES.items()}),
+        "**How the parts of a model are named**\n",
+        weight_table(("", "models", "parts without a label"), [part_names.SCHEMES, part_names.LOST_WORDS]),
         "**What is joined, where panels are joined**\n",
         weight_table(("", "%"), [{name: weight for name, (weight, _) in cutting.GROUPS.items()}]),
         "**Faces, where they have faults**\n",

@@ -19,6 +19,7 @@ from jaxtyping import Float32
 
 from grafu.cli.train import exported
 from grafu.completion.features import FeatureConfig
+from grafu.completion.name_codes import NAME_BUCKETS, NAME_CODES
 from grafu.completion.session import onnx_runtime
 from grafu.export.whole_file import whole_file
 from grafu.graph.arrays import LABELS, NULL
@@ -102,6 +103,7 @@ def farthest(first: bytes, second: bytes, features: FeatureConfig) -> float:
         "groups": (0.05 * rng.random((PARTS, anchors, neighbours, 3))).astype(np.float32),
         "edges": np.full((PARTS, PARTS), NULL),
         "visibility": rng.random((PARTS, VISIBILITY_NUMBERS)).astype(np.float32),
+        "names": rng.integers(0, NAME_BUCKETS + 1, (PARTS, NAME_CODES)),
     }
     sessions = [onnx_runtime().InferenceSession(one) for one in (first, second)]
     answers = [s.run(None, {item.name: given[item.name] for item in s.get_inputs()}) for s in sessions]

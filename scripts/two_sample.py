@@ -89,7 +89,7 @@ def hidden(graph: FunctionalGraph) -> FunctionalGraph:
 @torch.inference_mode()
 def encoded(features: GraphFeatures, network: GraFu) -> Float[np.ndarray, " numbers"]:
     """Returns the mean and the maximum of the encoded nodes."""
-    names = ("labels", "boxes", "anchors", "groups", "edges", "visibility")
+    names = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names")
     arrays = {name: torch.from_numpy(np.array(getattr(features, name))) for name in names}
     nodes = network.encoder(one_graph(**arrays))[0][0].double().numpy()
     return np.concatenate([nodes.mean(axis=0), nodes.max(axis=0)])

@@ -13,7 +13,7 @@ from grafu.graph.arrays import EDGE_CODES, KIND_CODES, LABELS, NULL
 from grafu.graph.edges import Contact, ends_of
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.vocabulary import EdgeKind, PartLabel
+from grafu.vocabulary import EdgeKind, PartLabel, PieceKind
 
 FREE = 4
 SURE = 6.0  # the logit of what is said; of everything else it is 0 or less
@@ -31,6 +31,9 @@ class Answers:
     hinges: dict[str | tuple[str, str], tuple[int, int]] = field(default_factory=dict)
     slides: dict[str | tuple[str, str], int] = field(default_factory=dict)
     added: list[list[tuple[PartLabel, Box, str | None]]] = field(default_factory=list)  # one list for each pass
+    bodies: dict[tuple[str, str], float] = field(default_factory=dict)
+    ajar: dict[str, float] = field(default_factory=dict)
+    piece: dict[PieceKind, float] = field(default_factory=dict)
     passes: int = 0
 
     def about(self, graph: FunctionalGraph) -> "Network":
@@ -65,6 +68,11 @@ class Network:
             scores.motion("sign", where, sign)
         for where, axis in said.slides.items():
             scores.motion("slide", where, axis)
+        scores.pairs("body", said.bodies | {(b, a): logit for (a, b), logit in said.bodies.items()})
+        for name, logit in said.ajar.items():
+            scores.arrays["ajar"][scores.place[name]] = logit
+        for kind, logit in said.piece.items():
+            scores.arrays["piece"][list(PieceKind).index(kind)] = logit
         for k, (label, box, parent) in enumerate(fired):
             scores.fire(n + k, label, (box.center - features.origin) / features.scale, box.half / features.scale)
             if parent is not None:
@@ -90,6 +98,9 @@ class _Blank:
             "border": np.zeros((s, s, 4), f32),
             "sign": np.zeros((s, s, 2), f32),
             "slide": np.zeros((s, s, 6), f32),
+            "body": np.full((s, s), -SURE, f32),
+            "ajar": np.full(s, -SURE, f32),
+            "piece": np.zeros(len(PieceKind), f32),
         }
         self.arrays["edge"][..., NULL] = SURE
 

@@ -3,6 +3,7 @@
 import torch  # noqa: TID251  # for tests of network and training alone
 from torch import Tensor  # noqa: TID251
 
+from grafu.completion.name_codes import NAME_BUCKETS, NAME_CODES
 from grafu.graph.arrays import EDGE_CODES, NULL
 from grafu.network.batch import GraphBatch, Predictions, one_graph
 from grafu.network.config import LABEL_COUNT, GraFuConfig
@@ -13,8 +14,8 @@ TINY = GraFuConfig(
     hidden=16, heads=2, encoder_layers=2, decoder_layers=2, edge=12, category=8, points=6, geometry=4, free_slots=3
 )
 POINTS, ANCHORS, NEIGHBOURS = 20, 5, 4
-NODE_FIELDS = ("exists", "category", "centre", "half")
-PAIR_FIELDS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
+NODE_FIELDS = ("exists", "category", "centre", "half", "ajar")
+PAIR_FIELDS = ("edge", "parent", "hinge_target", "border", "sign", "slide", "body")
 
 
 def arrays(n: int, seed: int = 0) -> dict[str, Tensor]:
@@ -29,6 +30,7 @@ def arrays(n: int, seed: int = 0) -> dict[str, Tensor]:
         "groups": torch.rand(n, ANCHORS, NEIGHBOURS, 3, generator=draw) * 0.1,
         "edges": edges.fill_diagonal_(NULL),
         "visibility": torch.rand(n, VISIBILITY_NUMBERS, generator=draw),
+        "names": torch.randint(0, NAME_BUCKETS + 1, (n, NAME_CODES), generator=draw),
     }
 
 
@@ -54,6 +56,7 @@ def differences(found: Predictions, wanted: Predictions, slots: Tensor) -> dict[
     """Returns by field how far the answers of all graphs are from those wanted, whose slots are `slots` of found."""
     same = {name: getattr(found, name)[:, slots] for name in (*NODE_FIELDS, "mask")}
     same |= {name: getattr(found, name)[:, slots][:, :, slots] for name in PAIR_FIELDS}
+    same["piece"] = found.piece
     return {
         k: float((v.float() - getattr(wanted, k).float()).abs().max().detach()) for k, v in same.items() if v.numel()
     }

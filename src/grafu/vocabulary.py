@@ -35,6 +35,29 @@ class PartLabel(StrEnum):
         return self not in (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE)
 
 
+class PieceKind(StrEnum):
+    """What a whole piece of furniture, appliance or opening of a building is."""
+
+    CABINET = "cabinet"
+    WALL_CABINET = "wall cabinet"
+    WARDROBE = "wardrobe"
+    SINK_UNIT = "sink unit"
+    CHEST_OF_DRAWERS = "chest of drawers"
+    CHEST = "chest"
+    SHELF = "shelf"
+    KITCHEN = "kitchen"
+    TABLE = "table"
+    DESK = "desk"
+    BED = "bed"
+    OVEN = "oven"
+    DISHWASHER = "dishwasher"
+    MICROWAVE = "microwave"
+    REFRIGERATOR = "refrigerator"
+    WASHING_MACHINE = "washing machine"
+    BUILDING_DOOR = "building door"
+    WINDOW = "window"
+
+
 class EdgeKind(StrEnum):
     """The paper's four kinds of functional edges, and two of ours, which the authors' files do not have.
 

@@ -21,7 +21,7 @@ from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.refusal import Refusal
-from grafu.vocabulary import EdgeKind, PartLabel
+from grafu.vocabulary import EdgeKind, PartLabel, PieceKind
 from network_answers import FREE, SURE, Answers
 
 FEW = FeatureConfig(points=16, anchors=2, neighbours=2)
@@ -564,4 +564,5 @@ def any_scores(features: GraphFeatures, seed: int) -> Scores:
     return Scores(
         *(logits(s), logits(s, labels), centre, half, logits(s, s, kinds)),
         *(logits(s, s), 1.0, logits(s, s), -1.0, logits(s, s, 4), logits(s, s, 2), logits(s, s, 6)),
+        *(logits(s, s), logits(s), logits(len(PieceKind))),
     )

@@ -105,4 +105,4 @@ def test_with_the_image_the_mirrored_graph_is_completed_in_the_mirror() -> None:
 
 def test_scores_are_named_as_the_network_names_them() -> None:
     assert SCORE_NAMES[:4] == ("exists", "category", "centre", "half")
-    assert len(SCORE_NAMES) == 12
+    assert len(SCORE_NAMES) == 15

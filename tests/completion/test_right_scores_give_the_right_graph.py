@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from grafu.completion.decode_config import ADDABLE
+from grafu.completion.decode_config import ADDABLE, DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, Scores
 from grafu.completion.network import complete_by_network
 from grafu.completion.session import GraphNetwork
@@ -12,11 +12,12 @@ from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.metrics.graph_accuracy import Ratio, graph_accuracy, total_accuracy
 from grafu.synth.generate import make_specimen
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import PartLabel, PieceKind
 from network_answers import of_doors_and_drawers
 
 FEW = FeatureConfig(points=16, anchors=2, neighbours=2)
 FREE, SURE = 4, np.float32(6.0)
+AS_SEEN = DecodeConfig(mirror=False)  # the oracle answers as the piece was made, not as its mirror image
 
 
 def oracle(truth: FunctionalGraph) -> GraphNetwork:
@@ -50,6 +51,9 @@ def oracle(truth: FunctionalGraph) -> GraphNetwork:
             border=by_child(known.border[of], 4),
             sign=by_child(known.sign[of], 2),
             slide=by_child(known.slide[of], 6),
+            body=np.zeros((len(of), len(of)), np.float32),
+            ajar=np.full(len(of), -SURE, np.float32),
+            piece=np.zeros(len(PieceKind), np.float32),
         )
 
     return answer
@@ -58,10 +62,13 @@ def oracle(truth: FunctionalGraph) -> GraphNetwork:
 @pytest.mark.parametrize("masked", [False, True])
 def test_what_is_known_is_found(masked: bool) -> None:
     figures = []
-    for index in (*range(8), 20):
+    for index in range(14):
         made = make_specimen(11, index, 0)
+        if made.family == "drop-leaf table" or any(defect.kind == "mislabelled" for defect in made.defects):
+            continue  # what shape decides, and labels that are kept though they are wrong
         masks = {node.id: PartLabel.UNKNOWN for node in made.given.nodes} if masked else {}
-        completion = complete_by_network(relabelled(made.given, masks), oracle(made.truth), FEW)
+        given = relabelled(made.given, masks)
+        completion = complete_by_network(given, oracle(made.truth), FEW, AS_SEEN)
         figures.append(graph_accuracy(completion, of_doors_and_drawers(made.truth)))
     total = total_accuracy(figures)
 

@@ -174,7 +174,7 @@ def test_a_changed_byte_is_one_error(shard: Path, tmp_path: Path) -> None:
 def test_other_files_are_one_error(tmp_path: Path) -> None:
     np.savez(tmp_path / "other.npz", a=np.zeros(3))
     (tmp_path / "text.npz").write_text("no arrays")
-    with pytest.raises(UnreadableAsset, match=r"must be a shard of the form `grafu.shard/1`: got 'another file'"):
+    with pytest.raises(UnreadableAsset, match=r"must be a shard of the form `grafu.shard/2`: got 'another file'"):
         ShardReader(tmp_path / "other.npz")
     with pytest.raises(UnreadableAsset, match="no whole file"):
         ShardReader(tmp_path / "text.npz")

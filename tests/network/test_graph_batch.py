@@ -27,6 +27,7 @@ def test_copies_share_the_rows_of_their_points() -> None:
         anchors=one.anchors,
         groups=one.groups,
         visibility=one.visibility.repeat(2, 1, 1),
+        names=one.names.repeat(2, 1, 1),
     )
     network = tiny_network()
     answers = network(join_batches([graph(2, seed=5), copies]))
@@ -50,6 +51,7 @@ def test_what_padding_holds_is_never_seen() -> None:
         "labels": plain.labels.masked_fill(~plain.mask, 3),
         "boxes": plain.boxes.masked_fill(~plain.mask[..., None], 7.0),
         "visibility": plain.visibility.masked_fill(~plain.mask[..., None], 5.0),
+        "names": plain.names.masked_fill(~plain.mask[..., None], 5),
         "edges": plain.edges.masked_fill(~(plain.mask[:, :, None] & plain.mask[:, None, :]), 1),
     })  # fmt: skip
     a, b = network(plain), network(spoilt)

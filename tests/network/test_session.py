@@ -115,7 +115,7 @@ def test_a_network_for_other_labels_is_refused(weights: Path, tmp_path: Path) ->
 
 def test_a_network_that_reads_something_else_is_refused(weights: Path, tmp_path: Path) -> None:
     proto = onnx.load(str(weights))
-    proto.graph.output.pop()
+    proto.graph.output.pop(0)
     other = tmp_path / "other.onnx"
     onnx.save(proto, str(other))
     with pytest.raises(WeightsError, match=r"must read .* and say"):

@@ -4,6 +4,7 @@ from functools import cache
 
 import pytest
 
+from grafu.asset.labels import label_of
 from grafu.graph.edges import Contact, ends_of
 from grafu.graph.parse import parse_graph
 from grafu.synth.generate import MOST_PARTS, make_specimen
@@ -85,7 +86,7 @@ def test_where_a_label_is_lost_no_name_says_it() -> None:
         for part, node in zip(s.asset.parts, s.given.nodes, strict=True):
             if part.label is PartLabel.UNKNOWN:
                 lost += 1
-                assert part.source.name.startswith("Cube.")
+                assert label_of(part.source.name) is PartLabel.UNKNOWN
                 assert part.labelled_by == "none"
                 assert (part.source.file, part.source.link) == ("", "")
                 assert node.label is PartLabel.UNKNOWN
@@ -118,7 +119,7 @@ def test_patterns_come_at_their_rates() -> None:
     parts = [s.asset.parts for s in specimens()]
     unknown = [ratio([p.label is PartLabel.UNKNOWN for p in given]) for given in parts]
     rates = {
-        "labels all there": (ratio([u == 0 for u in unknown]), 0.41, 0.65),
+        "labels all there": (ratio([u == 0 for u in unknown]), 0.34, 0.6),
         "labels all lost": (ratio([u == 1 for u in unknown]), 0.03, 0.19),
         "sheets": (ratio([any(p.box.size.min() < 1e-6 for p in given) for given in parts]), 0.25, 0.6),
         "joined": (ratio([any(p.id.startswith("joined") for p in given) for given in parts]), 0.15, 0.42),
@@ -135,7 +136,7 @@ def test_patterns_come_at_their_rates() -> None:
 
 
 def test_every_kind_of_loose_object_and_defect_occurs() -> None:
-    stems = {"object", "basket", "drawer_runner", "corner_plate", "nailer", "edge", "pad", "plate", "post"}
+    stems = {"object", "basket", "drawer_runner", "corner_plate", "nailer", "edge", "pad", "plate", "post", "hinge"}
     found = {stem for s in specimens() for p in s.whole.parts for stem in stems if p.id.startswith(f"{stem}_")}
 
     assert len(LOOSE_OBJECTS) == len(stems) + 1  # things stand on tops and on shelves

@@ -9,10 +9,12 @@ from torch.nn.functional import one_hot
 
 from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.piece_facts import PieceFacts
 from grafu.network.batch import Predictions
 from grafu.training.loss_config import LossConfig
 from grafu.training.matcher import SlotTruth, match_slots, slot_truth
 from grafu.training.targets import NONE, GraphTargets, TargetBatch, graph_targets, stack_targets
+from grafu.vocabulary import PieceKind
 from small_graphs import cabinet
 
 SURE = 30.0
@@ -22,7 +24,10 @@ place = ORDER.index
 
 def targets_of(graph: FunctionalGraph, missing: Sequence[str] = ()) -> GraphTargets:
     given = [node.id for node in graph.nodes if node.id not in missing]
-    return graph_targets(graph, given, np.zeros(3), 1.0)
+    bodies = {node.id: "" for node in graph.nodes} | {part: part for part in graph.moving}
+    bodies |= {edge.child: edge.parent for edge in graph.attachments}
+    facts = PieceFacts(PieceKind.CABINET, frozenset({"door_1"}), bodies)
+    return graph_targets(graph, given, np.zeros(3), 1.0, facts=facts)
 
 
 def two_cabinets() -> TargetBatch:
@@ -65,6 +70,9 @@ def _blank(mask: Tensor) -> Predictions:
         border=torch.zeros(b, s, s, 4),
         sign=torch.zeros(b, s, s, 2),
         slide=torch.zeros(b, s, s, 6),
+        body=pairs,
+        ajar=torch.zeros(b, s),
+        piece=torch.zeros(b, len(PieceKind)),
         mask=mask,
     )
 
@@ -91,5 +99,8 @@ def _answers(truth: SlotTruth, mask: Tensor) -> Predictions:
         border=motion(truth.border, 4),
         sign=motion(truth.sign, 2),
         slide=motion(truth.slide, 6),
+        body=2 * SURE * (truth.bodies[:, :, None] == truth.bodies[:, None, :]).float() - SURE,
+        ajar=2 * SURE * truth.ajar.clamp(min=0).float() - SURE,
+        piece=code(truth.piece, len(PieceKind)),
         mask=mask,
     )

@@ -13,8 +13,8 @@ from grafu.training.loss_config import OFFICIAL, PAPER, LossConfig
 from grafu.training.targets import TargetBatch, stack_targets
 from small_graphs import cabinet
 
-PAIRS = {"edge", "parent", "hinge_target", "border", "sign", "slide"}
-SINGLE = {"parent_abstain", "hinge_abstain"}
+PAIRS = {"edge", "parent", "hinge_target", "border", "sign", "slide", "body"}
+SINGLE = {"parent_abstain", "hinge_abstain", "piece"}
 
 
 def noisy(predictions: Predictions, seed: int = 0) -> Predictions:
@@ -39,7 +39,7 @@ def test_the_total_is_the_weighted_sum_of_the_terms() -> None:
     targets, config = two_cabinets(), LossConfig()
     terms = {k: float(v) for k, v in criterion(noisy(perfect(targets)), targets, config).by_name().items()}
     total = terms.pop("total")
-    assert len(terms) == 17
+    assert len(terms) == 20
     assert min(terms.values()) > 0
     assert total == pytest.approx(sum(getattr(config, name) * value for name, value in terms.items()), rel=1e-5)
 
@@ -78,6 +78,7 @@ def padded(predictions: Predictions, targets: TargetBatch, more: int) -> tuple[P
         name: extra(getattr(targets, name), (0, more), value=fill)
         for name, fill in (("labels", 3), ("border", 1), ("sign", 1), ("slide", 1), ("anchors", -1), ("mask", False))
     }
+    wide |= {name: extra(getattr(targets, name), (0, more), value=1) for name in ("bodies", "ajar")}
     square = (0, more, 0, more)
     wide |= {"edges": extra(targets.edges, square, value=1), "child": extra(targets.child, square, value=True)}
     wide |= {"boxes": extra(targets.boxes, (0, 0, 0, more), value=7.0)}
@@ -98,7 +99,7 @@ def test_the_order_of_targets_changes_nothing() -> None:
     targets = stack_targets([targets_of(cabinet(), ["knob_2", "door_1"])])
     answers = noisy(perfect(targets))
     order = torch.randperm(18, generator=torch.Generator().manual_seed(1))
-    turned = {f.name: getattr(targets, f.name)[:, order] for f in fields(targets) if f.name != "anchors"}
+    turned = {f.name: getattr(targets, f.name)[:, order] for f in fields(targets) if f.name not in ("anchors", "piece")}
     turned |= {name: turned[name][:, :, order] for name in ("edges", "child")}
     other = replace(targets, **turned, anchors=order.argsort()[targets.anchors])
     assert torch.allclose(

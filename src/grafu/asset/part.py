@@ -49,15 +49,18 @@ class Part:
     """One part, its surfaces in the object frame (metres, Z up, front -Y).
 
     `id` is unique and safe in URDF and USD. `labelled_by` states what the label rests on ("joint": what the input
-    states about its motion; "added": the part is new). `carried_by` is the id of the moving part that carries this one,
-    where the input states it (a handle in a door's link, a knob on a drawer).
+    states about its motion; "added": the part is new; "hidden": the user hid it, and no name is to tell it).
+    `carried_by` is the id of the moving part that carries this one, where the input states it (a handle in a door's
+    link, a knob on a drawer).
     """
 
     id: str
     label: PartLabel
     surfaces: tuple[Surface, ...]
     source: PartSource
-    labelled_by: Literal["name", "shape", "annotation", "joint", "user", "prediction", "added", "none"] = "none"
+    labelled_by: Literal["name", "shape", "annotation", "joint", "user", "prediction", "added", "hidden", "none"] = (
+        "none"
+    )
     carried_by: str | None = None
 
     def __repr__(self) -> str:

@@ -122,7 +122,7 @@ def _without_labels(reading: Reading) -> Reading:
 
 
 def _unlabelled(part: Part) -> Part:
-    return replace(part, label=PartLabel.UNKNOWN, labelled_by="none")
+    return replace(part, label=PartLabel.UNKNOWN, labelled_by="hidden")
 
 
 def pieces_in(reading: Reading, options: LoadOptions) -> tuple[tuple[FurniturePiece, ...], Frame]:

@@ -145,9 +145,11 @@ def _print_forecast(forecast: "Forecast") -> None:
     from rich.markup import escape
 
     from grafu.cli.terminal import plain_table, wide_console
-    from grafu.pipeline.words import counted, percent
+    from grafu.pipeline.words import counted, percent, piece_words
 
     console = wide_console()
+    if forecast.piece is not None:
+        console.print(piece_words(forecast.piece.kind, forecast.piece.score), highlight=False)
     console.print(f"a run would make {counted(len(forecast.motions), 'part')} move, by the {forecast.source}:")
     table = plain_table("part", "joint", "confidence", "decided")
     for motion in forecast.motions:

@@ -12,6 +12,7 @@ from grafu.completion.answers import move_parts
 from grafu.completion.columns import agreed_borders
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.doors import slide_door
+from grafu.completion.facts import ajar_decisions, piece_guess, rides
 from grafu.completion.probabilities import Probabilities
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.selection import borders_of, choose_hinge, choose_parent, choose_rails
@@ -107,11 +108,15 @@ def complete_decoded(
         lambda drawer: choose_rails(drawer, view, scene),
         lambda door, other: slide_door(door, other, scene),
     )
+    completed, known = with_edges(view.graph, motions.edges), view.config.facts
+    ajar = ajar_decisions(completed, view.probabilities, known)
     return GraphCompletion(
         graph,
-        with_edges(view.graph, motions.edges),
+        completed,
         "network",
         tuple(part.node.id for part in added),
-        (*(d for part in added for d in part.decisions), *labelling, *decoded.decisions, *motions.decisions),
+        (*(d for part in added for d in part.decisions), *labelling, *decoded.decisions, *motions.decisions, *ajar),
         (*decoded.refused, *motions.refused),
+        piece_guess(view.probabilities, known),
+        rides(completed, view.given, view.probabilities, known),
     )

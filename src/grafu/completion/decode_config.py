@@ -63,6 +63,26 @@ class OverlayConfig(ShortRepr):
 
 @final
 @dataclass(frozen=True, slots=True)
+class FactConfig(ShortRepr):
+    """From which probability on something is stated of the whole piece.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    rides: float = 0.95
+    """A part moves as one with a door or drawer ..."""
+    ajar: float = 0.8
+    """... a door or drawer is drawn open ..."""
+    piece: float = 0.5
+    """... and the piece is of a kind."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
 class DecodeConfig:
     """How scores become a graph. Lengths are fractions of the object's largest side, probabilities in 0..1.
 
@@ -134,6 +154,9 @@ class DecodeConfig:
 
     overlay: OverlayConfig = OverlayConfig()
     """Of fronts that lie on panels."""
+
+    facts: FactConfig = FactConfig()
+    """Of what is stated of the whole piece."""
 
     edge_for_label: float = 0.2
     """What remains of the probability that an unlabelled part is a door, drawer or handle if no part can carry it."""

@@ -17,6 +17,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Float, Float32, Float64, Int64
 
+from grafu.completion.name_codes import name_codes
 from grafu.completion.visibility import visibility_of
 from grafu.geometry.arrays import ArrayValue, Points, freeze_arrays
 from grafu.graph.arrays import KindSet, graph_arrays
@@ -30,7 +31,8 @@ class Scores(ArrayValue):
 
     Boxes stand in the normalised frame of the features. A pair (i, j) asks about i as the child (the door, drawer or
     handle) and j as what carries it. `parent_abstain` and `hinge_abstain` speak for no slot at all. Codes are those of
-    `grafu.graph.arrays` and, for motions, the authors'.
+    `grafu.graph.arrays` and, for motions, the authors'. `body` is that two parts move as one, `ajar` that a part is
+    drawn open, `piece` the kind of the whole piece, in the order of `PieceKind`.
     """
 
     exists: Float32[np.ndarray, " s"]
@@ -45,6 +47,9 @@ class Scores(ArrayValue):
     border: Float32[np.ndarray, "s s 4"]
     sign: Float32[np.ndarray, "s s 2"]
     slide: Float32[np.ndarray, "s s 6"]
+    body: Float32[np.ndarray, "s s"]
+    ajar: Float32[np.ndarray, " s"]
+    piece: Float32[np.ndarray, " pieces"]
 
     def __post_init__(self) -> None:
         freeze_arrays(self, dtype=np.float32)
@@ -158,7 +163,8 @@ class GraphFeatures(ArrayValue):
     `boxes` are centre and half size, `anchors` a part's points spread farthest apart,
     `groups` the nearest points of each anchor, relative to it; all in the normalised frame, in which an object point x
     (metres) is (x - origin) / scale: the object stands on z = 0, centred in x and y, its largest side 1. `edges` are
-    symmetric, null where there is none and on the diagonal.
+    symmetric, null where there is none and on the diagonal. `names` are the pieces of the input's own words
+    (`name_codes`).
     """
 
     labels: Int64[np.ndarray, " n"]
@@ -166,11 +172,12 @@ class GraphFeatures(ArrayValue):
     anchors: Float32[np.ndarray, "n g 3"]
     groups: Float32[np.ndarray, "n g s 3"]
     edges: Int64[np.ndarray, "n n"]
+    names: Int64[np.ndarray, "n c"]
     origin: Float64[np.ndarray, "3"]
     scale: float
 
     def __post_init__(self) -> None:
-        freeze_arrays(self, "labels", "edges", dtype=np.int64)
+        freeze_arrays(self, "labels", "edges", "names", dtype=np.int64)
         freeze_arrays(self, "boxes", "anchors", "groups", dtype=np.float32)
         freeze_arrays(self, "origin", dtype=np.float64)
 
@@ -188,7 +195,8 @@ def graph_features(graph: FunctionalGraph, config: FeatureConfig = FeatureConfig
     boxes = np.hstack([centre - origin, half]) / scale
     clouds = (_clouds(graph, centre - half, centre + half, config.points) - origin) / scale
     anchors, groups = group_points(clouds.astype(np.float32), config.anchors, config.neighbours)
-    return GraphFeatures(arrays.labels, boxes.astype(np.float32), anchors, groups, arrays.edges, origin, scale)
+    names = name_codes([node.source_name for node in graph.nodes])
+    return GraphFeatures(arrays.labels, boxes.astype(np.float32), anchors, groups, arrays.edges, names, origin, scale)
 
 
 def object_frame(graph: FunctionalGraph) -> tuple[Float64[np.ndarray, "3"], float]:

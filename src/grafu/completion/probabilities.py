@@ -21,7 +21,8 @@ class Probabilities(ArrayValue):
     """Probabilities for s slots, the first n of them nodes of the input.
 
     `centre` and `half` stand in the normalised frame. `hinge[i, j]` is a table of border and sign. `parent` and
-    `mount` stay logits, beside the logit of none, because what they choose among depends on the labels.
+    `mount` stay logits, beside the logit of none, because what they choose among depends on the labels. `body[i, j]` is
+    that i and j move as one, `ajar` that a part is drawn open, `piece` what the whole is, as in `Scores`.
     """
 
     exists: Float[np.ndarray, " s"]
@@ -35,6 +36,9 @@ class Probabilities(ArrayValue):
     no_mount: float
     hinge: Float[np.ndarray, "s s 4 2"]
     slide: Float[np.ndarray, "s s 6"]
+    body: Float[np.ndarray, "s s"]
+    ajar: Float[np.ndarray, " s"]
+    piece: Float[np.ndarray, " pieces"]
 
     def __post_init__(self) -> None:
         freeze_arrays(self, dtype=np.float64)
@@ -44,7 +48,7 @@ def probabilities_of(scores: Scores) -> Probabilities:
     """Returns the scores of one forward pass as probabilities."""
     border, sign = softmax(scores.border), softmax(scores.sign)
     return Probabilities(
-        exists=1.0 / (1.0 + np.exp(-np.clip(scores.exists.astype(np.float64), -60.0, 60.0))),
+        exists=_sigmoid(scores.exists),
         label=softmax(scores.category),
         centre=scores.centre.astype(np.float64),
         half=scores.half.astype(np.float64),
@@ -55,6 +59,9 @@ def probabilities_of(scores: Scores) -> Probabilities:
         no_mount=scores.hinge_abstain,
         hinge=border[..., :, None] * sign[..., None, :],
         slide=softmax(scores.slide),
+        body=_sigmoid(scores.body),
+        ajar=_sigmoid(scores.ajar),
+        piece=softmax(scores.piece),
     )
 
 
@@ -79,6 +86,9 @@ def mirrored_back(probabilities: Probabilities, thin: Int64[np.ndarray, " n"], a
     )
 
 
+_OF_PAIRS = ("edge", "parent", "mount", "hinge", "slide", "body")
+
+
 def averaged(first: Probabilities, second: Probabilities, seen: int) -> Probabilities:
     """Returns the mean of two passes over the first `seen` slots and their pairs; free slots are those of the first.
 
@@ -92,9 +102,14 @@ def averaged(first: Probabilities, second: Probabilities, seen: int) -> Probabil
         found[where] = (a[where] + b[where]) / 2
         return found
 
-    by_slot: dict[str, Any] = {name: mean(name, pairs=False) for name in ("label", "centre", "half")}
-    by_pair: dict[str, Any] = {name: mean(name, pairs=True) for name in ("edge", "parent", "mount", "hinge", "slide")}
-    return replace(first, **by_slot, **by_pair)
+    by_slot: dict[str, Any] = {name: mean(name, pairs=False) for name in ("label", "centre", "half", "ajar")}
+    by_pair: dict[str, Any] = {name: mean(name, pairs=True) for name in _OF_PAIRS}
+    return replace(first, **by_slot, **by_pair, piece=(first.piece + second.piece) / 2)
+
+
+def _sigmoid(logits: np.ndarray) -> np.ndarray:
+    found: np.ndarray = 1.0 / (1.0 + np.exp(-np.clip(logits.astype(np.float64), -60.0, 60.0)))
+    return found
 
 
 def softmax(logits: np.ndarray) -> np.ndarray:

@@ -19,6 +19,7 @@ from grafu.completion.features import SCORE_NAMES, FeatureConfig, GraphFeatures,
 from grafu.errors import WeightsError
 from grafu.graph.arrays import EDGE_CODES, LABELS, NULL
 from grafu.processes.lifetime import keep_private
+from grafu.vocabulary import PieceKind
 
 
 def onnx_runtime() -> ModuleType:
@@ -36,8 +37,9 @@ def onnx_runtime() -> ModuleType:
 GraphNetwork = Callable[[GraphFeatures], Scores]
 
 SHIPPED_WEIGHTS = Path(__file__).parent / "weights" / "grafu.onnx"
-_INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility")
-_SINCE = frozenset({"visibility"})  # inputs that older files do not read
+_INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names")
+_SINCE = frozenset({"visibility", "names"})  # inputs that older files do not read
+_FACTS = ("body", "ajar", "piece")  # outputs that older files do not have
 
 
 @final
@@ -65,20 +67,25 @@ class NetworkSession:
             raise WeightsError(f"`{path}` must be a network in ONNX form: {error}") from error
         self.features = self._checked(path)
         self._inputs = tuple(item.name for item in self._session.get_inputs())
+        known = {item.name for item in self._session.get_outputs()}
+        self._outputs = tuple(name for name in SCORE_NAMES if name in known)
 
     def __call__(self, features: GraphFeatures) -> Scores:
         """Returns what the network states about a graph of at least one node."""
         found: list[Any] = self._session.run(
-            list(SCORE_NAMES), {name: getattr(features, name) for name in self._inputs}
+            list(self._outputs), {name: getattr(features, name) for name in self._inputs}
         )
-        arrays = {name: np.asarray(array) for name, array in zip(SCORE_NAMES, found, strict=True)}
+        arrays = {name: np.asarray(array) for name, array in zip(self._outputs, found, strict=True)}
+        slots = len(arrays["exists"])
+        shapes = {"body": (slots, slots), "ajar": (slots,), "piece": (len(PieceKind),)}
+        arrays |= {name: np.zeros(shape, np.float32) for name, shape in shapes.items() if name not in arrays}
         arrays["edge"] = with_all_kinds(arrays["edge"])
         values: dict[str, Any] = {name: array if array.ndim else float(array) for name, array in arrays.items()}
         return Scores(**values)
 
     def _checked(self, path: Path) -> FeatureConfig:
         names = {item.name for item in self._session.get_inputs()}, {item.name for item in self._session.get_outputs()}
-        if names[0] | _SINCE != set(_INPUTS) or not set(SCORE_NAMES) <= names[1]:
+        if names[0] | _SINCE != set(_INPUTS) or not set(SCORE_NAMES) <= names[1] | set(_FACTS):
             raise WeightsError(f"`{path}` must read {_INPUTS} and say {SCORE_NAMES}: got {names[0]} and {names[1]}")
         facts: Mapping[str, str] = self._session.get_modelmeta().custom_metadata_map
         if json.loads(facts.get("labels", "[]")) != [label.value for label in LABELS]:

@@ -11,6 +11,7 @@ from grafu.errors import GraphError
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import as_contacts
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.piece_facts import NOT_KNOWN, PieceFacts
 from grafu.synth.specimen import Defect, Specimen
 
 NATURAL = "natural"  # the strategy of a pair that nothing was taken from on purpose
@@ -23,7 +24,8 @@ class GraphPair:
 
     A node of the input is anchored to the node of the target that has its id: the same part in the same place, but
     perhaps with another label, and with edges of its own. `strategy` names how the input was made (`natural`, or one
-    of `grafu.data.corruption`), `model_id` the model that both show, the same for all its pairs.
+    of `grafu.data.corruption`), `model_id` the model that both show, the same for all its pairs. `facts` are what is
+    known of the piece beside its graph.
 
     Raises:
         GraphError: if a node of the input is not one of the target, or its box is another.
@@ -33,6 +35,7 @@ class GraphPair:
     target: FunctionalGraph
     strategy: str
     model_id: str
+    facts: PieceFacts = NOT_KNOWN
 
     def __post_init__(self) -> None:
         for node in self.input.nodes:
@@ -58,7 +61,7 @@ class GraphPair:
 
 def specimen_pair(specimen: Specimen) -> GraphPair:
     """Returns the natural pair of synthetic furniture: as it was modelled, and its true graph."""
-    return GraphPair(specimen.given, specimen.truth, NATURAL, specimen.id)
+    return GraphPair(specimen.given, specimen.truth, NATURAL, specimen.id, specimen.facts)
 
 
 def natural_pair(target: FunctionalGraph) -> GraphPair:
@@ -79,7 +82,7 @@ class Record:
     """One model of a data set: `given` is what a network sees, `truth` what it is to say.
 
     The nodes of `given` are nodes of `truth` in the same order, with the same boxes and points; their labels may
-    differ. `removable` and `defects` are as in `Specimen`.
+    differ. `removable`, `defects` and `facts` are as in `Specimen`.
 
     Raises:
         GraphError: if the graphs carry another name than the model, or `given` holds what `truth` does not.
@@ -91,6 +94,7 @@ class Record:
     truth: FunctionalGraph
     removable: frozenset[str] = frozenset()
     defects: tuple[Defect, ...] = ()
+    facts: PieceFacts = NOT_KNOWN
 
     def __post_init__(self) -> None:
         if not self.given.model_id == self.truth.model_id == self.model_id:
@@ -115,12 +119,13 @@ def record_of(specimen: Specimen) -> Record:
         _named(specimen.truth, specimen.id),
         specimen.removable,
         specimen.defects,
+        specimen.facts,
     )
 
 
 def record_pair(record: Record) -> GraphPair:
     """Returns the natural pair of a record, from which `fold` makes corrupted ones."""
-    return GraphPair(record.given, record.truth, NATURAL, record.model_id)
+    return GraphPair(record.given, record.truth, NATURAL, record.model_id, record.facts)
 
 
 def _named(graph: FunctionalGraph, name: str) -> FunctionalGraph:

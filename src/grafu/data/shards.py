@@ -12,17 +12,22 @@ from typing import Any, final
 import numpy as np
 
 from grafu.data.pair import Record
-from grafu.data.shards_arrays import DEFECT_KINDS, ModelArrays, arrays_to_record, record_to_arrays
+from grafu.data.shards_arrays import DEFECT_KINDS, PIECES, ModelArrays, arrays_to_record, record_to_arrays
 from grafu.data.shards_file import read_array_file, require_columns, write_array_file
 from grafu.errors import UnreadableAsset
 from grafu.graph.arrays import EDGE_WORDS, LABELS
 from grafu.synth.specimen import Defect
 from grafu.version import __version__
 
-SCHEMA = "grafu.shard/1"
+SCHEMA = "grafu.shard/2"
 MODELS_PER_SHARD = 1000
 
-_WORDS = {"labels": list(LABELS), "edge_kinds": list(EDGE_WORDS), "defect_kinds": list(DEFECT_KINDS)}
+_WORDS = {
+    "labels": list(LABELS),
+    "edge_kinds": list(EDGE_WORDS),
+    "defect_kinds": list(DEFECT_KINDS),
+    "pieces": list(PIECES),
+}
 _NO_WORDS = np.zeros(0, np.uint32)
 
 
@@ -111,6 +116,9 @@ class ShardReader:
             [names[i] for i in columns["source_name"][nodes].tolist()],
             columns["label"][nodes],
             columns["given_label"][nodes],
+            columns["body"][nodes],
+            columns["ajar"][nodes],
+            int(columns["piece"][place]),
             columns["removable"][nodes],
             columns["box"][nodes],
             columns["edge"][self._span("edges_from", place)],
@@ -163,6 +171,9 @@ def _columns(models: Sequence[ModelArrays], names: _Names) -> dict[str, np.ndarr
         "source_name": names.numbers(word for m in models for word in m.source_names),
         "label": _joined([m.labels for m in models], np.zeros(0, np.uint8)),
         "given_label": _joined([m.given_labels for m in models], np.zeros(0, np.uint8)),
+        "body": _joined([m.bodies for m in models], np.zeros(0, np.uint16)),
+        "ajar": _joined([m.ajar for m in models], np.zeros(0, np.uint8)),
+        "piece": np.array([m.piece for m in models], dtype=np.uint8),
         "removable": _joined([m.removable for m in models], np.zeros(0, np.bool_)),
         "box": _joined([m.boxes for m in models], np.zeros((0, 2, 3))),
         "edge": _joined([m.edges for m in models], np.zeros((0, 4), np.uint16)),

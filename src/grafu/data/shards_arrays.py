@@ -10,7 +10,7 @@ takes four bytes, a place on a grid of 1625 steps along each side of the part's 
 Coding what was decoded changes nothing.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import final, get_args
 
@@ -25,8 +25,9 @@ from grafu.geometry.sampling import PointCloud
 from grafu.graph.arrays import KIND_CODES, KIND_OF, LABEL_CODES, LABELS
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.graph.piece_facts import STATIC, PieceFacts
 from grafu.synth.specimen import Defect, DefectKind
-from grafu.vocabulary import EdgeKind
+from grafu.vocabulary import EdgeKind, PieceKind
 
 STEPS = 1625
 LARGEST_ERROR = 1 / (2 * (STEPS - 1))  # of the box's side, along each axis
@@ -77,7 +78,9 @@ def _per_point(boxes: Boxes, counts: Counts) -> tuple[Points, Points]:
 
 
 DEFECT_KINDS: tuple[DefectKind, ...] = get_args(DefectKind)
-ABSENT = 255  # the given label of a node that is not given
+ABSENT = 255  # the given label of a node that is not given; what is not known of a part or a piece
+NO_BODY = 65_535  # the body of a part whose body is not known
+PIECES: tuple[PieceKind, ...] = tuple(PieceKind)
 
 EdgeArray = UInt16[np.ndarray, "edges 4"]
 GivenEdgeArray = UInt16[np.ndarray, "given_edges 4"]
@@ -92,7 +95,9 @@ class ModelArrays:
     `labels` are codes (`grafu.graph.arrays`), `given_labels` too, or `ABSENT`. `boxes` hold low and high corner,
     metres. A row of `edges` (the truth's) and `given_edges` is: place of the first node (the parent), of the second
     (the child), code of the kind, motion: 2 * border + sign of a hinge, signed axis of a rail, slide or turn, else 0.
-    That a part follows another is left out.
+    That a part follows another is left out. `bodies` are 0 for parts that stand, else 1 more than the place of the
+    moving part that they move as one with, `NO_BODY` where it is not known; `ajar` is 0 or 1, or `ABSENT`; `piece` a
+    place in `PIECES`, or `ABSENT`.
     `points` are coded as in `shards_points`, `counts` of them for each node.
     """
 
@@ -102,6 +107,9 @@ class ModelArrays:
     source_names: Sequence[str]
     labels: ByteArray
     given_labels: ByteArray
+    bodies: UInt16[np.ndarray, " parts"]
+    ajar: ByteArray
+    piece: int
     removable: Bool[np.ndarray, " parts"]
     boxes: Boxes
     edges: EdgeArray
@@ -130,6 +138,7 @@ def record_to_arrays(record: Record) -> ModelArrays:
         tuple(n.source_name for n in nodes),
         np.array([LABEL_CODES[n.label] for n in nodes], dtype=np.uint8),
         np.array([given.get(n.id, ABSENT) for n in nodes], dtype=np.uint8),
+        *_fact_arrays(record.facts, places),
         np.array([n.id in record.removable for n in nodes], dtype=np.bool_),
         boxes,
         _edge_array(record.truth.edges, places),
@@ -160,7 +169,25 @@ def arrays_to_record(arrays: ModelArrays) -> Record:
         FunctionalGraph(arrays.model_id, nodes, _edges(arrays.edges, ids)),
         frozenset(ids[place] for place in np.flatnonzero(arrays.removable).tolist()),
         arrays.defects,
+        _facts(arrays),
     )
+
+
+def _fact_arrays(facts: PieceFacts, places: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, int]:
+    numbers = {STATIC: 0} | {name: place + 1 for name, place in places.items()}
+    bodies = [numbers[facts.bodies[name]] if name in facts.bodies else NO_BODY for name in places]
+    ajar = [ABSENT if facts.ajar is None else int(name in facts.ajar) for name in places]
+    kind = ABSENT if facts.kind is None else PIECES.index(facts.kind)
+    return np.array(bodies, dtype=np.uint16), np.array(ajar, dtype=np.uint8), kind
+
+
+def _facts(arrays: ModelArrays) -> PieceFacts:
+    ids = arrays.node_ids
+    body_of = zip(ids, arrays.bodies.tolist(), strict=True)
+    bodies = {name: ids[body - 1] if body else STATIC for name, body in body_of if body != NO_BODY}
+    drawn = arrays.ajar.tolist()
+    ajar = None if ABSENT in drawn or not drawn else frozenset(ids[k] for k, is_ajar in enumerate(drawn) if is_ajar)
+    return PieceFacts(None if arrays.piece == ABSENT else PIECES[arrays.piece], ajar, bodies)
 
 
 def _nodes(arrays: ModelArrays) -> tuple[PartNode, ...]:

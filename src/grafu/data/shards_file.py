@@ -18,7 +18,7 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 import numpy as np
 
 from grafu.asset.scan_files import array_from
-from grafu.data.shards_arrays import ABSENT, DEFECT_KINDS
+from grafu.data.shards_arrays import ABSENT, DEFECT_KINDS, NO_BODY, PIECES
 from grafu.errors import AssetTooLarge, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.graph.arrays import KIND_OF, LABELS
@@ -30,15 +30,17 @@ _ROWS: Final[Mapping[str, tuple[str, tuple[int, ...]]]] = {
     **dict.fromkeys(("model_id", "family", "node_id", "source_name", "defect_part"), _WORD),
     **dict.fromkeys(("nodes_from", "edges_from", "given_edges_from", "defects_from"), _PLACE),
     **dict.fromkeys(("defect_parts_from", "points_from"), _PLACE),
-    **dict.fromkeys(("label", "given_label", "defect_kind"), ("|u1", ())),
+    **dict.fromkeys(("label", "given_label", "defect_kind", "ajar", "piece"), ("|u1", ())),
+    "body": ("<u2", ()),
     **dict.fromkeys(("edge", "given_edge"), ("<u2", (4,))),
     "removable": ("|b1", ()),
     "box": ("<f8", (2, 3)),
     "points": ("<u4", ()),
 }
+_OF_NODES: Final = ("node_id", "source_name", "label", "given_label", "removable", "box", "body", "ajar")
 # Where the rows of which columns begin, for each row of which column.
 _STARTS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = {
-    "nodes_from": ("model_id", ("node_id", "source_name", "label", "given_label", "removable", "box")),
+    "nodes_from": ("model_id", _OF_NODES),
     "edges_from": ("model_id", ("edge",)),
     "given_edges_from": ("model_id", ("given_edge",)),
     "defects_from": ("model_id", ("defect_kind",)),
@@ -76,7 +78,9 @@ def _wrong_starts(columns: Mapping[str, np.ndarray]) -> str:
         for target in targets:
             if starts[-1] != len(columns[target]):
                 return f"its columns `{name}` and `{target}` do not fit"
-    return "" if len(columns["family"]) == len(columns["model_id"]) else "`family` and `model_id` do not fit"
+    models = len(columns["model_id"])
+    wrong = next((name for name in ("family", "piece") if len(columns[name]) != models), "")
+    return f"`{wrong}` and `model_id` do not fit" if wrong else ""
 
 
 def _wrong_words(columns: Mapping[str, np.ndarray], names: Any) -> str:
@@ -91,6 +95,12 @@ def _wrong_codes(columns: Mapping[str, np.ndarray]) -> str:
     labels = max(_most(columns["label"]), _most(given[given != ABSENT]))
     if labels >= len(LABELS) or _most(columns["defect_kind"]) >= len(DEFECT_KINDS):
         return "it has labels or defects that are not known"
+    if not (np.isin(columns["ajar"], (0, 1, ABSENT)).all() and _known(columns["piece"], len(PIECES))):
+        return "it has kinds of pieces that are not known"
+    counts = np.repeat(np.diff(columns["nodes_from"]), np.diff(columns["nodes_from"]))
+    bodies = columns["body"]
+    if ((bodies > counts) & (bodies != NO_BODY)).any():
+        return "`body` names nodes that are not there"
     box = columns["box"]
     if not np.isfinite(box).all() or (box[:, 1] < box[:, 0]).any():
         return "a box is not finite or upside down"
@@ -101,6 +111,10 @@ def _wrong_codes(columns: Mapping[str, np.ndarray]) -> str:
         if (columns[name][:, :2] >= counts[:, None]).any() or not known.all():
             return f"`{name}` names nodes or kinds that are not there"
     return ""
+
+
+def _known(column: np.ndarray, count: int) -> bool:
+    return bool(((column < count) | (column == ABSENT)).all())
 
 
 def _most(column: np.ndarray) -> int:

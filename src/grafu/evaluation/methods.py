@@ -39,7 +39,9 @@ def masked(asset: Asset, ratio: float, seed: int) -> Asset:
         raise ValueError(f"`ratio` must be in 0..1: got {ratio}")
     bare = asset.without_annotation()
     hidden = set(mask_order(bare, seed)[: round(ratio * len(bare.parts))])
-    parts = tuple(replace(p, label=PartLabel.UNKNOWN, labelled_by="none") if p.id in hidden else p for p in bare.parts)
+    parts = tuple(
+        replace(p, label=PartLabel.UNKNOWN, labelled_by="hidden") if p.id in hidden else p for p in bare.parts
+    )
     return replace(bare, parts=parts)
 
 

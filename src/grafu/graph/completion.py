@@ -7,10 +7,11 @@ from grafu.errors import GraphError
 from grafu.graph.edges import Hinge, MotionEdge, Turn
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.refusal import Refusal
+from grafu.vocabulary import PieceKind
 
 BY_RULE, BY_BOTH = "rule", "network and rule"
 """`Decision.by`: a rule answers in the network's place, or leans its choice."""
-Question = Literal["label", "exists", "parent", "mount", "border", "sign", "slide", "turn"]
+Question = Literal["label", "exists", "parent", "mount", "border", "sign", "slide", "turn", "ajar"]
 
 
 @final
@@ -18,9 +19,9 @@ Question = Literal["label", "exists", "parent", "mount", "border", "sign", "slid
 class Decision:
     """One answer about one part: the choice, its score in 0..1, and the next best choice where there is one.
 
-    `choice` and `runner_up` are words: a label, a node id, a border, sign or signed axis as its code. `by` names who
-    answered where that is not the completion's source alone: `rule`, whose scores they are then, or `network and rule`
-    where the network itself prefers the runner-up; the scores are the network's.
+    `choice` and `runner_up` are words: a label, a node id, a border, sign or signed axis as its code, open or closed.
+    `by` names who answered where that is not the completion's source alone: `rule`, whose scores they are then, or
+    `network and rule` where the network itself prefers the runner-up; the scores are the network's.
 
     Raises:
         GraphError: if a score is not in 0..1.
@@ -48,12 +49,24 @@ def decision_of(edge: MotionEdge) -> Decision:
 
 
 @final
+@dataclass(frozen=True, slots=True)
+class PieceGuess:
+    """What the whole piece is, with the network's probabilities of that and of the next best kind."""
+
+    kind: PieceKind
+    score: float
+    runner_up: PieceKind
+    runner_up_score: float
+
+
+@final
 @dataclass(frozen=True, repr=False)
 class GraphCompletion:
     """A completed graph and how it was completed.
 
     `source` names what completed it (rule, network). No door and no drawer of the completed graph is left without a
-    motion in silence: each has its edge or stands in `refused`.
+    motion in silence: each has its edge or stands in `refused`. `piece` is what the whole is, where that is known;
+    `rides` are pairs (moving part, part that moves as one with it) that no edge states.
 
     Raises:
         GraphError: if a node of the input is missing, `added` is not exactly what is new, a decision or refusal names
@@ -66,6 +79,8 @@ class GraphCompletion:
     added: tuple[str, ...] = ()
     decisions: tuple[Decision, ...] = ()
     refused: tuple[Refusal, ...] = ()
+    piece: PieceGuess | None = None
+    rides: tuple[tuple[str, str], ...] = ()
 
     def __repr__(self) -> str:
         return f"<GraphCompletion by {self.source}: {self.completed!r}, {len(self.added)} nodes added>"
@@ -76,9 +91,11 @@ class GraphCompletion:
             raise GraphError(f"a completion must keep every node of its input: it lost {sorted(before - after)}")
         if set(self.added) != after - before:
             raise GraphError(f"`added` must be the new nodes {sorted(after - before)}: got {sorted(self.added)}")
-        named = {d.part for d in self.decisions} | {r.part for r in self.refused}
+        named = (
+            {d.part for d in self.decisions} | {r.part for r in self.refused} | {p for pair in self.rides for p in pair}
+        )
         if not named <= after:
-            raise GraphError(f"decisions and refusals must name nodes: there is no {sorted(named - after)}")
+            raise GraphError(f"decisions, refusals and rides must name nodes: there is no {sorted(named - after)}")
         silent = self._silent_parts()
         if silent:
             raise GraphError(f"every door and drawer needs its motion or a refusal: {silent} have neither")

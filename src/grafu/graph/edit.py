@@ -54,6 +54,12 @@ def relabelled(graph: FunctionalGraph, labels: Mapping[str, PartLabel]) -> Funct
     return replace(graph, nodes=nodes, edges=allowed_edges(graph.edges, {n.id: n.label for n in nodes}))
 
 
+def without_names(graph: FunctionalGraph, ids: Collection[str]) -> FunctionalGraph:
+    """Returns the graph without the input's own words for these nodes."""
+    nodes = tuple(replace(n, source_name="") if n.id in ids and n.source_name else n for n in graph.nodes)
+    return replace(graph, nodes=nodes)
+
+
 def as_contacts(graph: FunctionalGraph) -> FunctionalGraph:
     """Returns the non-functional graph: the same nodes, every edge a contact."""
     return replace(graph, edges=tuple(Contact(*ends_of(e)) for e in graph.edges))

@@ -17,7 +17,8 @@ The form is a superset of the authors', so that their tools read it too:
       follows   only on a motion that follows another: {leader, multiplier, offset}; the leader is a part
     completion   only in a completed graph
       source, added [id], decisions [{part, question, choice, score, runner_up, runner_up_score, by}],
-      refused [{part, why}], input {a graph of the same form}
+      refused [{part, why}], input {a graph of the same form},
+      piece null or {kind, score, runner_up, runner_up_score}, rides [[moving part, part that moves as one with it]]
 
 Readers ignore keys that they do not know, and refuse another schema.
 """
@@ -32,7 +33,7 @@ from grafu.articulation.articulated_object import Coupling
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.completion import Decision, GraphCompletion, Question
+from grafu.graph.completion import Decision, GraphCompletion, PieceGuess, Question
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, MotionEdge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.json_values import (
@@ -47,7 +48,7 @@ from grafu.graph.json_values import (
 from grafu.graph.official_motion import motion_fields, node_to_material
 from grafu.refusal import Reason, Refusal
 from grafu.visible import writable
-from grafu.vocabulary import EdgeKind, PartLabel
+from grafu.vocabulary import EdgeKind, PartLabel, PieceKind
 
 SCHEMA = "grafu.graph/1"
 
@@ -70,6 +71,8 @@ def completion_to_json(completion: GraphCompletion) -> dict[str, Any]:
             "added": list(completion.added),
             "decisions": [asdict(d) for d in completion.decisions],
             "refused": [_refusal_to_json(r) for r in completion.refused],
+            "piece": None if completion.piece is None else asdict(completion.piece),
+            "rides": [list(pair) for pair in completion.rides],
             "input": graph_to_json(completion.input),
         }
     }
@@ -125,6 +128,8 @@ def completion_from_json(data: Json) -> GraphCompletion:
         tuple(str(i) for i in read_list(extra, "added", "`completion`")),
         tuple(_decision_from_json(read_object(d, "a decision")) for d in read_list(extra, "decisions", "`completion`")),
         tuple(_refusal_from_json(read_object(r, "a refusal")) for r in read_list(extra, "refused", "`completion`")),
+        None if extra.get("piece") is None else _piece_from_json(read_object(extra["piece"], "`piece`")),
+        tuple(_ride_from_json(pair) for pair in extra.get("rides") or ()),
     )
 
 
@@ -228,6 +233,21 @@ def _decision_from_json(data: Json) -> Decision:
         read_number(data, "runner_up_score", "a decision"),
         read_text(data, "by", "a decision", ""),
     )
+
+
+def _piece_from_json(data: Json) -> PieceGuess:
+    kinds = [read_text(data, key, "`piece`") for key in ("kind", "runner_up")]
+    if not set(kinds) <= set(PieceKind):
+        raise GraphError(f"`kind` and `runner_up` of `piece` must be of {[x.value for x in PieceKind]}: got {kinds}")
+    kind, runner_up = (PieceKind(word) for word in kinds)
+    scores = (read_number(data, key, "`piece`") for key in ("score", "runner_up_score"))
+    return PieceGuess(kind, next(scores), runner_up, next(scores))
+
+
+def _ride_from_json(pair: Any) -> tuple[str, str]:
+    if not (isinstance(pair, list) and len(pair) == 2 and all(isinstance(name, str) for name in pair)):
+        raise GraphError(f"`rides` must be pairs of node ids (moving part, part that rides on it): got {pair!r}")
+    return pair[0], pair[1]
 
 
 def _refusal_to_json(refusal: Refusal) -> Json:

@@ -20,6 +20,8 @@ class Predictions:
     All scores are logits. Boxes stand in the normalised frame of the input. A pair (i, j) asks about i as the child,
     the door, drawer or handle, and j as what carries it; `edge` is symmetric. `parent_abstain` and `hinge_abstain` are
     the scores that i's parent, or mount, is none of the slots. Borders, signs and slides are official motion codes.
+    `body` is that i and j move as one, symmetric; `ajar` that a part is drawn open; `piece` the kind of the whole. A
+    network without `facts` answers 0 there.
     `mask` marks slots that are no padding.
     """
 
@@ -35,6 +37,9 @@ class Predictions:
     border: Float[Tensor, "b s s 4"]
     sign: Float[Tensor, "b s s 2"]
     slide: Float[Tensor, "b s s 6"]
+    body: Float[Tensor, "b s s"]
+    ajar: Float[Tensor, "b s"]
+    piece: Float[Tensor, "b pieces"]
     mask: Bool[Tensor, "b s"]
 
 
@@ -45,7 +50,7 @@ class GraphBatch:
 
     `mask` marks true nodes; what padding holds is never seen. Row `point_index` of `anchors` and `groups` holds the
     points of a node: centres of groups in the normalised frame, and each group's points relative to its centre.
-    `visibility` is that of `grafu.completion.visibility`.
+    `visibility` is that of `grafu.completion.visibility`, `names` those of `grafu.completion.name_codes`.
     """
 
     labels: Int64[Tensor, "b n"]
@@ -56,6 +61,7 @@ class GraphBatch:
     anchors: Float32[Tensor, "u g 3"]
     groups: Float32[Tensor, "u g k 3"]
     visibility: Float32[Tensor, "b n v"]
+    names: Int64[Tensor, "b n c"]
 
     def to(self, device: torch.device | str) -> "GraphBatch":
         """Returns the same batch on a device."""
@@ -69,10 +75,11 @@ def one_graph(
     groups: Float32[Tensor, "n g k 3"],
     edges: Int64[Tensor, "n n"],
     visibility: Float32[Tensor, "n v"],
+    names: Int64[Tensor, "n c"],
 ) -> GraphBatch:
     """Returns a batch of one graph, each node with its own row of points."""
     index = torch.arange(labels.shape[0], device=labels.device)
     mask = torch.ones_like(labels, dtype=torch.bool)
     return GraphBatch(
-        labels[None], boxes[None], edges[None], mask[None], index[None], anchors, groups, visibility[None]
+        labels[None], boxes[None], edges[None], mask[None], index[None], anchors, groups, visibility[None], names[None]
     )

@@ -41,6 +41,11 @@ class GraFuConfig:
             (`grafu.completion.visibility`): a front and a shelf may have one shape.
         kinds: the paper has four kinds of edges. "all" has ours, too: a door that slides, what turns about no border of
             its box, and motions on what moves itself.
+        names: nodes also see pieces of the input's own words for their parts (`grafu.completion.name_codes`), as
+            evidence beside the label that was read from them: a name may be wrong, or foreign.
+        facts: the network also predicts which parts move as one body, which are drawn ajar, and what the whole is.
+        name_dropout: in training, the fraction of graphs whose names are hidden: many files have none that mean
+            anything.
         geometry_dropout: in training, the fraction of graphs whose parts' points are hidden (authors: .3, of whole
             batches): real surfaces differ more from synthetic ones than boxes and contacts do.
 
@@ -67,6 +72,9 @@ class GraFuConfig:
     free_boxes: FreeBoxes = "pointed"
     visibility: bool = True
     kinds: KindSet = "all"
+    names: bool = True
+    facts: bool = True
+    name_dropout: float = 0.3
 
     @property
     def edge_codes(self) -> int:
@@ -82,7 +90,7 @@ class GraFuConfig:
             raise ValueError(f"`hidden` must be a multiple of `heads`: got {self.hidden} and {self.heads}")
         if self.free_slots < 0:
             raise ValueError(f"`free_slots` must not be negative: got {self.free_slots}")
-        for name in ("dropout", "geometry_dropout"):
+        for name in ("dropout", "geometry_dropout", "name_dropout"):
             if not 0.0 <= getattr(self, name) < 1.0:
                 raise ValueError(f"`{name}` must be at least 0 and below 1: got {getattr(self, name)}")
 
@@ -96,8 +104,10 @@ PAPER = GraFuConfig(
     free_boxes="absolute",
     visibility=False,
     kinds="paper",
+    names=False,
+    facts=False,
 )
 """The network without our departures."""
 
-OLDER: Mapping[str, Any] = MappingProxyType({"kinds": "paper", "visibility": False})
-"""The fields that files of the first network do not state, and what it had."""
+OLDER: Mapping[str, Any] = MappingProxyType({"kinds": "paper", "visibility": False, "names": False, "facts": False})
+"""The fields that files of earlier networks do not state, and what they had."""

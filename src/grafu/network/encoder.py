@@ -12,7 +12,7 @@ from itertools import pairwise
 from typing import final
 
 import torch
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int64
 from torch import Tensor, nn
 
 from grafu.network.batch import GraphBatch
@@ -151,6 +151,30 @@ VISIBILITY_NUMBERS = 18  # those of `grafu.completion.visibility`
 BOX_HIDDEN = 64  # as in the authors' code
 
 
+NAME_CODES, NAME_BUCKETS = 32, 2048  # those of `grafu.completion.name_codes`
+NAME_WIDTH = 64
+
+
+@final
+class NameEncoder(nn.Module):
+    """From the pieces of a part's name to `NAME_WIDTH` numbers: their mean, through a perceptron."""
+
+    def __init__(self, dropout: float) -> None:
+        super().__init__()
+        self.pieces = nn.Embedding(NAME_BUCKETS + 1, NAME_WIDTH, padding_idx=0)
+        self.mixed = perceptron(NAME_WIDTH, NAME_WIDTH, NAME_WIDTH)
+        self.hidden_ratio = dropout
+
+    def forward(self, names: Int64[Tensor, "b n c"]) -> Float[Tensor, "b n w"]:
+        """Returns the latents, 0 for parts without a name; in training, some graphs' names are hidden."""
+        said = (names > 0).sum(dim=-1, keepdim=True)
+        mean = self.pieces(names).sum(dim=-2) / said.clamp(min=1)
+        latent = self.mixed(mean) * (said > 0)
+        if self.training and self.hidden_ratio > 0:
+            latent = latent * (torch.rand(latent.shape[0], 1, 1, device=latent.device) >= self.hidden_ratio)
+        return latent
+
+
 @final
 class NodeEncoder(nn.Module):
     """From a part to the latent z_v."""
@@ -163,12 +187,14 @@ class NodeEncoder(nn.Module):
         self.box = perceptron(numbers, BOX_HIDDEN, config.geometry)
         self.points = PointEncoder(config.points, config.points_frame)
         self.visibility = perceptron(VISIBILITY_NUMBERS, BOX_HIDDEN, config.geometry) if config.visibility else None
+        self.names = NameEncoder(config.name_dropout) if config.names else None
         self.hidden_ratio = config.geometry_dropout
 
     @staticmethod
     def width(config: GraFuConfig) -> int:
-        """Returns how many numbers a latent has: the paper's 224, and those of visibility."""
-        return config.category + config.points + config.geometry * (2 if config.visibility else 1)
+        """Returns how many numbers a latent has: the paper's 224, those of visibility, and those of names."""
+        geometry = config.geometry * (2 if config.visibility else 1)
+        return config.category + config.points + geometry + (NAME_WIDTH if config.names else 0)
 
     def forward(self, batch: GraphBatch) -> Float[Tensor, "b n z"]:
         """Returns the latents; in training, some graphs' points are hidden."""
@@ -180,6 +206,8 @@ class NodeEncoder(nn.Module):
         latent = [self.category(batch.labels), points, box]
         if self.visibility is not None:
             latent.append(self.visibility(batch.visibility))
+        if self.names is not None:
+            latent.append(self.names(batch.names))
         return torch.cat(latent, dim=-1)
 
 

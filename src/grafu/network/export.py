@@ -1,8 +1,8 @@
 """The network as one ONNX file, for any number of parts, so that it runs without torch. It writes no files.
 
 Inputs are the arrays of one graph's features, by their names, without a batch: labels [n], boxes [n,6],
-anchors [n,G,3], groups [n,G,S,3], edges [n,n], visibility [n,18]. Outputs are the fields of `Predictions` but `mask`,
-without a batch.
+anchors [n,G,3], groups [n,G,S,3], edges [n,n], visibility [n,18], names [n,32]. Outputs are the
+fields of `Predictions` but `mask`, without a batch.
 """
 
 import json
@@ -21,14 +21,15 @@ from torch.nn.functional import pad
 from grafu.graph.arrays import LABELS, KindSet
 from grafu.network.batch import Predictions, one_graph
 from grafu.network.config import LABEL_COUNT
-from grafu.network.encoder import VISIBILITY_NUMBERS
+from grafu.network.encoder import NAME_CODES, VISIBILITY_NUMBERS
 from grafu.network.grafu import GraFu
 from grafu.network.stored import HALF, name_weights
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
-INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility")
+INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names")
 OUTPUTS = tuple(field.name for field in fields(Predictions) if field.name != "mask")
-PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide")
+PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide", "body")
+GRAPH_OUTPUTS = ("piece",)
 _SMALLEST = 64  # numbers; a weight with fewer is left as it is: nothing is saved
 
 
@@ -93,17 +94,22 @@ class _OneGraph(nn.Module):
         groups: Float32[Tensor, "n g k 3"],
         edges: Int64[Tensor, "n n"],
         visibility: Float32[Tensor, "n v"],
+        names: Int64[Tensor, "n c"],
     ) -> tuple[Tensor, ...]:
         n = labels.shape[0]
         labels, boxes, edges = pad(labels, (0, 1)), pad(boxes, (0, 0, 0, 1)), pad(edges, (0, 1, 0, 1))
         anchors, groups = pad(anchors, (0, 0, 0, 0, 0, 1)), pad(groups, (0, 0, 0, 0, 0, 0, 0, 1))
-        visibility = pad(visibility, (0, 0, 0, 1))
+        visibility, names = pad(visibility, (0, 0, 0, 1)), pad(names, (0, 0, 0, 1))
         mask = torch.arange(n + 1)[None] < n
-        answers = self.model(replace(one_graph(labels, boxes, anchors, groups, edges, visibility), mask=mask))
+        graph = one_graph(labels, boxes, anchors, groups, edges, visibility, names)
+        answers = self.model(replace(graph, mask=mask))
         slots = torch.arange(n + self.model.config.free_slots)
         kept = slots + (slots >= n)
         scores = {name: getattr(answers, name) for name in OUTPUTS}
-        return tuple(_without(score, kept, pairs=name in PAIR_OUTPUTS) for name, score in scores.items())
+        return tuple(
+            score[0] if name in GRAPH_OUTPUTS else _without(score, kept, pairs=name in PAIR_OUTPUTS)
+            for name, score in scores.items()
+        )
 
 
 def _without(score: Tensor, kept: Int64[Tensor, " s"], *, pairs: bool) -> Tensor:
@@ -121,9 +127,10 @@ def _exported(model: GraFu, anchors: int, neighbours: int) -> onnx.ModelProto:
         torch.zeros(parts, anchors, neighbours, 3),
         torch.zeros(parts, parts, dtype=torch.int64),
         torch.zeros(parts, VISIBILITY_NUMBERS),
+        torch.zeros(parts, NAME_CODES, dtype=torch.int64),
     )
     n = torch.export.Dim("parts", min=1, max=4096)
-    shapes = ({0: n}, {0: n}, {0: n}, {0: n}, {0: n, 1: n}, {0: n})
+    shapes = ({0: n}, {0: n}, {0: n}, {0: n}, {0: n, 1: n}, {0: n}, {0: n})
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the exporter's own, about itself
         program = torch.onnx.export(

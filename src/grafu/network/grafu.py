@@ -15,8 +15,9 @@ from torch.nn.functional import pad
 from grafu.network.batch import GraphBatch, Predictions
 from grafu.network.config import GraFuConfig
 from grafu.network.encoder import WIDENING, GraphEncoder, pair_term_count, pair_terms
-from grafu.network.heads import MotionHeads, PairHeads, SlotAnswers, SlotHeads
+from grafu.network.heads import FactAnswers, FactHeads, MotionHeads, PairHeads, SlotAnswers, SlotHeads
 from grafu.network.layers import Attention, perceptron
+from grafu.vocabulary import PieceKind
 
 
 @final
@@ -83,6 +84,7 @@ class GraFu(nn.Module):
         self.slot_heads = SlotHeads(config)
         self.pair_heads = PairHeads(config.hidden, terms, config.edge_codes)
         self.motion_heads = MotionHeads(config.hidden, terms)
+        self.fact_heads = FactHeads(config.hidden, terms) if config.facts else None
 
     def forward(self, batch: GraphBatch) -> Predictions:
         """Returns the scores of all slots and pairs of slots."""
@@ -91,7 +93,23 @@ class GraFu(nn.Module):
         answers = self.slot_heads(slots, nodes, batch.boxes, batch.mask)
         terms = self._pair_terms(batch.boxes, answers, edges)
         pairs, motions = self.pair_heads(slots, terms), self.motion_heads(slots, terms)
-        return Predictions(**answers._asdict(), **pairs._asdict(), **motions._asdict(), mask=mask)
+        facts = self._facts(slots, nodes, batch.mask, terms)
+        return Predictions(**answers._asdict(), **pairs._asdict(), **motions._asdict(), **facts._asdict(), mask=mask)
+
+    def _facts(
+        self,
+        slots: Float[Tensor, "b s h"],
+        nodes: Float[Tensor, "b n h"],
+        mask: Bool[Tensor, "b n"],
+        terms: Float[Tensor, "b s s t"],
+    ) -> FactAnswers:
+        if self.fact_heads is not None:
+            return self.fact_heads(slots, nodes, mask, terms)
+        return FactAnswers(
+            torch.zeros_like(terms[..., 0]),
+            torch.zeros_like(slots[..., 0]),
+            slots.new_zeros(len(slots), len(PieceKind)),
+        )
 
     def _pair_terms(
         self, given: Float[Tensor, "b n 6"], answers: SlotAnswers, edges: Float[Tensor, "b n n e"]

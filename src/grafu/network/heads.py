@@ -14,6 +14,7 @@ from torch.nn.functional import gelu, pad, softplus
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.network.config import LABEL_COUNT, GraFuConfig
 from grafu.network.layers import PairLinear, attention_weights, perceptron
+from grafu.vocabulary import PieceKind
 
 WIDTH = 128
 _THIN = -4.0  # shifts sizes so that at first a part adds a fiftieth of its own
@@ -144,6 +145,37 @@ class PairHeads(nn.Module):
             hinge_target=self.hinge_target(slots, terms)[..., 0],
             hinge_abstain=self.hinge_abstain * 1.0,
         )
+
+
+class FactAnswers(NamedTuple):
+    """Logits: of pairs that they move as one, of slots that they are drawn open, of the whole what it is."""
+
+    body: Float[Tensor, "b s s"]
+    ajar: Float[Tensor, "b s"]
+    piece: Float[Tensor, "b pieces"]
+
+
+@final
+class FactHeads(nn.Module):
+    """Which slots move as one body, which are drawn ajar, and the kind of the piece, from the mean of its nodes."""
+
+    def __init__(self, hidden: int, terms: int) -> None:
+        super().__init__()
+        self.body = PairHead(hidden, terms, HEAD, 1)
+        self.ajar = perceptron(hidden, HEAD, 1)
+        self.piece = perceptron(hidden, HEAD, len(PieceKind))
+
+    def forward(
+        self,
+        slots: Float[Tensor, "b s h"],
+        nodes: Float[Tensor, "b n h"],
+        mask: Bool[Tensor, "b n"],
+        terms: Float[Tensor, "b s s t"],
+    ) -> FactAnswers:
+        """Returns the answers; `nodes` are the encoded nodes of the input, `mask` which of them are no padding."""
+        body = self.body(slots, terms)[..., 0]
+        pooled = (nodes * mask[:, :, None]).sum(dim=1) / mask.sum(dim=1, keepdim=True).clamp(min=1)
+        return FactAnswers((body + body.transpose(1, 2)) / 2, self.ajar(slots)[..., 0], self.piece(pooled))
 
 
 class MotionAnswers(NamedTuple):

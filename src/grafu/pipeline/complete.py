@@ -15,7 +15,7 @@ from grafu.geometry.sampling import sample_surfaces
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.completion import GraphCompletion, decision_of
 from grafu.graph.edges import Attached
-from grafu.graph.edit import with_edges
+from grafu.graph.edit import with_edges, without_names
 from grafu.graph.functional_graph import FunctionalGraph
 
 
@@ -44,8 +44,13 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     network = open_network(weights or SHIPPED_WEIGHTS)
     clouds = sample_surfaces([asset.part(node.id).mesh for node in graph.nodes], network.features.points)
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
-    found = complete_by_network(replace(graph, nodes=pointed), network, network.features)
-    bare = tuple(replace(node, points=None) for node in found.completed.nodes)
+    hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
+    seen = without_names(replace(graph, nodes=pointed), hidden)
+    found = complete_by_network(seen, network, network.features)
+    names = {node.id: node.source_name for node in graph.nodes}
+    bare = tuple(
+        replace(node, points=None, source_name=names.get(node.id, node.source_name)) for node in found.completed.nodes
+    )
     return with_ways_out(replace(found, input=graph, completed=replace(found.completed, nodes=bare)), asset)
 
 

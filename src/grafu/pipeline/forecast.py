@@ -12,6 +12,7 @@ from grafu.pipeline.functionalize import MOTIONS, PipelineConfig, choose_source
 from grafu.pipeline.inspection import ExpectedMotion, Forecast, StaticPart
 from grafu.pipeline.mechanisms import with_mechanisms
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.records import piece_record
 from grafu.pipeline.shown_by_shape import shown_by_shape, with_labels_by_shape
 from grafu.pipeline.stages import Stages, by_contacts, without_network
 
@@ -32,6 +33,7 @@ def forecast(asset: Asset, budget: Budget = UNLIMITED, config: PipelineConfig = 
         confidence[guess.part] = min(guess.score, confidence.get(guess.part, 1.0))
     return Forecast(
         source=MotionSource(completion.source),
+        piece=piece_record(completion),
         motions=tuple(_expected(request, completion, confidence.get(request.moving)) for request in plan.joints),
         static=tuple(StaticPart(part=r.part, reason=str(r.reason), why=r.why) for r in plan.refused),
     )

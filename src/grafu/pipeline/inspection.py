@@ -24,6 +24,7 @@ from grafu.pipeline.report_schema import (
     DeficiencyRecord,
     FrameRecord,
     InputRecord,
+    PieceRecord,
     Ratio,
     SourceRecord,
     Vector,
@@ -79,6 +80,7 @@ class Forecast(ReportRecord):
     """What a run by default would make of it."""
 
     source: MotionSource = Field(description="what states the motions: network, or rule without weights")
+    piece: PieceRecord | None = Field(default=None, description="what the whole piece is; null: not known")
     motions: tuple[ExpectedMotion, ...] = Field(description="the parts that would move")
     static: tuple[StaticPart, ...] = Field(description="the parts that might move and would not")
 

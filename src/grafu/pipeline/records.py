@@ -12,6 +12,7 @@ from grafu.articulation.articulated_object import Coupling
 from grafu.asset.part import Asset, Frame, Part, PartSource
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
+from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.pipeline.report_schema import (
     AxisRecord,
@@ -19,6 +20,7 @@ from grafu.pipeline.report_schema import (
     DeficiencyRecord,
     FrameRecord,
     InputRecord,
+    PieceRecord,
     SourceRecord,
     Vector,
 )
@@ -57,6 +59,11 @@ def vector(values: Vec3) -> Vector:
     """Returns three plain numbers."""
     x, y, z = values.tolist()
     return x, y, z
+
+
+def piece_record(completion: GraphCompletion) -> PieceRecord | None:
+    """Returns what the whole piece is, where the completion states it."""
+    return None if completion.piece is None else PieceRecord(**asdict(completion.piece))
 
 
 def input_record(asset: Asset, name: str = "") -> InputRecord:

@@ -22,6 +22,7 @@ from grafu.pipeline.records import (
     find_deficiencies,
     frame_record,
     input_record,
+    piece_record,
     source_record,
     vector,
 )
@@ -61,6 +62,7 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
         ),
         size=vector(result.asset.box.size),
         base=base_record(result.asset, result.object),
+        piece=piece_record(result.completion),
         parts=_part_records(result),
         deficiencies=tuple(deficiency_record(one) for one in missing),
         joints=_joint_records(result),

@@ -14,7 +14,7 @@ from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report_record import BaseRecord, ReportRecord, schema_field
 from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked, Reason
-from grafu.vocabulary import JointType, MechanismClass, PartLabel
+from grafu.vocabulary import JointType, MechanismClass, PartLabel, PieceKind
 
 Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
 Row = tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat]
@@ -62,7 +62,7 @@ class PartRecord(ReportRecord):
     source: SourceRecord = Field(description="where it came from")
     category: PartLabel = Field(description="its category, as completed")
     labelled_by: str = Field(
-        description="what the category rests on: name, shape, joint, annotation, user, prediction, added, none"
+        description="what the category rests on: name, shape, joint, annotation, user, prediction, added, hidden, none"
     )
     link: str = Field(description="the link of model.urdf that holds it; empty: it was replaced")
 
@@ -230,6 +230,15 @@ class GuessRecord(ReportRecord):
     runner_up_score: Ratio = Field(description="the confidence of the runner-up")
 
 
+class PieceRecord(ReportRecord):
+    """What the whole piece is, as the network predicts it."""
+
+    kind: PieceKind = Field(description=", ".join(PieceKind))
+    score: Ratio = Field(description="the confidence, 0..1")
+    runner_up: PieceKind = Field(description="what would have come next")
+    runner_up_score: Ratio = Field(description="the confidence of the runner-up")
+
+
 class FaultRecord(ReportRecord):
     """One fault."""
 
@@ -267,6 +276,9 @@ class Report(ReportRecord):
     )
     base: BaseRecord | None = Field(
         default=None, description="what holds it, and what tips it over; null: written by an earlier version"
+    )
+    piece: PieceRecord | None = Field(
+        default=None, description="what the whole piece is; null: not known, or another motion source was used"
     )
     parts: tuple[PartRecord, ...] = Field(description="every part of the input")
     deficiencies: tuple[DeficiencyRecord, ...] = Field(description="what the input lacked")

@@ -57,6 +57,11 @@ def percent(ratio: float) -> str:
     return "over 99 %" if 0.995 <= ratio < 1 else f"{100 * ratio:.0f} %"
 
 
+def piece_words(kind: str, score: float) -> str:
+    """Returns what the whole piece is, such as `wall cabinet (97 %)`."""
+    return f"{kind} ({percent(score)})"
+
+
 def hardware_in_words(count: int, template: str, mechanism: MechanismClass) -> str:
     """Returns what a joint runs on, such as `2 × butt (contact)`."""
     if template == "drawn":

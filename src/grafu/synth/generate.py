@@ -11,7 +11,7 @@ from grafu.graph.edges import ends_of
 from grafu.graph.edit import without_contacts
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
-from grafu.synth.families.table import draw_made
+from grafu.synth.families.table import draw_made, kind_of_piece
 from grafu.synth.noise.modelling_noise import ModellingNoise, apply_noise, as_given
 from grafu.synth.noise.modelling_styles import draw_noise
 from grafu.synth.noise.tessellation import CUT, STEPS, tessellated
@@ -52,7 +52,7 @@ def make_specimen(seed: int, index: int, points: int = 512) -> Specimen:
             continue  # a door stretched or opened until no border lies along its pin
         fits = len(specimen.asset.parts) >= LEAST_PARTS and len(specimen.whole.parts) <= MOST_PARTS
         if fits and not faults_in(specimen):  # a stretched front may strike what it just passed
-            return as_exported(specimen, noise)
+            return as_exported(replace(specimen, kind=kind_of_piece(blueprint)), noise)
     raise ValueError(f"no sound model was found for {name} in {ATTEMPTS} draws")
 
 
@@ -67,8 +67,7 @@ def with_noise(name: str, family: str, tidy: Asset, noise: ModellingNoise, point
     truth = with_true_edges(contacts, whole)
     removable = removable_parts(whole, truth)
     given, flaws = as_given(whole, noise, removable)
-    if any(part.label is PartLabel.UNKNOWN for part in given.parts):
-        whole, truth = _with_names_lost(whole, truth, given)
+    whole, truth = _with_names_given(whole, truth, given)
     apart = pairs_apart(contacts, truth)
     return Specimen(name, family, given, whole, truth, removable, (*misfits, *flaws), apart)
 
@@ -109,8 +108,8 @@ def _parted(plain: Specimen, fine: Asset, reach: float) -> frozenset[frozenset[s
     return frozenset(frozenset((fine.parts[a].id, fine.parts[b].id)) for a, b in doubtful if (a, b) not in left)
 
 
-def _with_names_lost(whole: Asset, truth: FunctionalGraph, given: Asset) -> tuple[Asset, FunctionalGraph]:
-    """Returns both with the names that the given parts have: where a label is lost, no other word states it."""
+def _with_names_given(whole: Asset, truth: FunctionalGraph, given: Asset) -> tuple[Asset, FunctionalGraph]:
+    """Returns both with the names that the given parts have."""
     sources = {part.id: part.source for part in given.parts}
     parts = tuple(replace(p, source=sources.get(p.id, p.source)) for p in whole.parts)
     nodes = tuple(replace(n, source_name=p.source.name) for n, p in zip(truth.nodes, parts, strict=True))

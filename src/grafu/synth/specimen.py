@@ -8,6 +8,9 @@ from grafu.asset.part import Asset
 from grafu.errors import GraphError
 from grafu.graph.edit import as_contacts, relabelled, without_contacts, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.piece_facts import STATIC, PieceFacts
+from grafu.synth.pieces.riding import bodies_of
+from grafu.vocabulary import PieceKind
 
 DefectKind = Literal[
     "missing",  # a part that the repaired version holds is not there
@@ -38,7 +41,7 @@ class Specimen:
     `whole`: one node per part in the same order, with boxes, points, contacts, hinges, rails and attachments.
     `removable` are the parts that a completion may be asked to restore when they are missing: no moving part, none that
     carries one. `apart` are the pairs that a functional edge of `truth` joins though they do not touch: a drawer and
-    the walls that carry its rails, a centimetre beside it.
+    the walls that carry its rails, a centimetre beside it. `kind` is what the whole is.
 
     Raises:
         GraphError: if the three disagree about their parts.
@@ -52,6 +55,7 @@ class Specimen:
     removable: frozenset[str]
     defects: tuple[Defect, ...] = ()
     apart: frozenset[frozenset[str]] = frozenset()
+    kind: PieceKind | None = None
 
     def __post_init__(self) -> None:
         given, whole = [p.id for p in self.asset.parts], [p.id for p in self.whole.parts]
@@ -61,6 +65,14 @@ class Specimen:
             raise GraphError(f"the whole of `{self.id}` lacks parts of its asset: {sorted(set(given) - set(whole))}")
         if not self.removable <= set(whole):
             raise GraphError(f"`removable` of `{self.id}` names no parts: {sorted(self.removable - set(whole))}")
+
+    @cached_property
+    def facts(self) -> PieceFacts:
+        """What the piece is, which parts are drawn ajar, and which move as one."""
+        moving = {joint.part for joint in self.whole.joints}
+        bodies = {part: body if body in moving else STATIC for part, body in bodies_of(self.whole).items()}
+        ajar = {part for defect in self.defects if defect.kind == "ajar" for part in defect.parts}
+        return PieceFacts(self.kind, frozenset(ajar), bodies)
 
     @property
     def missing(self) -> tuple[str, ...]:

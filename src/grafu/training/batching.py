@@ -11,6 +11,7 @@ from typing import final
 import numpy as np
 import torch
 
+from grafu.completion.name_codes import NAME_CODES
 from grafu.completion.visibility import VISIBILITY_NUMBERS, visibility_of
 from grafu.graph.arrays import NULL
 from grafu.network.batch import GraphBatch
@@ -67,6 +68,7 @@ def stack_showings(showings: Sequence[Showing], shares_shifted: bool) -> Trainin
         boxes=padded([v.boxes for v in views], (n, 6), 0),
         edges=padded([v.edges for v in views], (n, n), NULL),
         mask=padded([np.ones(len(v.labels), dtype=bool) for v in views], (n,), 0),
+        names=padded([v.names for v in views], (n, NAME_CODES), 0),
         point_index=padded(index, (n,), 0),
         anchors=padded([anchors], (rows, *anchors.shape[1:]), 0)[0],
         groups=padded([groups], (rows, *groups.shape[1:]), 0)[0],

@@ -17,11 +17,12 @@ from grafu.graph.arrays import ALONG, HINGE, NONE, UNKNOWN
 from grafu.network.batch import Predictions
 from grafu.network.grafu import GraFu
 from grafu.training.batching import TrainingBatch
-from grafu.training.criterion import Choices, hinge_targets, nests, parents
+from grafu.training.criterion import Choices, hinge_targets, nests, of_moving, parents
 from grafu.training.loss_config import LossConfig
 from grafu.training.matcher import SlotTruth, match_slots, slot_truth
 
-HEADS = ("category", "edge", "parent", "hinge_target", "border", "sign", "slide")
+HEADS = ("category", "edge", "parent", "hinge_target", "border", "sign", "slide", "body", "ajar", "piece")
+_FACTS = ("body", "ajar", "piece")
 """The heads whose answers are classes; whether a slot exists is no choice that a report states."""
 _RANGE = (0.25, 8.0)  # of temperatures: beyond it there are too few answers to fit one
 _LEAST = 50  # answers that a temperature is fitted on
@@ -57,6 +58,8 @@ def calibrated(network: GraFu, by_head: Mapping[str, float]) -> GraFu:
     made = deepcopy(network)
     with torch.no_grad():
         for name, temperature in by_head.items():
+            if name in _FACTS and made.fact_heads is None:
+                continue
             for weight in _last_weights(made, name):
                 weight /= temperature
     return made
@@ -70,6 +73,7 @@ def head_answers(predictions: Predictions, truth: SlotTruth, given: Int64[Tensor
     hinges = truth.child & (truth.edges == HINGE) & seen
     along = truth.child & torch.isin(truth.edges, torch.tensor(ALONG, device=truth.edges.device)) & seen
     hung = hinge_targets(truth, nests(predictions))
+    same, known = truth.bodies[:, :, None] == truth.bodies[:, None, :], truth.piece != NONE
     return {
         "category": Answers(predictions.category[asked], truth.labels[asked]),
         "edge": Answers(predictions.edge[seen], truth.edges[seen]),
@@ -78,7 +82,16 @@ def head_answers(predictions: Predictions, truth: SlotTruth, given: Int64[Tensor
         "border": _codes(predictions.border, truth.border, hinges),
         "sign": _codes(predictions.sign, truth.sign, hinges),
         "slide": _codes(predictions.slide, truth.slide, along),
+        "body": _yes_or_no(predictions.body, same, of_moving(truth) & seen),
+        "ajar": _yes_or_no(predictions.ajar, truth.ajar == 1, truth.anchored & (truth.ajar != NONE)),
+        "piece": Answers(predictions.piece[known], truth.piece[known]),
     }
+
+
+def _yes_or_no(logits: Tensor, right: Tensor, asked: Tensor) -> Answers:
+    """Returns a logit as the choice between no, whose logit is 0, and yes."""
+    found = logits[asked]
+    return Answers(torch.stack([torch.zeros_like(found), found], dim=-1), right[asked].long())
 
 
 def _choices(
@@ -125,6 +138,8 @@ def _last_weights(network: GraFu, head: str) -> list[Tensor]:
     """Returns what a head's logits are proportional to: the weights and biases of its last layer, and of abstaining."""
     if head == "category":
         return list(_last_linear(network.slot_heads.category).parameters())
+    if head in _FACTS:
+        return list(_last_linear(getattr(network.fact_heads, head)).parameters())
     owner = network.pair_heads if head in ("edge", "parent", "hinge_target") else network.motion_heads
     weights: list[Tensor] = list(_last_linear(getattr(owner, head)).parameters())
     abstain = {"parent": network.pair_heads.parent_abstain, "hinge_target": network.pair_heads.hinge_abstain}

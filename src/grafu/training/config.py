@@ -145,7 +145,7 @@ TUNE = replace(BASE, optimiser=replace(BASE.optimiser, matrices="adam", rate=3e-
 bfloat16, a step of Muon takes as long as the forward and the backward pass."""
 
 PAPER = TrainingConfig(
-    network=GraFuConfig(kinds="paper", visibility=False),
+    network=GraFuConfig(kinds="paper", visibility=False, names=False, facts=False),
     loss=PAPER_LOSS,
     mix=CopyMix(natural=1 / 18, masked=0.0, corruption=_UNMIRRORED, folds=17),
     sampling=SamplerConfig(models=16, copies=1, reuse=1, spread=16),

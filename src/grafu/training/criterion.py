@@ -224,6 +224,37 @@ def choice_loss(scores: Float[Tensor, "b s s"], abstain: Float[Tensor, ""], choi
 
 @final
 @dataclass(frozen=True)
+class FactLosses:
+    """Three numbers: over pairs of which one moves, over input parts, over graphs."""
+
+    body: Float[Tensor, ""]
+    ajar: Float[Tensor, ""]
+    piece: Float[Tensor, ""]
+
+
+def of_moving(truth: SlotTruth) -> Bool[Tensor, "b s s"]:
+    """Returns the pairs that are asked whether they move as one: those of which at least one moves."""
+    known, moves = truth.bodies != NONE, truth.bodies > 0
+    return truth.real_pairs & known[:, :, None] & known[:, None, :] & (moves[:, :, None] | moves[:, None, :])
+
+
+def fact_losses(predictions: Predictions, truth: SlotTruth) -> FactLosses:
+    """Returns the cross-entropies of what moves as one, what is drawn ajar, and what the whole is."""
+    same = truth.bodies[:, :, None] == truth.bodies[:, None, :]
+    pairs = functional.binary_cross_entropy_with_logits(predictions.body.float(), same.float(), reduction="none")
+    slots = functional.binary_cross_entropy_with_logits(
+        predictions.ajar.float(), truth.ajar.clamp(min=0).float(), reduction="none"
+    )
+    kinds = functional.cross_entropy(predictions.piece.float(), truth.piece.clamp(min=0), reduction="none")
+    return FactLosses(
+        body=mean_where(pairs, of_moving(truth)),
+        ajar=mean_where(slots, truth.anchored & (truth.ajar != NONE)),
+        piece=mean_where(kinds, truth.piece != NONE),
+    )
+
+
+@final
+@dataclass(frozen=True)
 class LossTerms:
     """The weighted sum, which is what is minimised, and each term before its weight."""
 
@@ -231,10 +262,12 @@ class LossTerms:
     slots: SlotLosses
     pairs: PairLosses
     motions: MotionLosses
+    facts: FactLosses
 
     def by_name(self) -> dict[str, Tensor]:
         """Returns every number without gradients, by name, the total first; the names are `LossConfig`'s weights."""
         terms = {"total": self.total} | vars(self.slots) | vars(self.pairs) | vars(self.motions)
+        terms |= vars(self.facts)
         return {name: value.detach() for name, value in terms.items()}
 
 
@@ -245,6 +278,7 @@ def criterion(predictions: Predictions, targets: TargetBatch, config: LossConfig
     slots = slot_losses(predictions, truth, config)
     pairs = pair_losses(predictions, truth, config.edge_kinds)
     motions = motion_losses(predictions, truth)
-    terms = vars(slots) | vars(pairs) | vars(motions)
+    facts = fact_losses(predictions, truth)
+    terms = vars(slots) | vars(pairs) | vars(motions) | vars(facts)
     total = torch.stack([getattr(config, name) * term for name, term in terms.items()]).sum()
-    return LossTerms(total, slots, pairs, motions)
+    return LossTerms(total, slots, pairs, motions, facts)

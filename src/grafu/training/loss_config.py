@@ -75,6 +75,11 @@ class LossConfig(ShortRepr):
     sign: float = 1.0
     slide: float = 1.0
 
+    body: float = 1.0
+    """Which parts move as one; this and the next two are ours."""
+    ajar: float = 0.5
+    piece: float = 0.2
+
     def __post_init__(self) -> None:
         numbers = {name: value for name, value in vars(self).items() if isinstance(value, float)}
         negative = {name: value for name, value in numbers.items() if value < 0}
@@ -84,9 +89,17 @@ class LossConfig(ShortRepr):
             raise ValueError(f"`edge_kinds` must be {EDGE_CODES['all']} weights: got {self.edge_kinds}")
 
 
-PAPER = LossConfig(pinned=False)
+PAPER = LossConfig(pinned=False, body=0.0, ajar=0.0, piece=0.0)
 OFFICIAL = replace(
-    LossConfig(), match_cost="probability", exists_balanced=True, border=0.3, sign=0.3, slide=0.3
+    LossConfig(),
+    match_cost="probability",
+    exists_balanced=True,
+    border=0.3,
+    sign=0.3,
+    slide=0.3,
+    body=0.0,
+    ajar=0.0,
+    piece=0.0,
 )  # as in the authors' code
 
 HOLD_OUTS = {

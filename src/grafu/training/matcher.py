@@ -99,6 +99,9 @@ class SlotTruth:
     border: Int64[Tensor, "b s"]
     sign: Int64[Tensor, "b s"]
     slide: Int64[Tensor, "b s"]
+    bodies: Int64[Tensor, "b s"]
+    ajar: Int64[Tensor, "b s"]
+    piece: Int64[Tensor, " b"]
     missing: Int64[Tensor, " b"]
 
     @property
@@ -125,6 +128,9 @@ def slot_truth(predictions: Predictions, targets: TargetBatch, matching: Int64[T
         border=_nodes(targets.border, matching, NONE),
         sign=_nodes(targets.sign, matching, NONE),
         slide=_nodes(targets.slide, matching, NONE),
+        bodies=_nodes(targets.bodies, matching, NONE),
+        ajar=_nodes(targets.ajar, matching, NONE),
+        piece=targets.piece,
         missing=(targets.mask & ~anchored_nodes(targets)).sum(dim=1),
     )
 

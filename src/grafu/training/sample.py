@@ -20,6 +20,7 @@ import numpy as np
 from jaxtyping import Float32, Float64, Int64
 
 from grafu.completion.features import FeatureConfig, graph_features, object_frame
+from grafu.completion.name_codes import name_codes
 from grafu.data.corruption.config import CorruptionConfig
 from grafu.data.corruption.corrupt import fold, masked_pair
 from grafu.data.pair import GraphPair
@@ -74,6 +75,7 @@ class Copy(ArrayValue):
     labels: Int64[np.ndarray, " n"]
     boxes: Float32[np.ndarray, "n 6"]
     edges: Int64[np.ndarray, "n n"]
+    names: Int64[np.ndarray, "n c"]
     rows: Int64[np.ndarray, " n"]
     stretch: float
     shift: Float64[np.ndarray, "3"]
@@ -133,12 +135,13 @@ def _copy(pair: GraphPair, origin: np.ndarray, scale: float, kinds: KindSet) -> 
     new_origin, new_scale = object_frame(given)
     rows = {node.id: k for k, node in enumerate(pair.target.nodes)}
     names = [node.id for node in given.nodes]
-    targets = graph_targets(pair.target, names, new_origin, new_scale, kinds)
+    targets = graph_targets(pair.target, names, new_origin, new_scale, kinds, pair.facts)
     places = np.array([rows[name] for name in names], dtype=np.int64)
     return Copy(
         seen.labels,
         targets.boxes[places],
         seen.edges,
+        name_codes([node.source_name for node in given.nodes]),
         places,
         scale / new_scale,
         (origin - new_origin) / new_scale,

@@ -17,7 +17,10 @@ from torch import Tensor
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import NONE, NULL, UNKNOWN, KindSet, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.piece_facts import NOT_KNOWN, STATIC, PieceFacts
+from grafu.vocabulary import PieceKind
 
+PIECES = tuple(PieceKind)
 SLOT_STEP = 4  # graphs of a batch have so many nodes, or a multiple
 ROW_STEP = 64  # and their points as many rows
 
@@ -44,7 +47,9 @@ class GraphTargets(ArrayValue):
     """The answers for one graph of t nodes, given n of them.
 
     The fields up to `slide` are those of `grafu.graph.arrays.GraphArrays`, with `boxes` in the normalised frame of the
-    input. `thin` is the thin axis of each box. `anchors` names, for each input node, the node that it is.
+    input. `thin` is the thin axis of each box. `anchors` names, for each input node, the node that it is. `bodies`
+    numbers the rigid bodies, 0 being what stands; `ajar` is 1 for what is drawn open; `piece` is the place of the kind
+    of the whole in `PieceKind`; each `NONE` where it is not known.
     """
 
     labels: Int64[np.ndarray, " t"]
@@ -56,6 +61,9 @@ class GraphTargets(ArrayValue):
     slide: Int64[np.ndarray, " t"]
     thin: Int64[np.ndarray, " t"]
     anchors: Int64[np.ndarray, " n"]
+    bodies: Int64[np.ndarray, " t"]
+    ajar: Int64[np.ndarray, " t"]
+    piece: Int64[np.ndarray, ""]
 
     def __post_init__(self) -> None:
         freeze_arrays(self)
@@ -74,6 +82,9 @@ class TargetBatch:
     sign: Int64[Tensor, "b t"]
     slide: Int64[Tensor, "b t"]
     anchors: Int64[Tensor, "b n"]
+    bodies: Int64[Tensor, "b t"]
+    ajar: Int64[Tensor, "b t"]
+    piece: Int64[Tensor, " b"]
     mask: Bool[Tensor, "b t"]
 
     def to(self, device: torch.device | str) -> "TargetBatch":
@@ -88,6 +99,7 @@ def graph_targets(
     origin: Float64[np.ndarray, "3"],
     scale: float,
     kinds: KindSet = "all",
+    facts: PieceFacts = NOT_KNOWN,
 ) -> GraphTargets:
     """Returns the answers for a functional graph of which the nodes `given` are seen, in the order of the input.
 
@@ -109,7 +121,21 @@ def graph_targets(
         slide=arrays.slide,
         thin=np.array([node.box.thin_axis for node in target.nodes], dtype=np.int64),
         anchors=np.array([place[name] for name in given], dtype=np.int64),
+        **_fact_arrays(target, facts),
     )
+
+
+def _fact_arrays(target: FunctionalGraph, facts: PieceFacts) -> dict[str, np.ndarray]:
+    names = [node.id for node in target.nodes]
+    number = {body: k for k, body in enumerate(dict.fromkeys((STATIC, *facts.bodies.values())))}
+    bodies = [number[facts.bodies[name]] if name in facts.bodies else NONE for name in names]
+    ajar = [NONE if facts.ajar is None else int(name in facts.ajar) for name in names]
+    piece = NONE if facts.kind is None else PIECES.index(facts.kind)
+    return {
+        "bodies": np.array(bodies, dtype=np.int64),
+        "ajar": np.array(ajar, dtype=np.int64),
+        "piece": np.array(piece, dtype=np.int64),
+    }
 
 
 def mirrored_targets(targets: GraphTargets, across: int) -> GraphTargets:
@@ -153,6 +179,9 @@ def stack_targets(graphs: Sequence[GraphTargets], step: int = 1) -> TargetBatch:
         sign=padded([g.sign for g in graphs], (t,), NONE),
         slide=padded([g.slide for g in graphs], (t,), NONE),
         anchors=padded([g.anchors for g in graphs], (n,), NONE),
+        bodies=padded([g.bodies for g in graphs], (t,), NONE),
+        ajar=padded([g.ajar for g in graphs], (t,), NONE),
+        piece=torch.tensor([int(g.piece) for g in graphs]),
         mask=padded([np.ones(len(g.labels), dtype=bool) for g in graphs], (t,), False),
     )
 

@@ -32,7 +32,9 @@ from grafu.network.batch import Predictions
 from grafu.training.batching import Showing, TrainingBatch, stack_showings
 from grafu.training.config import TrainingConfig
 from grafu.training.criterion import criterion
+from grafu.training.fact_figures import FactFigures
 from grafu.training.loss_config import LossConfig
+from grafu.training.matcher import match_slots, slot_truth
 from grafu.training.sample import Sample, make_sample
 from grafu.training.source import RESERVED_SEEDS, VALIDATION_SEED, FurFunSource, Source, SynthSource
 from grafu.training.targets import TargetBatch
@@ -159,17 +161,22 @@ def validate(network: nn.Module, batches: Iterable[TrainingBatch], loss: LossCon
     device = next(network.parameters()).device
     totals: list[float] = []
     accuracies: dict[str, list[GraphAccuracy]] = {name: [] for name in VARIANTS}
+    facts = FactFigures()
     network.eval()
     try:
         for batch in batches:
             moved = batch.to(device)
             predictions = network(moved.graphs)
             totals.append(float(criterion(predictions, moved.targets, loss).total))
+            facts.add(
+                predictions, slot_truth(predictions, moved.targets, match_slots(predictions, moved.targets, loss))
+            )
             for number, accuracy in enumerate(batch_accuracy(predictions, moved.targets)):
                 accuracies[VARIANTS[number % len(VARIANTS)]].append(accuracy)
     finally:
         network.train(was_training)
-    return _figures(totals, {name: total_accuracy(ones) for name, ones in accuracies.items()})
+    figures = _figures(totals, {name: total_accuracy(ones) for name, ones in accuracies.items()})
+    return figures | facts.by_name()
 
 
 def _figures(totals: Sequence[float], accuracies: Mapping[str, GraphAccuracy]) -> dict[str, float]:

@@ -12,6 +12,7 @@ from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.report_schema import FaultRecord, Report, VerdictRecord
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.verdict import verdict_of
+from grafu.pipeline.words import piece_words
 from grafu.render.graph_picture import draw_graph, drawing_svg
 from grafu.viewer import collecting
 from grafu.viewer.pictures import Stills, stills_row
@@ -103,6 +104,7 @@ def model_page(
 def header_facts(asset: Asset, report: Report) -> Html:
     """Returns what was read, in a line."""
     phrases = (
+        "" if report.piece is None else piece_words(report.piece.kind, report.piece.score),
         f"{report.input.parts} parts",
         size_words(asset.box.size.tolist()),
         f"read as {report.input.kind}",

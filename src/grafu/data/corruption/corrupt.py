@@ -13,7 +13,7 @@ from grafu.data.corruption.config import PAPER, STRATEGY_NAMES, CorruptionConfig
 from grafu.data.corruption.strategies import STRATEGIES, masked_each, probabilities
 from grafu.data.pair import GraphPair, natural_pair
 from grafu.errors import GraphError
-from grafu.graph.edit import as_contacts, mirrored, relabelled, without_contacts
+from grafu.graph.edit import as_contacts, mirrored, relabelled, without_contacts, without_names
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
 
@@ -55,6 +55,7 @@ def corrupt_by(
     given = without_contacts(strategy.apply(target, rng, config), apart)
     if strategy.family != "label masking" and config.label_masking > 0:
         given = without_contacts(masked_each(given, rng, config.label_masking), apart)
+    given = without_names(given, [node.id for node in given.nodes if node.label is PartLabel.UNKNOWN])
     return GraphPair(given, target, name, target.model_id)
 
 
@@ -97,7 +98,7 @@ def fold(natural: GraphPair, number: int, seed: int = 0, config: CorruptionConfi
     digest = int.from_bytes(blake2b(natural.model_id.encode(), digest_size=8).digest(), "little")
     rng = np.random.default_rng([seed, digest, number])
     pair = corrupt(natural.target, rng, config, natural.apart)
-    return GraphPair(pair.input, pair.target, pair.strategy, natural.model_id)
+    return GraphPair(pair.input, pair.target, pair.strategy, natural.model_id, natural.facts)
 
 
 VARIANTS = ("natural", "masked", "lacking")
@@ -133,6 +134,7 @@ def asked_pairs(natural: GraphPair, number: int) -> Mapping[str, GraphPair]:
 
 
 def masked_pair(natural: GraphPair) -> GraphPair:
-    """Returns a natural pair with every label of the input hidden."""
+    """Returns a natural pair with every label of the input hidden, and the names that would state it."""
     hidden = {node.id: PartLabel.UNKNOWN for node in natural.input.nodes}
-    return GraphPair(relabelled(as_contacts(natural.input), hidden), natural.target, MASKED, natural.model_id)
+    given = without_names(relabelled(as_contacts(natural.input), hidden), hidden)
+    return GraphPair(given, natural.target, MASKED, natural.model_id, natural.facts)

@@ -23,7 +23,7 @@ from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner, make_corner_
 from grafu.synth.cabinets.ensemble import Ensemble, make_ensemble
 from grafu.synth.cabinets.folding import FoldingCorner, make_folding_corner
 from grafu.synth.cabinets.rack import Rack, make_rack
-from grafu.synth.families import bedroom, built_in, composed, kitchen, living, office, tables
+from grafu.synth.families import bedroom, beds, built_in, composed, kitchen, living, office, tables
 from grafu.synth.openings.door import DoorSpec, make_building_door
 from grafu.synth.openings.window import WindowSpec, make_window_with_labels
 from grafu.synth.sampling.chance import pick
@@ -31,6 +31,7 @@ from grafu.synth.tables.desk import Desk, make_desk
 from grafu.synth.tables.drop_leaf import DropLeafTable, make_drop_leaf_table
 from grafu.synth.tables.extending import ExtendingTable, make_extending_table
 from grafu.synth.tables.table import DrawerTable, make_table
+from grafu.vocabulary import PieceKind
 
 Storage = Cabinet | Chest | CornerCabinet | InnerCorner | FoldingCorner | Rack | Ensemble | Bureau
 Spec = (
@@ -76,7 +77,38 @@ FAMILIES: Mapping[str, tuple[float, Draw]] = {
     "appliance": (4.6, built_in.appliance),
     "building door": (2.1, built_in.building_door),
     "window": (2.1, built_in.building_window),
+    "bed": (1.5, beds.bed),
 }
+
+
+KINDS: Mapping[str, PieceKind] = {
+    **dict.fromkeys(("base cabinet", "corner cabinet", "sideboard", "TV stand", "lowboard"), PieceKind.CABINET),
+    **dict.fromkeys(("display cabinet", "hutch", "shoe cabinet", "free form"), PieceKind.CABINET),
+    **dict.fromkeys(("dresser", "nightstand", "apothecary chest"), PieceKind.CHEST_OF_DRAWERS),
+    **dict.fromkeys(("filing cabinet", "plan chest"), PieceKind.CHEST_OF_DRAWERS),
+    **dict.fromkeys(("bookcase", "open shelf", "rack"), PieceKind.SHELF),
+    **dict.fromkeys(("tall cabinet", "wardrobe"), PieceKind.WARDROBE),
+    **dict.fromkeys(("sink cabinet", "washstand"), PieceKind.SINK_UNIT),
+    **dict.fromkeys(("kitchen island", "kitchen units"), PieceKind.KITCHEN),
+    **dict.fromkeys(("table with drawers", "drop-leaf table", "extending table"), PieceKind.TABLE),
+    **dict.fromkeys(("desk", "writing desk", "bureau", "vanity"), PieceKind.DESK),
+    "wall cabinet": PieceKind.WALL_CABINET,
+    "chest": PieceKind.CHEST,
+    "bed": PieceKind.BED,
+    "fridge": PieceKind.REFRIGERATOR,
+    "oven": PieceKind.OVEN,
+    "building door": PieceKind.BUILDING_DOOR,
+    "window": PieceKind.WINDOW,
+}
+"""What a piece of each family is; an appliance's blueprint states it itself."""
+
+
+def kind_of_piece(blueprint: "Blueprint") -> PieceKind:
+    """Returns what a piece is."""
+    spec = blueprint.spec
+    if isinstance(spec, WashingMachine):
+        return PieceKind.WASHING_MACHINE
+    return PieceKind(spec.kind) if isinstance(spec, Appliance) else KINDS[blueprint.family]
 
 
 ATTEMPTS = 50  # draws of one family before giving up: at a rejection rate of 20 % this never happens

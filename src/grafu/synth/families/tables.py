@@ -54,6 +54,7 @@ RAILED, SPINED, PARTED, MOULDED, MODEST = 0.3, 0.45, 0.45, 0.12, 0.1
 BOARDED = 0.5  # of tables with such bars: one board with an opening for each drawer (26608)
 MIDDLE, TRAY, DESK_TRAY = 0.35, 0.5, 0.25  # of desks with something between their pedestals, a keyboard's tray (32052)
 SWIVELLED = 0.3  # of mirrors on dressing tables
+FLAT = 0.08  # of tables with drawers in a row: flat ones without fronts (26608)
 THICK_LEGS = 0.4  # of small tables: legs and boards thick for their size (20411)
 
 
@@ -197,6 +198,8 @@ def _table(
     drawers: Layout = CellRow((Drawer(),) * number, weights(rng, number, 0.2 if chance(rng, 0.3) else 0.0), gaps)
     if number == 1:
         drawers = Drawer("tray", handle="none") if tray else Drawer()
+    elif chance(rng, FLAT) and not rails:
+        drawers = CellRow((Drawer("tray", handle="none"),) * number, between=gaps)
     room = Rect(leg.thick - width / 2, width / 2 - leg.thick, height - zone, height)
     low = chance(rng, 0.25)
     return DrawerTable(

@@ -13,8 +13,9 @@ from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.synth.pieces.shapes import turned
 from grafu.synth.sampling.chance import between, chance
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import JointType, PartLabel
 
 
 @final
@@ -39,6 +40,37 @@ def sheet_of(box: Box) -> TriangleMesh:
     (x0, y, z0), (x1, _, z1) = box.low.tolist(), box.high.tolist()
     corners = np.array([(x0, y, z0), (x1, y, z0), (x1, y, z1), (x0, y, z1)])
     return TriangleMesh(corners, np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def knuckles(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
+    """Yields two or three barrels of hinges along the pin of each door, before its face, or plates; they ride on it."""
+    radius, tall, number = between(rng, (0.003, 0.009)), between(rng, (0.03, 0.09)), 2 + int(chance(rng, 0.35))
+    flat, margin = chance(rng, 0.35), between(rng, (0.06, 0.2))
+    for joint in asset.joints:
+        door = asset.part(joint.part)
+        along = int(np.argmax(np.abs(joint.axis.direction)))
+        turns = joint.type is JointType.REVOLUTE and door.label is PartLabel.DOOR and along in (0, 2)
+        if not turns or door.box.thin_axis != 1 or abs(joint.axis.direction[along]) < 0.999:
+            continue
+        across, low, high = 2 - along, door.box.low, door.box.high
+        edge = float(low[across] if joint.axis.point[across] < door.box.center[across] else high[across])
+        inward = radius if joint.axis.point[across] < door.box.center[across] else -radius
+        size = min(tall, float(door.box.size[along]) / 5)
+        for ratio in np.linspace(margin, 1.0 - margin, number).tolist():
+            start, end = vec3(0.0, float(low[1]) - radius, 0.0), vec3(0.0, float(low[1]) - radius, 0.0)
+            middle = float(low[along] + ratio * door.box.size[along])
+            start[across] = end[across] = edge + inward
+            start[along], end[along] = middle - size / 2, middle + size / 2
+            if flat:
+                far = vec3(*end.tolist())
+                far[across], far[1] = edge + 5 * inward, float(low[1])
+                start[1] = float(low[1]) - 0.4 * radius
+                start[across] = edge
+                ends = np.minimum(start, far), np.maximum(start, far)
+                yield LooseObject(PartLabel.MISC, "hinge", TriangleMesh.box_mesh(Box(*ends)), carried_by=joint.part)
+                continue
+            mesh = turned(start, end, ((0.0, radius), (1.0, radius)), 8)
+            yield LooseObject(PartLabel.MISC, "hinge", mesh, carried_by=joint.part)
 
 
 CLEAR = 0.001  # metres between a drawer's box and its runner

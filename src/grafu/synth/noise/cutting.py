@@ -31,6 +31,7 @@ ODD, NAMELESS = 0.15, 0.12
 LEVEL: Final = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)  # no case is named after these
 
 # A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
+HANDLES_IN_PIECES = 0.2  # of models: posts and plates of handles, where these have some, are parts as in CAD files
 FRAME_IN_BARS = 0.6
 STRIP = 0.15  # of cut models: solid-edge strips along panels
 # How much likelier the walls of a case are in planks than its levels: 32052 has its back in three.

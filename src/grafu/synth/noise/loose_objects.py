@@ -20,7 +20,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import transform_points
-from grafu.synth.noise.addition import LooseObject, block, runners, sheet_of
+from grafu.synth.noise.addition import LooseObject, block, knuckles, runners, sheet_of
 from grafu.synth.noise.segmentation import fresh_ids
 from grafu.synth.pieces.finish import BIRCH, STEEL
 from grafu.synth.pieces.riding import bodies_of, carriers_of, led_by, moving_with, poses_at
@@ -265,4 +265,5 @@ LOOSE_OBJECTS: Final[dict[str, Callable[[Asset, np.random.Generator], Iterator[L
     "pads": _pads,
     "plates": _plates,
     "posts": _posts,
+    "hinges": knuckles,
 }

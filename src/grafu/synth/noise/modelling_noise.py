@@ -19,6 +19,7 @@ from grafu.synth.noise.edits import with_anchored_sheets
 from grafu.synth.noise.housing import with_housed_boards
 from grafu.synth.noise.loose_objects import with_loose_objects
 from grafu.synth.noise.naming import MISTAKES, mistaken, with_labels_masked, worded
+from grafu.synth.noise.part_names import NameScheme, named
 from grafu.synth.noise.segmentation import (
     in_pieces,
     in_planks,
@@ -26,6 +27,7 @@ from grafu.synth.noise.segmentation import (
     with_attached_joined,
     with_box_apart,
     with_edge_strip,
+    with_handles_in_pieces,
     with_joined,
 )
 from grafu.synth.noise.tessellation import Density
@@ -89,7 +91,8 @@ class ModellingNoise:
     `factors` scale along the axes (a negative x mirrors); `bend` is in metres, `yaw` in radians; `ajar` opens fronts by
     fractions of their range; `masked` is the fraction of parts whose label is lost. `density`, `edge` (metres) and
     `both_sides` say how faces are drawn, `grafu.synth.noise.tessellation`. What is left to chance in applying
-    (loose_objects, which labels are lost) follows `seed`.
+    (loose_objects, which labels are lost, names) follows `seed`. `naming` is how parts are called; some of a `misnamed`
+    model's are called what they are not.
     """
 
     style: str
@@ -112,6 +115,9 @@ class ModellingNoise:
     density: Density = "plain"
     edge: float = 0.0015
     both_sides: bool = False
+    handles_in_pieces: bool = False
+    naming: NameScheme = "ids"
+    misnamed: bool = False
 
 
 def apply_noise(tidy: Asset, noise: ModellingNoise) -> tuple[Asset, tuple[Defect, ...]]:
@@ -125,6 +131,7 @@ def apply_noise(tidy: Asset, noise: ModellingNoise) -> tuple[Asset, tuple[Defect
         asset = with_loose_objects(asset, kind, rng)
     asset = with_housed_boards(asset, noise.housed) if noise.housed else asset
     asset = _recut(asset, noise)
+    asset = with_handles_in_pieces(asset, noise.missing) if noise.handles_in_pieces else asset
     asset = worded(asset, noise.wording)
     defects = []
     for part_id, ratio in noise.ajar:
@@ -167,7 +174,16 @@ def as_given(whole: Asset, noise: ModellingNoise, removable: Collection[str]) ->
         defects.append(Defect("mislabelled", (part.id,)))
     nameless = {_joined_id(k) for k, group in enumerate(noise.joined) if not group.named}
     lost = _masked(given, noise.masked, rng) | {p.id for p in kept if p.id in nameless}
-    return with_labels_masked(given, lost), tuple(defects)
+    called, wrong = named(
+        with_labels_masked(given, lost),
+        {part.id: part.label for part in whole.parts},
+        noise.naming,
+        noise.misnamed,
+        np.random.default_rng([noise.seed, 2]),
+    )
+    if wrong:
+        defects.append(Defect("mislabelled", wrong))
+    return called, tuple(defects)
 
 
 def _masked(given: Asset, ratio: float, rng: np.random.Generator) -> frozenset[str]:

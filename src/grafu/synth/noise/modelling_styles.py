@@ -12,12 +12,13 @@ from typing import Final, final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.synth.noise.cutting import draw_cuts, draw_joined
+from grafu.synth.noise.cutting import HANDLES_IN_PIECES, draw_cuts, draw_joined
 from grafu.synth.noise.distortion import draw_yaw
 from grafu.synth.noise.housing import draw_housing
 from grafu.synth.noise.loose_objects import LOOSE_OBJECTS
 from grafu.synth.noise.modelling_noise import Faces, Misfit, ModellingNoise
 from grafu.synth.noise.naming import draw_wording
+from grafu.synth.noise.part_names import MISNAMED, SCHEMES
 from grafu.synth.noise.tessellation import Density
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.vocabulary import PartLabel
@@ -107,8 +108,7 @@ FACES: Final[dict[Faces, float]] = {"doubled": 0.3, "inverted": 0.2, "loose": 0.
 # All development models draw every face from both sides, as PartNet's exports do; artists' files and scans do not.
 BOTH_SIDES = 0.4
 # Faces of the median part: 16 to 1750 in the development models, all drawn from both sides; three of 17 lie above 280.
-# Chamfers are what modelling programs break edges with by default. Fine rounding comes with exports for renderers
-# (26608, 46896), which draw both sides.
+# Programs break edges with chamfers by default; fine rounding is exported for renderers (26608, 46896), both sides.
 DENSITY: Final[dict[Density, float]] = {
     "plain": 0.825,
     "broken edges": 0.04,
@@ -132,6 +132,7 @@ LOOSE_WEIGHT: Final[dict[str, float]] = {
     "things on top": 0.4,
     "things on shelves": 0.5,
     "basket": 0.4,
+    "hinges": 0.8,
 }
 
 STANDING = 0.002  # metres between a top and what stands on it
@@ -184,6 +185,9 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         edge=min(between(rng, EDGE), WIDEST_EDGE * tidy.extent),
         both_sides=chance(rng, FINE_BOTH_SIDES if density == "finely rounded" else BOTH_SIDES),
         housed=draw_housing(rng),
+        handles_in_pieces=chance(rng, HANDLES_IN_PIECES),
+        naming=pick(rng, SCHEMES),
+        misnamed=chance(rng, MISNAMED),
     )
 
 

@@ -14,6 +14,7 @@ from grafu.asset.part import Asset, Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
+from grafu.geometry.components import connected_parts
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.pieces.finish import surface_of
 from grafu.synth.pieces.riding import busy_in
@@ -51,6 +52,31 @@ def with_attached_joined(asset: Asset, ids: Collection[str]) -> Asset:
             parts.append(replace(part, surfaces=(*part.surfaces, *own)) if own else part)
     small = tuple(joint for joint in asset.small_joints if joint.part not in gone)
     return replace(asset, parts=tuple(parts), small_joints=small)
+
+
+MOST_PIECES = 4  # of a handle that is drawn in pieces: a bar and its posts, a knob and its plate
+
+
+def with_handles_in_pieces(asset: Asset, kept: Collection[str] = ()) -> Asset:
+    """Returns the asset with each connected piece of a handle as a part of its own, those `kept` as they are.
+
+    The first piece keeps the handle's id; a lever that turns by itself stays whole.
+    """
+    whole = busy_in(asset) | set(kept)
+    parts: list[Part] = []
+    for part in asset.parts:
+        pieces = _handle_pieces(part) if part.id not in whole else [part.surfaces]
+        ids = [part.id, *(f"{part.id}_piece_{k}" for k in range(1, len(pieces)))]
+        parts += [replace(part, id=i, source=PartSource(i), surfaces=s) for i, s in zip(ids, pieces, strict=True)]
+    return replace(asset, parts=tuple(parts))
+
+
+def _handle_pieces(part: Part) -> list[tuple[Surface, ...]]:
+    if part.label is not PartLabel.HANDLE or part.carried_by is None:
+        return [part.surfaces]
+    pieces = [replace(s, mesh=mesh) for s in part.surfaces if s.uv is None for mesh in connected_parts(s.mesh)]
+    fits = 1 < len(pieces) <= MOST_PIECES and all(s.uv is None for s in part.surfaces)
+    return [(piece,) for piece in pieces] if fits else [part.surfaces]
 
 
 def in_pieces(asset: Asset, part_id: str, label: PartLabel | None = None) -> Asset:
