@@ -89,6 +89,7 @@ OF_MODULES = {
         "bodies.py": {},
         "cutting.py": {},
         "drafts.py": {},
+        "loop_cut.py": {"MOST_CORNERS": FORMAT, "_NO_AREA": TOLERANCE},
         "foreign/agreement.py": {"_FEW": EFFORT},
         "foreign/frames.py": {
             "_ROUNDS": EFFORT,

@@ -165,7 +165,8 @@ def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, lasting):
         browser.run(f"grafuEditor.pick({one!r})")
     browser.press("g", "KeyG")
     settled(browser, number + 2)
-    assert browser.run("grafuEditor.state.settings.regrouped") == [{"do": "join", "parts": still[:2]}]
+    joined = {"do": "join", "parts": still[:2], "loop": None}
+    assert browser.run("grafuEditor.state.settings.regrouped") == [joined]
     assert browser.run("grafuEditor.inspector.part") == still[0]
     browser.press("z", "KeyZ", control=True)
     settled(browser, number + 3)
@@ -184,6 +185,35 @@ def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, lasting):
     assert 0 < browser.run(fraction) < 1
     browser.press("o", "KeyO")
     wait(browser, f"[0, 1].includes({fraction})")
+    assert browser.complaints(lasting.address) == []
+
+
+def test_a_line_around_a_piece_of_a_part_cuts_it_out(browser, lasting):
+    opened(browser, lasting)
+    browser.run(f"grafuEditor.pick({DOOR!r})")
+    browser.press("o", "KeyO")
+    wait(browser, "grafuEditor.view.joints.fraction(grafuEditor.view.jointOf(grafuEditor.view.view.chosen)) > 0.99")
+    number = shown(browser)
+    browser.press("c", "KeyC")  # what stands open closes: the line is drawn around parts at rest
+    wait(browser, "grafuEditor.view.joints.fraction(grafuEditor.view.jointOf(grafuEditor.view.view.chosen)) === 0")
+    x, y = place_of(browser, DOOR)
+    square = [(-25, -25), (25, -25), (25, 25), (-25, 25)]
+    browser.drag(*((x + aside, y + up) for aside, up in square))
+    settled(browser, number + 1)
+    change = browser.run("grafuEditor.state.settings.regrouped.at(-1)")
+    assert (change["do"], change["parts"], change["loop"]["through"]) == ("cut", [DOOR], False)
+    assert len(change["loop"]["corners"]) == 4
+    assert browser.run(f"{DOOR + '_2'!r} in grafuEditor.state.sides")
+    seen = place_of(browser, f"{DOOR}_2")
+    assert abs(seen[0] - x) < 15
+    assert abs(seen[1] - y) < 15
+    browser.press("z", "KeyZ", control=True)
+    settled(browser, number + 2)
+    browser.run(f"grafuEditor.pick({DOOR!r})")
+    browser.press("c", "KeyC")
+    assert browser.run("grafuEditor.view.loop.active")
+    browser.press("Escape")
+    assert not browser.run("grafuEditor.view.loop.active")
     assert browser.complaints(lasting.address) == []
 
 

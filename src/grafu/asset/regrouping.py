@@ -1,4 +1,4 @@
-"""Parts that the user joins, or splits into their shells: the same surfaces, divided otherwise. It decides nothing.
+"""Parts that the user joins, splits into shells or cuts by a loop: the same surfaces, divided otherwise.
 
 What the input states about motions stays where its part does: a joint of a part that was joined to another is gone.
 """
@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import final
 
+from grafu.asset.loop_cut import Loop, inside_loop
 from grafu.asset.loose import shells_of
 from grafu.asset.part import Annotation, Asset, Part
 from grafu.asset.pieces import with_pieces
@@ -22,6 +23,10 @@ class Regroup(StrEnum):
 
     JOIN = "join"  # the others become pieces of the first
     SPLIT = "split"  # each connected shell becomes a part
+    CUT = "cut"  # what lies inside a loop becomes a part
+
+
+_DONE = {Regroup.SPLIT: "split", Regroup.CUT: "cut"}
 
 
 @final
@@ -30,31 +35,40 @@ class Regrouping:
     """One change of how a model is divided into parts, by their ids; see `regrouped`.
 
     Raises:
-        ValueError: if it joins less than two parts or one twice, or splits more than one.
+        ValueError: if it joins less than two parts or one twice, or splits or cuts more than one, or if a loop is
+            missing where one is to cut, or given where none is.
     """
 
     do: Regroup
     parts: tuple[str, ...]
+    loop: Loop | None = None
 
     def __post_init__(self) -> None:
         if self.do is Regroup.JOIN and (len(self.parts) < 2 or len(set(self.parts)) < len(self.parts)):
             raise ValueError(f"two parts or more are joined, each once: got {', '.join(self.parts) or 'none'}")
-        if self.do is Regroup.SPLIT and len(self.parts) != 1:
-            raise ValueError(f"one part is split at a time: got {', '.join(self.parts) or 'none'}")
+        if self.do is not Regroup.JOIN and len(self.parts) != 1:
+            raise ValueError(f"one part is {_DONE[self.do]} at a time: got {', '.join(self.parts) or 'none'}")
+        if (self.loop is not None) != (self.do is Regroup.CUT):
+            raise ValueError("a part is cut by a loop, and by nothing else")
 
 
 def regrouped(asset: Asset, changes: Sequence[Regrouping]) -> Asset:
-    """Returns the asset with its parts joined and split, one change after the other; its notes state each.
+    """Returns the asset with its parts joined, split and cut, one change after the other; its notes state each.
 
     Parts that are joined have the id, the name and the category of the first. Of the shells of a part the largest
-    keeps these; the others get ids of their own, and no category. Screws stay with the shell that they lie on.
+    keeps these; the others get ids of their own, and no category. Screws stay with the shell that they lie on. What is
+    cut out gets an id of its own, and no category.
 
     Raises:
-        OptionError: if a part does not exist, or one that is to be split is a single shell.
+        OptionError: if a part does not exist, one that is to be split is a single shell, or all or nothing of one lies
+            inside its loop.
     """
     for change in changes:
         _require_parts(asset, change)
-        asset = _joined(asset, change.parts) if change.do is Regroup.JOIN else _split(asset, change.parts[0])
+        if change.loop is not None:
+            asset = _cut_out(asset, change.parts[0], change.loop)
+        else:
+            asset = _joined(asset, change.parts) if change.do is Regroup.JOIN else _split(asset, change.parts[0])
     return asset
 
 
@@ -99,26 +113,38 @@ def _split(asset: Asset, name: str) -> Asset:
     shells = shells_of(asset.part(name), asset.box)
     if len(shells) < 2:
         raise OptionError(f"{name} cannot be split: it is one connected shell")
-    taken = {part.id for part in asset.parts} | {part.id for part in (asset.annotation or asset).parts}
-    pieces = _pieces(asset.part(name), shells, taken)
-    annotation = asset.annotation
-    if annotation is not None and any(part.id == name for part in annotation.parts):
-        theirs = next(part for part in annotation.parts if part.id == name)
-        alike = theirs.mesh == asset.part(name).mesh
-        if alike:
-            annotation = replace(annotation, parts=_put(annotation.parts, name, _pieces(theirs, shells, taken)))
-    note = f"{name} split by hand into {', '.join(piece.id for piece in pieces)}"
-    return replace(asset, parts=_put(asset.parts, name, pieces), annotation=annotation, notes=(*asset.notes, note))
-
-
-def _pieces(part: Part, shells: Sequence[tuple[Surface, ...]], taken: Iterable[str]) -> list[Part]:
-    """Returns a part for each shell, the largest first, which keeps what the part is called."""
     largest = sorted(shells, key=lambda surfaces: -Box.enclosing(s.mesh.box for s in surfaces).diagonal)
-    names = _free_names(part.id, len(shells) - 1, set(taken))
-    first = replace(part, surfaces=largest[0])
+    asset, pieces = _divided(asset, name, largest)
+    return replace(asset, notes=(*asset.notes, f"{name} split by hand into {', '.join(pieces)}"))
+
+
+def _cut_out(asset: Asset, name: str, loop: Loop) -> Asset:
+    inside, left = inside_loop(asset.part(name).surfaces, loop, asset.extent)
+    if not inside or not left:
+        raise OptionError(f"{name} cannot be cut: {'all' if inside else 'nothing'} of it lies inside the loop")
+    asset, (_, new) = _divided(asset, name, [left, inside])
+    return replace(asset, notes=(*asset.notes, f"{new} cut out of {name} by hand"))
+
+
+def _divided(asset: Asset, name: str, pieces: Sequence[tuple[Surface, ...]]) -> tuple[Asset, list[str]]:
+    """Returns the asset with a part in pieces, in its annotation too, and their ids: the part's own comes first."""
+    part, annotation = asset.part(name), asset.annotation
+    taken = {other.id for other in asset.parts} | {other.id for other in (annotation or asset).parts}
+    made = _pieces(part, pieces, taken)
+    theirs = next((other for other in annotation.parts if other.id == name), None) if annotation else None
+    if annotation is not None and theirs is not None and theirs.mesh == part.mesh:
+        annotation = replace(annotation, parts=_put(annotation.parts, name, _pieces(theirs, pieces, taken)))
+    found = replace(asset, parts=_put(asset.parts, name, made), annotation=annotation)
+    return found, [piece.id for piece in made]
+
+
+def _pieces(part: Part, pieces: Sequence[tuple[Surface, ...]], taken: Iterable[str]) -> list[Part]:
+    """Returns a part for each piece; the first keeps what the part is called."""
+    names = _free_names(part.id, len(pieces) - 1, set(taken))
+    first = replace(part, surfaces=pieces[0])
     rest = (
         replace(part, id=name, surfaces=surfaces, label=PartLabel.UNKNOWN, labelled_by="none")
-        for name, surfaces in zip(names, largest[1:], strict=True)
+        for name, surfaces in zip(names, pieces[1:], strict=True)
     )
     return [first, *rest]
 

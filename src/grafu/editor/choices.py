@@ -12,6 +12,7 @@ from typing import Any, final
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
 from grafu.additions.interior.request import MOST_PANELS, CompartmentChoice
+from grafu.asset.loop_cut import Loop
 from grafu.asset.regrouping import Regroup, Regrouping
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import FIXED, MotionChoice, choice_in_words
@@ -25,6 +26,7 @@ from grafu.vocabulary import MOTION_WORDS, PartLabel
 WHOLE = ""
 """The part of questions about the whole piece."""
 _CENTIMETRE = 0.01
+FARTHEST = 10_000.0  # metres: no point that is pointed at lies farther off
 
 
 class Choose(StrEnum):
@@ -42,6 +44,7 @@ class Choose(StrEnum):
     LABEL = "label"  # its category
     JOIN = "join"  # another part, by its id, becomes a piece of it
     SPLIT = "split"  # its connected shells become parts
+    CUT = "cut"  # what lies inside a loop becomes a part: {eye, corners, through}
     SHELVES = "shelves"  # how many shelves the compartment of this number gets
     TOP = "top"  # of the whole: the shape of a missing top, or none
     HINGE = "hinge"  # of the whole: the template that doors get where it finds room
@@ -177,6 +180,23 @@ def _split(settings: Settings, part: str, _: Any, __: Known) -> Settings:
     return settings.with_regrouping(Regrouping(Regroup.SPLIT, (part,)))
 
 
+def _cut(settings: Settings, part: str, value: Any, _: Known) -> Settings:
+    if not isinstance(value, dict) or set(value) - {"eye", "corners", "through"}:
+        raise OptionError(f"a part is cut by a loop, `eye`, `corners` and `through`: got {_said(value)}")
+    corners = value.get("corners")
+    if not isinstance(corners, list):
+        raise OptionError(f"the corners of a loop must be a list of points: got {_said(corners)}")
+    loop = Loop(_point(value.get("eye")), tuple(_point(corner) for corner in corners), value.get("through") is True)
+    return settings.with_regrouping(Regrouping(Regroup.CUT, (part,), loop))
+
+
+def _point(value: Any) -> tuple[float, float, float]:
+    if not isinstance(value, list) or len(value) != 3:
+        raise OptionError(f"a point must be three numbers, metres: got {_said(value)}")
+    x, y, z = (_number(number, -FARTHEST, FARTHEST, "metres") for number in value)
+    return x, y, z
+
+
 def _shelves(settings: Settings, part: str, value: Any, _: Known) -> Settings:
     if value is None:
         return settings.with_compartment(int(part), None)
@@ -220,6 +240,7 @@ _ANSWERS: dict[Choose, Callable[[Settings, str, Any, Known], Settings]] = {
     Choose.LABEL: _label,
     Choose.JOIN: _join,
     Choose.SPLIT: _split,
+    Choose.CUT: _cut,
     Choose.SHELVES: _shelves,
     Choose.TOP: _top,
     Choose.HINGE: _hinge,

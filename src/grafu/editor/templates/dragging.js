@@ -7,6 +7,7 @@ class LiveView extends ModelView {
   constructor(stage, { chosen, moved, movable }) {
     super(stage);
     Object.assign(this, { told: chosen, moved, movable });
+    this.loop = new LoopTool(this, this.canvas);
   }
 
   choose(place) {
@@ -15,7 +16,14 @@ class LiveView extends ModelView {
     if (found >= 0) this.toggle(this.jointOf(found));
   }
 
+  closeAll() {
+    this.joints.stop();
+    this.joints.joints.forEach((joint, k) => joint.coupling || this.joints.set(k, joint.lower));
+    this.redraw();
+  }
+
   chooseItem(index, seen = false) {
+    if (this.loop.active) this.loop.leave();
     this.view.clashing.clear();
     super.chooseItem(index, seen);
     this.told(this.subject(index));
@@ -56,6 +64,7 @@ class LiveView extends ModelView {
   }
 
   grab(place) {
+    if (this.loop.active) return this.loop.grab(place);
     const index = this.renderer.pick(this.camera, this.joints.poses(), this.view, place.x, place.y);
     if (index < 0 || this.view.chosen < 0 || this.subject(index) !== this.subject(this.view.chosen)) return null;
     const item = this.scene.items[index], joint = this.jointOf(index);

@@ -19,7 +19,7 @@ class Editor {
     this.toolbar = new Toolbar({
       undo: () => this.server.act("undo"), redo: () => this.server.act("redo"), anew: () => this.server.act("anew"),
       stop: () => this.server.act("stop"), export: () => this.server.act("export"), next: () => this.next(),
-      join: () => this.join(), split: () => this.about("split"),
+      join: () => this.join(), split: () => this.about("split"), cut: () => this.cut(),
       accept: () => this.about("accept"), reject: () => this.about("reject"),
       collision: () => this.view.showCollision(this.state.collisions[this.inspector.part]),
       automatic: () => this.about("motion"), open: () => this.view.toggle(this.view.jointOf(this.view.view.chosen)),
@@ -74,6 +74,16 @@ class Editor {
   join() {
     const { before, part } = this.inspector;
     if (before && part) this.choose("join", before, part).then(() => this.pick(before));
+  }
+
+  // Cuts what the next loop encloses out of the part; what lies behind it, too, where that is wanted.
+  cut() {
+    const { part } = this.inspector;
+    if (!part) return;
+    document.getElementById("chosen").textContent = `Draw a line around what is to be cut out of ${part}. Esc leaves.`;
+    this.view.loop.begin((loop) => {
+      this.choose("cut", part, { ...loop, through: document.getElementById("through").checked });
+    });
   }
 
   pick(part) {

@@ -70,7 +70,7 @@ class Inspector {
     const join = document.querySelector('[data-do="join"]');
     join.disabled = this.isAdded || !this.before;
     join.textContent = this.before ? `Join with ${this.before}` : "Join with the part before";
-    document.querySelector('[data-do="split"]').disabled = this.isAdded;
+    for (const name of ["split", "cut"]) document.querySelector(`[data-do="${name}"]`).disabled = this.isAdded;
     document.querySelector('[data-do="collision"]').hidden = !this.state.collisions[part];
     const choice = settings.joints[part] ?? {}, slides = this.slides;
     const unit = slides ? "cm" : "degrees", factor = slides ? 100 : 180 / Math.PI;

@@ -6,7 +6,7 @@ function listenToKeys({ toolbar, inspector, at, leave }) {
   const go = (by) => at.count > 1 && (location.href = `../${(at.number + by + at.count) % at.count}/`);
   const plain = {
     n: () => toolbar.do("next"), a: () => toolbar.do("accept"), r: () => toolbar.do("reject"), o: () => toolbar.do("open"),
-    g: () => toolbar.do("join"), s: () => toolbar.do("split"),
+    g: () => toolbar.do("join"), s: () => toolbar.do("split"), c: () => toolbar.do("cut"),
     j: () => go(1), k: () => go(-1), Escape: leave,
   };
   document.addEventListener("keydown", (event) => {

@@ -9,13 +9,14 @@ from typing import final
 
 import numpy as np
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.synth.pieces.shapes import turned
 from grafu.synth.sampling.chance import between, chance
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import PartLabel
 
 
 @final
@@ -49,7 +50,7 @@ def knuckles(asset: Asset, rng: np.random.Generator) -> Iterator[LooseObject]:
     for joint in asset.joints:
         door = asset.part(joint.part)
         along = int(np.argmax(np.abs(joint.axis.direction)))
-        turns = joint.type is JointType.REVOLUTE and door.label is PartLabel.DOOR and along in (0, 2)
+        turns = motion_kind(joint.type).turns and door.label is PartLabel.DOOR and along in (0, 2)
         if not turns or door.box.thin_axis != 1 or abs(joint.axis.direction[along]) < 0.999:
             continue
         across, low, high = 2 - along, door.box.low, door.box.high
