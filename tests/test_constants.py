@@ -20,6 +20,7 @@ from grafu.asset.drafts import GroupConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.grips import DrawnGripConfig
+from grafu.asset.loop_cut import LoopConfig
 from grafu.asset.loose import LooseConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
@@ -29,6 +30,7 @@ from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
+from grafu.completion.decode_config import FactConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.metrics.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
@@ -197,8 +199,8 @@ IN_FUNCTIONS = {
 CONFIGS = (
     AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
     DrawnGripConfig,
-    DynamicsConfig, FingerFitConfig, FingerRoomCutConfig,
-    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LooseConfig,
+    DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
+    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LoopConfig, LooseConfig,
     MassConfig, MatchConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
     SeenSideConfig, SegmentationConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
