@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import vec3
+from grafu.geometry.arrays import Points, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts
@@ -182,15 +182,27 @@ def _is_rod(barrel: Barrel, frame: BorderFrame, model: _Model) -> bool:
 def _barrels(frame: BorderFrame, moving: str, model: _Model) -> Iterator[Barrel]:
     """Yields the barrels near a border, shells of a moving body or of static parts."""
     scene, reach = model.scene, model.drawn.reach
-    own = (scene.parts[name] for name in scene.moving_bodies[moving].members)
-    for part in (*own, *scene.static_parts_near(_along_border(frame, model))):
-        box = Box.around(frame.to_border(part.box.corners()))
-        if box.low[0] > reach or box.high[0] < -reach or len(part.mesh.faces) > model.config.carved_faces:
-            continue
-        if box.low[1] > reach or box.high[1] < -frame.thickness - reach:
+    own = [scene.parts[name] for name in scene.moving_bodies[moving].members]
+    near = [*own, *scene.static_parts_near(_along_border(frame, model))]
+    low, high = _in_border_frame([part.box for part in near], frame)
+    meets = (low[:, 0] <= reach) & (high[:, 0] >= -reach) & (low[:, 1] <= reach)
+    meets &= high[:, 1] >= -frame.thickness - reach
+    for part in (near[k] for k in np.flatnonzero(meets)):
+        if len(part.mesh.faces) > model.config.carved_faces:
             continue
         for shell in model.shells(part.id):
             yield from _as_barrel(shell, part.id, frame, model.drawn)
+
+
+_CORNERS = np.array([[bool(k & 1 << axis) for axis in range(3)] for k in range(8)])
+
+
+def _in_border_frame(boxes: Sequence[Box], frame: BorderFrame) -> tuple[Points, Points]:
+    """Returns the low and high ends of the boxes around boxes, in a border frame."""
+    ends = np.array([(box.low, box.high) for box in boxes]).reshape(-1, 2, 1, 3)
+    corners = np.where(_CORNERS, ends[:, 1], ends[:, 0])
+    local = frame.to_border(corners.reshape(-1, 3)).reshape(corners.shape)
+    return local.min(axis=1), local.max(axis=1)
 
 
 def _along_border(frame: BorderFrame, model: _Model) -> Box:
