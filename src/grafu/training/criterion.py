@@ -238,13 +238,15 @@ def of_moving(truth: SlotTruth) -> Bool[Tensor, "b s s"]:
     return truth.real_pairs & known[:, :, None] & known[:, None, :] & (moves[:, :, None] | moves[:, None, :])
 
 
-def fact_losses(predictions: Predictions, truth: SlotTruth) -> FactLosses:
-    """Returns the cross-entropies of what moves as one, what is drawn ajar, and what the whole is."""
+def fact_losses(predictions: Predictions, truth: SlotTruth, ajar_positive: float = 1.0) -> FactLosses:
+    """Returns the cross-entropies of what moves as one, what is drawn ajar, and what the whole is.
+
+    What is drawn ajar weighs `ajar_positive` times what is not.
+    """
     same = truth.bodies[:, :, None] == truth.bodies[:, None, :]
     pairs = functional.binary_cross_entropy_with_logits(predictions.body.float(), same.float(), reduction="none")
-    slots = functional.binary_cross_entropy_with_logits(
-        predictions.ajar.float(), truth.ajar.clamp(min=0).float(), reduction="none"
-    )
+    weight = torch.full((), ajar_positive, device=predictions.ajar.device)
+    slots = _existence(predictions.ajar.float(), truth.ajar == 1, weight)
     kinds = functional.cross_entropy(predictions.piece.float(), truth.piece.clamp(min=0), reduction="none")
     return FactLosses(
         body=mean_where(pairs, of_moving(truth)),
@@ -278,7 +280,7 @@ def criterion(predictions: Predictions, targets: TargetBatch, config: LossConfig
     slots = slot_losses(predictions, truth, config)
     pairs = pair_losses(predictions, truth, config.edge_kinds)
     motions = motion_losses(predictions, truth)
-    facts = fact_losses(predictions, truth)
+    facts = fact_losses(predictions, truth, config.ajar_positive)
     terms = vars(slots) | vars(pairs) | vars(motions) | vars(facts)
     total = torch.stack([getattr(config, name) * term for name, term in terms.items()]).sum()
     return LossTerms(total, slots, pairs, motions, facts)

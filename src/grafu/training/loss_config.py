@@ -78,6 +78,8 @@ class LossConfig(ShortRepr):
     body: float = 1.0
     """Which parts move as one; this and the next two are ours."""
     ajar: float = 0.5
+    ajar_positive: float = 5.0
+    """How much more a part that is drawn ajar weighs than one that is not: of three hundred parts one is."""
     piece: float = 0.2
 
     def __post_init__(self) -> None:

@@ -136,7 +136,7 @@ LOOSE_WEIGHT: Final[dict[str, float]] = {
 }
 
 STANDING = 0.002  # metres between a top and what stands on it
-AJAR = 0.06  # of models: 22692 and 26608 have one drawer pulled out each, of seventeen picked for variety
+AJAR = 0.1  # of models: 22692 and 26608 have one drawer pulled out each, of seventeen picked for variety
 MISFIT = (0.0005, 0.008)  # metres: below, no reader notices; above, no maker would have left it
 GROWN = (0.0003, 0.003)
 SEEN, NEARLY = 0.004, 0.85  # of the largest side: so little is not seen in the whole, and most stay below it
