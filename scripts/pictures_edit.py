@@ -25,6 +25,9 @@ SIZE = (1180, 860)
 STEPS = {
     "edit_part": "grafuEditor.pick('door_1')",
     "edit_done": "grafuEditor.pick('door_1'); grafuEditor.choose('motion', 'door_1', 'right')",
+    "edit_line": "grafuEditor.pick('door_1'); grafuEditor.cut();"
+    " const line = grafuEditor.view.loop.grab({x: 0.242, y: 0.366});"
+    " [[0.415, 0.334], [0.42, 0.612], [0.257, 0.666]].forEach(([x, y]) => line({x, y}))",
 }
 """By picture, what is done before it is taken."""
 
@@ -60,7 +63,7 @@ def taken(browser: "Chromium") -> Picture:
 
 
 def part_sheet(step: str) -> Picture:
-    """Returns the page of the sample after a step, its door ajar."""
+    """Returns the page of the sample after a step, its door ajar where no line is drawn over it."""
     with TemporaryDirectory() as out, edited(str(SAMPLES / "sideboard.glb"), "--out", out) as (browser, address):
         browser.go(address, SIZE)
         browser.wait_for("document.getElementById('stage').className === 'ready'")
@@ -68,7 +71,8 @@ def part_sheet(step: str) -> Picture:
         browser.run(f"{step}; 1")
         if "choose(" in step:
             browser.wait_for(f"grafuEditor.shown > {number} && !grafuEditor.building")
-        browser.run("((v) => v.joints.setFraction(v.jointOf(v.view.chosen), 0.7))(grafuEditor.view)")
+        if "cut(" not in step:
+            browser.run("((v) => v.joints.setFraction(v.jointOf(v.view.chosen), 0.7))(grafuEditor.view)")
         return taken(browser)
 
 
