@@ -13,6 +13,8 @@ from grafu.graph.edges import Contact, Hinge
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.joints.make_plan import plan_from_completion
+from grafu.pipeline.built_graph import without_removed
+from grafu.refusal import Reason, Refusal
 from grafu.synth.samples import wardrobe
 from grafu.vocabulary import EdgeKind, PartLabel, PieceKind
 from network_answers import Answers
@@ -94,3 +96,23 @@ def test_what_rides_is_built_with_its_door() -> None:
     plan = plan_from_completion(GraphCompletion(graph, moved, "network", rides=((door, rod),)), bare)
     assert plan.joints[0].attached == (rod,)
     assert plan_from_completion(GraphCompletion(graph, moved, "network"), bare).joints[0].attached == ()
+
+
+def test_what_is_replaced_rides_no_more() -> None:
+    found = completed(bodies={("barrel", "door"): 6.0, ("screw", "door"): 6.0})
+    left = without_removed(found, frozenset({"barrel"}))
+    assert left.rides == (("door", "screw"),)
+    assert "barrel" not in left.completed
+
+
+def test_what_rides_on_a_door_that_does_not_turn_is_static() -> None:
+    found = completed(bodies={("barrel", "door"): 6.0})
+    still = FunctionalGraph("piece", found.completed.nodes, tuple(piece().edges))
+    refused = (Refusal("door", Reason.REJECTED, ""),)
+    fixed = replace(found, completed=still, decisions=(), refused=refused)
+    names = [node.id for node in piece().nodes]
+    parts = (replace(p, id=name, carried_by=None) for p, name in zip(wardrobe().parts, names, strict=False))
+    asset = replace(wardrobe(), parts=tuple(parts), joints=())
+    plan = plan_from_completion(fixed, asset)
+    assert plan.joints == ()
+    assert [refusal.part for refusal in plan.refused] == ["door"]

@@ -64,7 +64,7 @@ def plan_from_completion(
     fixed_to = {part.id: part.carried_by for part in asset.parts if part.carried_by}
     carried = [(moving, part) for moving, part in carried_parts(graph, fixed_to, config) if part in known]
     taken = {*fixed_to, *(part for _, part in carried)}
-    carried += [(moving, part) for moving, part in completion.rides if part in known - taken]
+    carried += [(body, part) for body, part in completion.rides if body in graph.moving and part in known - taken]
     rides = [(edge.parent, edge.child) for edge in (*graph.attachments, *graph.motions) if _is_carried(edge, graph)]
     attached = attached_to(asset, [*rides, *carried])
     motions = sorted(graph.motions, key=lambda edge: _ORDER.index(type(edge)))

@@ -110,7 +110,8 @@ def without_removed(completion: GraphCompletion, removed: frozenset[str], heirs:
     given, completed = (without_nodes(g, removed & {n.id for n in g.nodes}) for g in (completion.input, graph))
     decisions = tuple(d for d in completion.decisions if d.part not in removed)
     refused = _with_unheld(completed, tuple(r for r in completion.refused if r.part not in removed))
-    return replace(completion, input=given, completed=completed, decisions=decisions, refused=refused)
+    rides = tuple(pair for pair in completion.rides if removed.isdisjoint(pair))
+    return replace(completion, input=given, completed=completed, decisions=decisions, refused=refused, rides=rides)
 
 
 def _nearest(names: Sequence[str], other: str, graph: FunctionalGraph) -> str:
