@@ -157,6 +157,21 @@ def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, lasting):
     browser.press("a", "KeyA")
     settled(browser, number + 1)
     assert browser.run(f"{part!r} in grafuEditor.state.settings.motions")
+    loaded = (
+        "[...document.querySelectorAll('[data-handle] img')].every((image) => image.complete && image.naturalWidth)"
+    )
+    browser.run("document.querySelectorAll('details').forEach((one) => (one.open = true))")
+    browser.run("document.querySelector('.handles').scrollIntoView()")
+    wait(browser, loaded)
+    browser.run("document.querySelector('[data-handle=\"knob-round\"]').click()")
+    settled(browser, number + 2)
+    fronts = "grafuEditor.state.settings.additions.fronts"
+    assert browser.run(f"{fronts}[{part!r}].style") == "knob-round"
+    assert browser.run("document.querySelector('[data-handle=\"knob-round\"]').getAttribute('aria-pressed')") == "true"
+    browser.press("z", "KeyZ", control=True)
+    settled(browser, number + 3)
+    assert browser.run(f"{part!r} in {fronts}") is False
+    number += 2
     browser.press("Escape")
     assert browser.run("grafuEditor.inspector.part") == ""
     names = browser.run("Object.keys(grafuEditor.state.sides)")

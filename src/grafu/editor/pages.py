@@ -7,6 +7,7 @@ from grafu.editor.choices import handle_styles, hinge_templates, rail_templates
 from grafu.pipeline.addition_choice import TOP_SHAPES
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.verdict import verdict_of
+from grafu.templates.gallery import open_handles
 from grafu.version import __version__
 from grafu.viewer.model_page import view_box
 from grafu.viewer.shell import Html, joined, json_block, light_of, tag
@@ -144,9 +145,21 @@ def _inspector() -> Html:
         _select("label", "Category", tuple(PartLabel)),
         tag("label", "Shelves behind it (empty: automatic) ", _number("shelves", 1.0), id="shelves-field", hidden=True),
     ]
-    about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"), divide)
+    about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"), _handles(), divide)
     body = tag("div", *about, id="about-part", hidden=True)
     return tag("section", pick, body, id="inspector", class_="panel", aria_label="The part that is chosen")
+
+
+def _handles() -> Html:
+    """Returns a button with a picture for each handle; grips have none, and stand in the list."""
+    styles = tuple(open_handles(None))
+    images = [tag("img", src=f"../../handle/{name}", width=84, height=62, alt=name, loading="lazy") for name in styles]
+    buttons = (
+        tag("button", image, type="button", title=name, data_handle=name, aria_pressed="false")
+        for name, image in zip(styles, images, strict=True)
+    )
+    grid = tag("div", *buttons, class_="handles", role="group", aria_label="Handles")
+    return tag("details", tag("summary", "Handles in pictures"), grid, class_="panel")
 
 
 def _motion(word: str, name: str, class_: str) -> Html:

@@ -5,6 +5,7 @@ import json
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, Final, final
 
@@ -24,10 +25,12 @@ from grafu.editor.scripts import SCRIPTS, style
 from grafu.editor.session import Session
 from grafu.editor.workspace import Workspace
 from grafu.errors import AssetError, FunctionalizationError, OptionError
+from grafu.templates.gallery import open_handles
 from grafu.viewer.pictures import MIME, thumbnail_of_page
 
 _MOST_BODY: Final = 65536  # bytes of a choice
 _MOST_PAGE: Final = 256 * 2**20  # bytes of a page that a picture is taken from
+_HANDLE_SIZE: Final = (84, 62)  # pixels of the picture of a handle
 _HEARTBEAT: Final = 15.0  # seconds without news after which a line keeps the connection
 
 Handler = Callable[[Request], Awaitable[Response]]
@@ -68,6 +71,7 @@ def application(models: EditedModels, token: str, port: int) -> Guarded:
         Route("/style.css", _style),
         *(Route(f"/{name}", _script(name)) for name in SCRIPTS),
         Route("/thumbnail/{number:int}", _plainly(models, _thumbnail)),
+        Route("/handle/{style}", _handle),
         Route(f"{model}/", _plainly(models, _page)),
         Route(f"{model}/state", _plainly(models, _state)),
         *(Route(f"{model}/{name}", _plainly(models, _file(name))) for name in FILES),
@@ -134,6 +138,21 @@ async def _thumbnail(_: EditedModels, session: Session, __: Request) -> Response
 
     data = await run_in_threadpool(picture)
     return Response(data, media_type=MIME) if data else Response(status_code=404)
+
+
+async def _handle(request: Request) -> Response:
+    picture = await run_in_threadpool(_handle_picture, request.path_params["style"])
+    return Response(picture, media_type="image/png") if picture else Response(status_code=404)
+
+
+@cache
+def _handle_picture(style: str) -> bytes:
+    """Returns a small picture of a handle; empty where there is none of this name."""
+    from grafu.render.gallery import handle_picture
+    from grafu.render.picture import encode_png
+
+    template = open_handles(None).get(style)
+    return encode_png(handle_picture(template, size=_HANDLE_SIZE)) if template else b""
 
 
 async def _page(models: EditedModels, session: Session, request: Request) -> Response:

@@ -149,12 +149,15 @@ def handle_sheet(
     handles: Sequence[HandleTemplate], finish: Material = STEEL, size: tuple[int, int] = (300, 220), columns: int = 6
 ) -> Picture:
     """Returns one picture of all handles, seen from the front, with title and id below each."""
-    pictures = []
-    for template in handles:
-        visuals = posed_visuals(_shown(template, min(template.natural.length, _SHOWN_LENGTH), finish))
-        camera = three_quarter_view(box_of(visuals), size[0] / size[1], radians(-35), radians(25))
-        pictures.append(render(visuals, camera, size))
+    pictures = [handle_picture(template, finish, size) for template in handles]
     return contact_sheet(pictures, [f"{t.title}  ·  {t.id}" for t in handles], columns)
+
+
+def handle_picture(template: HandleTemplate, finish: Material = STEEL, size: tuple[int, int] = (300, 220)) -> Picture:
+    """Returns a picture of a handle, seen from the front; `size` is width and height in pixels."""
+    visuals = posed_visuals(_shown(template, min(template.natural.length, _SHOWN_LENGTH), finish))
+    camera = three_quarter_view(box_of(visuals), size[0] / size[1], radians(-35), radians(25))
+    return render(visuals, camera, size)
 
 
 def _shown(template: HandleTemplate, length: float, finish: Material) -> ArticulatedObject:

@@ -9,6 +9,8 @@ class Inspector {
     this.pick.addEventListener("change", () => picked(this.pick.value));
     document.querySelectorAll("[data-motion]").forEach((button) =>
       button.addEventListener("click", () => this.motion(button.dataset.motion)));
+    document.querySelectorAll("[data-handle]").forEach((button) =>
+      button.addEventListener("click", () => this.handle(button.dataset.handle)));
     document.querySelectorAll("[data-choice]").forEach((field) =>
       field.addEventListener("change", () => this.answer(field)));
     document.getElementById("left-out").addEventListener("click", ({ target }) => {
@@ -83,7 +85,12 @@ class Inspector {
       new Option(joint ? `automatic (${joint.template})` : "automatic", ""),
       ...(slides ? this.rails : this.hinges).map((id) => new Option(id, id)));
     this.field("template").value = choice.template ?? "";
-    this.field("handle").value = settings.additions.fronts[part]?.style ?? "";
+    const style = settings.additions.fronts[part]?.style ?? "";
+    this.field("handle").value = style;
+    document.querySelectorAll("[data-handle]").forEach((button) => {
+      button.disabled = !joint;
+      button.setAttribute("aria-pressed", String(button.dataset.handle === style));
+    });
     this.field("label").value = settings.labels[part] ?? "";
     ["opening", "template", "handle"].forEach((name) => (this.field(name).disabled = !joint));
     this.field("label").disabled = this.isAdded;
@@ -144,6 +151,11 @@ class Inspector {
 
   motion(word) {
     if (this.part && word !== this.word()) this.choose("motion", this.part, word);
+  }
+
+  // Chooses a handle; the one that was chosen before is automatic again.
+  handle(style) {
+    if (this.part) this.choose("handle", this.part, this.field("handle").value === style ? null : style);
   }
 
   answer(field) {

@@ -2,6 +2,7 @@
 
 const LEAST = 0.004; // of the picture: two corners are farther apart
 const FEWEST = 3; // corners
+const MOST = 200; // corners that are stated: of more, every other one, and so on
 
 class LoopTool {
   constructor(view, canvas) {
@@ -50,7 +51,8 @@ class LoopTool {
   close(places) {
     const done = this.done;
     this.leave();
-    if (places.length >= FEWEST) done({ eye: this.view.camera.eye, corners: places.map((place) => this.corner(place)) });
+    const each = Math.ceil(places.length / MOST), kept = places.filter((_, k) => k % each === 0);
+    if (kept.length >= FEWEST) done({ eye: this.view.camera.eye, corners: kept.map((place) => this.corner(place)) });
   }
 
   // Returns the point of the picture's plane, through the middle of the view, that a place shows.
