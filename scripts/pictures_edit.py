@@ -25,9 +25,9 @@ SIZE = (1180, 860)
 STEPS = {
     "edit_part": "grafuEditor.pick('door_1')",
     "edit_done": "grafuEditor.pick('door_1'); grafuEditor.choose('motion', 'door_1', 'right')",
-    "edit_line": "grafuEditor.pick('door_1'); grafuEditor.cut();"
-    " const line = grafuEditor.view.loop.grab({x: 0.242, y: 0.366});"
-    " [[0.415, 0.334], [0.42, 0.612], [0.257, 0.666]].forEach(([x, y]) => line({x, y}))",
+    "edit_lasso": "grafuEditor.pick('door_1'); grafuEditor.cut();"
+    " const lasso = grafuEditor.view.lasso.grab({x: 0.242, y: 0.366});"
+    " [[0.415, 0.334], [0.42, 0.612], [0.257, 0.666]].forEach(([x, y]) => lasso({x, y}))",
 }
 """By picture, what is done before it is taken."""
 
@@ -63,7 +63,7 @@ def taken(browser: "Chromium") -> Picture:
 
 
 def part_sheet(step: str) -> Picture:
-    """Returns the page of the sample after a step, its door ajar where no line is drawn over it."""
+    """Returns the page of the sample after a step, its door ajar where no lasso is drawn over it."""
     with TemporaryDirectory() as out, edited(str(SAMPLES / "sideboard.glb"), "--out", out) as (browser, address):
         browser.go(address, SIZE)
         browser.wait_for("document.getElementById('stage').className === 'ready'")

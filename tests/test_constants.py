@@ -20,7 +20,7 @@ from grafu.asset.drafts import GroupConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.grips import DrawnGripConfig
-from grafu.asset.loop_cut import LoopConfig
+from grafu.asset.lasso_cut import LassoConfig
 from grafu.asset.loose import LooseConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
@@ -91,7 +91,7 @@ OF_MODULES = {
         "bodies.py": {},
         "cutting.py": {},
         "drafts.py": {},
-        "loop_cut.py": {"MOST_CORNERS": FORMAT, "_NO_AREA": TOLERANCE},
+        "lasso_cut.py": {"MOST_CORNERS": FORMAT, "_NO_AREA": TOLERANCE},
         "foreign/agreement.py": {"_FEW": EFFORT},
         "foreign/frames.py": {
             "_ROUNDS": EFFORT,
@@ -200,7 +200,8 @@ CONFIGS = (
     AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
     DrawnGripConfig,
     DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
-    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LoopConfig, LooseConfig,
+    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
+    LooseConfig,
     MassConfig, MatchConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
     SeenSideConfig, SegmentationConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,

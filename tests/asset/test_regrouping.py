@@ -115,8 +115,8 @@ def test_settings_hold_the_changes_in_order_and_forget_what_was_chosen_of_parts_
     assert made.labels == {"door": PartLabel.DRAWER}
     assert settings_from_json(made.to_json()) == made
     assert made.to_json()["regrouped"] == [
-        {"do": "split", "parts": ["door"], "loop": None},
-        {"do": "join", "parts": ["door", "flap"], "loop": None},
+        {"do": "split", "parts": ["door"], "lasso": None},
+        {"do": "join", "parts": ["door", "flap"], "lasso": None},
     ]
 
 

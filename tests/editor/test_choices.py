@@ -90,8 +90,8 @@ def test_a_part_is_cut_by_a_loop():
     corners = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.1, 0.0, 0.1]]
     made = with_choice(Settings(), "cut", "door", {"eye": [0, -3, 1], "corners": corners, "through": True}, KNOWN)
     (change,) = made.regrouped
-    assert (str(change.do), change.parts, change.loop.through) == ("cut", ("door",), True)
-    assert [list(corner) for corner in change.loop.corners] == corners
+    assert (str(change.do), change.parts, change.lasso.through) == ("cut", ("door",), True)
+    assert [list(corner) for corner in change.lasso.corners] == corners
     assert settings_from_json(made.to_json()) == made
 
 
@@ -128,12 +128,12 @@ def test_reject_fixes_a_part_and_leaves_an_added_one_out():
         ("join", "door", "door", "another part"),
         ("join", "door", "handle_1", "another part"),
         ("split", "handle_1", None, "there is no part"),
-        ("cut", "door", None, "cut by a loop"),
+        ("cut", "door", None, "cut by a lasso"),
         ("cut", "door", {"eye": [0, -3, 1], "corners": "all"}, "a list of points"),
         ("cut", "door", {"eye": [0, -3], "corners": []}, "three numbers"),
         ("cut", "door", {"eye": [0, -3, 1], "corners": [[0, 0, 0]]}, "3 to 500 corners"),
         ("cut", "door", {"eye": [0, -3, 1], "corners": [[0, 0, 1e9]] * 3}, "metres"),
-        ("cut", "door", {"eye": [0, -3, 1], "corners": [], "deep": 1}, "cut by a loop"),
+        ("cut", "door", {"eye": [0, -3, 1], "corners": [], "deep": 1}, "cut by a lasso"),
     ],
 )
 def test_what_is_no_answer_is_refused_in_words(question, part, value, said):

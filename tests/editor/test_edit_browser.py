@@ -180,7 +180,7 @@ def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, lasting):
         browser.run(f"grafuEditor.pick({one!r})")
     browser.press("g", "KeyG")
     settled(browser, number + 2)
-    joined = {"do": "join", "parts": still[:2], "loop": None}
+    joined = {"do": "join", "parts": still[:2], "lasso": None}
     assert browser.run("grafuEditor.state.settings.regrouped") == [joined]
     assert browser.run("grafuEditor.inspector.part") == still[0]
     browser.press("z", "KeyZ", control=True)
@@ -216,8 +216,8 @@ def test_a_line_around_a_piece_of_a_part_cuts_it_out(browser, lasting):
     browser.drag(*((x + aside, y + up) for aside, up in square))
     settled(browser, number + 1)
     change = browser.run("grafuEditor.state.settings.regrouped.at(-1)")
-    assert (change["do"], change["parts"], change["loop"]["through"]) == ("cut", [DOOR], False)
-    assert len(change["loop"]["corners"]) == 4
+    assert (change["do"], change["parts"], change["lasso"]["through"]) == ("cut", [DOOR], False)
+    assert len(change["lasso"]["corners"]) == 4
     assert browser.run(f"{DOOR + '_2'!r} in grafuEditor.state.sides")
     seen = place_of(browser, f"{DOOR}_2")
     assert abs(seen[0] - x) < 15
@@ -226,9 +226,9 @@ def test_a_line_around_a_piece_of_a_part_cuts_it_out(browser, lasting):
     settled(browser, number + 2)
     browser.run(f"grafuEditor.pick({DOOR!r})")
     browser.press("c", "KeyC")
-    assert browser.run("grafuEditor.view.loop.active")
+    assert browser.run("grafuEditor.view.lasso.active")
     browser.press("Escape")
-    assert not browser.run("grafuEditor.view.loop.active")
+    assert not browser.run("grafuEditor.view.lasso.active")
     assert browser.complaints(lasting.address) == []
 
 

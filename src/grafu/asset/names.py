@@ -15,7 +15,7 @@ from typing import Final
 
 from grafu.asset.languages import CHINESE, ENGLISH, GERMAN, JAPANESE, ROMANCE, table, word_set
 
-_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+CAMEL: Final = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 _LETTERS = re.compile(r"[a-z]+")
 _UNSAFE = re.compile(r"[^A-Za-z0-9]+")
 
@@ -31,7 +31,7 @@ def plain(name: str) -> str:
 
 def words(name: str) -> tuple[str, ...]:
     """Returns the lower-case words of a name; digits and signs part words, and so does camelCase."""
-    return tuple(_LETTERS.findall(_CAMEL.sub(" ", plain(name)).lower()))
+    return tuple(_LETTERS.findall(CAMEL.sub(" ", plain(name)).lower()))
 
 
 def safe_id(name: str, is_handle: bool = False) -> str:

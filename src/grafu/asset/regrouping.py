@@ -1,4 +1,4 @@
-"""Parts that the user joins, splits into shells or cuts by a loop: the same surfaces, divided otherwise.
+"""Parts that the user joins, splits into shells or cuts by a lasso: the same surfaces, divided otherwise.
 
 What the input states about motions stays where its part does: a joint of a part that was joined to another is gone.
 """
@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import final
 
-from grafu.asset.loop_cut import Loop, inside_loop
+from grafu.asset.lasso_cut import Lasso, inside_lasso
 from grafu.asset.loose import shells_of
 from grafu.asset.part import Annotation, Asset, Part
 from grafu.asset.pieces import with_pieces
@@ -23,7 +23,7 @@ class Regroup(StrEnum):
 
     JOIN = "join"  # the others become pieces of the first
     SPLIT = "split"  # each connected shell becomes a part
-    CUT = "cut"  # what lies inside a loop becomes a part
+    CUT = "cut"  # what lies inside a lasso becomes a part
 
 
 _DONE = {Regroup.SPLIT: "split", Regroup.CUT: "cut"}
@@ -35,21 +35,21 @@ class Regrouping:
     """One change of how a model is divided into parts, by their ids; see `regrouped`.
 
     Raises:
-        ValueError: if it joins less than two parts or one twice, or splits or cuts more than one, or if a loop is
+        ValueError: if it joins less than two parts or one twice, or splits or cuts more than one, or if a lasso is
             missing where one is to cut, or given where none is.
     """
 
     do: Regroup
     parts: tuple[str, ...]
-    loop: Loop | None = None
+    lasso: Lasso | None = None
 
     def __post_init__(self) -> None:
         if self.do is Regroup.JOIN and (len(self.parts) < 2 or len(set(self.parts)) < len(self.parts)):
             raise ValueError(f"two parts or more are joined, each once: got {', '.join(self.parts) or 'none'}")
         if self.do is not Regroup.JOIN and len(self.parts) != 1:
             raise ValueError(f"one part is {_DONE[self.do]} at a time: got {', '.join(self.parts) or 'none'}")
-        if (self.loop is not None) != (self.do is Regroup.CUT):
-            raise ValueError("a part is cut by a loop, and by nothing else")
+        if (self.lasso is not None) != (self.do is Regroup.CUT):
+            raise ValueError("a part is cut by a lasso, and by nothing else")
 
 
 def regrouped(asset: Asset, changes: Sequence[Regrouping]) -> Asset:
@@ -61,12 +61,12 @@ def regrouped(asset: Asset, changes: Sequence[Regrouping]) -> Asset:
 
     Raises:
         OptionError: if a part does not exist, one that is to be split is a single shell, or all or nothing of one lies
-            inside its loop.
+            inside its lasso.
     """
     for change in changes:
         _require_parts(asset, change)
-        if change.loop is not None:
-            asset = _cut_out(asset, change.parts[0], change.loop)
+        if change.lasso is not None:
+            asset = _cut_out(asset, change.parts[0], change.lasso)
         else:
             asset = _joined(asset, change.parts) if change.do is Regroup.JOIN else _split(asset, change.parts[0])
     return asset
@@ -118,10 +118,10 @@ def _split(asset: Asset, name: str) -> Asset:
     return replace(asset, notes=(*asset.notes, f"{name} split by hand into {', '.join(pieces)}"))
 
 
-def _cut_out(asset: Asset, name: str, loop: Loop) -> Asset:
-    inside, left = inside_loop(asset.part(name).surfaces, loop, asset.extent)
+def _cut_out(asset: Asset, name: str, lasso: Lasso) -> Asset:
+    inside, left = inside_lasso(asset.part(name).surfaces, lasso, asset.extent)
     if not inside or not left:
-        raise OptionError(f"{name} cannot be cut: {'all' if inside else 'nothing'} of it lies inside the loop")
+        raise OptionError(f"{name} cannot be cut: {'all' if inside else 'nothing'} of it lies inside the lasso")
     asset, (_, new) = _divided(asset, name, [left, inside])
     return replace(asset, notes=(*asset.notes, f"{new} cut out of {name} by hand"))
 

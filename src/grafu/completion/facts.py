@@ -54,7 +54,7 @@ def rides(
         if chance >= config.rides
     }
     owner = {name: name for name in moving} | {edge.child: edge.parent for edge in graph.attachments}
-    return tuple((moving, name) for name, moving in _touching(likely, owner, graph).items())
+    return tuple((body, name) for name, body in _touching(likely, owner, graph).items())
 
 
 def _touching(likely: Mapping[str, str], owner: Mapping[str, str], graph: FunctionalGraph) -> dict[str, str]:
@@ -63,9 +63,9 @@ def _touching(likely: Mapping[str, str], owner: Mapping[str, str], graph: Functi
     while True:
         known = {**owner, **found}
         more = {
-            name: moving
-            for name, moving in likely.items()
-            if name not in found and any(known.get(other) == moving for other in graph.neighbours[name])
+            name: body
+            for name, body in likely.items()
+            if name not in found and any(known.get(other) == body for other in graph.neighbours[name])
         }
         if not more:
             return found

@@ -13,11 +13,12 @@ from zlib import crc32
 import numpy as np
 from jaxtyping import Int64
 
+from grafu.asset.names import CAMEL
+
 NAME_CODES = 32
 """How many pieces of a name are read, whole words first."""
 NAME_BUCKETS = 2048
 """How many numbers pieces are hashed to, 1 to this; 0 is no piece."""
-_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 _WORDS = re.compile(r"[^\W\d_]+")
 _GRAM = 3
 
@@ -37,7 +38,7 @@ def name_codes(names: Sequence[str]) -> Int64[np.ndarray, "n c"]:
 
 @lru_cache(maxsize=20_000)
 def _codes(name: str) -> tuple[int, ...]:
-    words = _WORDS.findall(_CAMEL.sub(" ", _unaccented(name)).lower())
+    words = _WORDS.findall(CAMEL.sub(" ", _unaccented(name)).lower())
     grams = chain.from_iterable(_grams(f"<{word}>") for word in words)
     pieces = dict.fromkeys(chain(words, grams))
     return tuple(_bucket(piece) for piece in pieces)[:NAME_CODES]

@@ -12,10 +12,11 @@ from typing import Any, final
 import numpy as np
 
 from grafu.data.pair import Record
-from grafu.data.shards_arrays import DEFECT_KINDS, PIECES, ModelArrays, arrays_to_record, record_to_arrays
+from grafu.data.shards_arrays import DEFECT_KINDS, ModelArrays, arrays_to_record, record_to_arrays
 from grafu.data.shards_file import read_array_file, require_columns, write_array_file
 from grafu.errors import UnreadableAsset
 from grafu.graph.arrays import EDGE_WORDS, LABELS
+from grafu.graph.piece_facts import PIECES
 from grafu.synth.specimen import Defect
 from grafu.version import __version__
 

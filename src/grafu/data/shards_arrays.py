@@ -10,7 +10,7 @@ takes four bytes, a place on a grid of 1625 steps along each side of the part's 
 Coding what was decoded changes nothing.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final, get_args
 
@@ -22,12 +22,12 @@ from grafu.errors import GraphError
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.arrays import KIND_CODES, KIND_OF, LABEL_CODES, LABELS
+from grafu.graph.arrays import KIND_CODES, KIND_OF, LABEL_CODES, LABELS, NONE
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.graph.piece_facts import STATIC, PieceFacts
+from grafu.graph.piece_facts import FactCodes, fact_codes, facts_of
 from grafu.synth.specimen import Defect, DefectKind
-from grafu.vocabulary import EdgeKind, PieceKind
+from grafu.vocabulary import EdgeKind
 
 STEPS = 1625
 LARGEST_ERROR = 1 / (2 * (STEPS - 1))  # of the box's side, along each axis
@@ -80,7 +80,6 @@ def _per_point(boxes: Boxes, counts: Counts) -> tuple[Points, Points]:
 DEFECT_KINDS: tuple[DefectKind, ...] = get_args(DefectKind)
 ABSENT = 255  # the given label of a node that is not given; what is not known of a part or a piece
 NO_BODY = 65_535  # the body of a part whose body is not known
-PIECES: tuple[PieceKind, ...] = tuple(PieceKind)
 
 EdgeArray = UInt16[np.ndarray, "edges 4"]
 GivenEdgeArray = UInt16[np.ndarray, "given_edges 4"]
@@ -138,7 +137,7 @@ def record_to_arrays(record: Record) -> ModelArrays:
         tuple(n.source_name for n in nodes),
         np.array([LABEL_CODES[n.label] for n in nodes], dtype=np.uint8),
         np.array([given.get(n.id, ABSENT) for n in nodes], dtype=np.uint8),
-        *_fact_arrays(record.facts, places),
+        *_fact_arrays(fact_codes(record.facts, list(places))),
         np.array([n.id in record.removable for n in nodes], dtype=np.bool_),
         boxes,
         _edge_array(record.truth.edges, places),
@@ -169,25 +168,20 @@ def arrays_to_record(arrays: ModelArrays) -> Record:
         FunctionalGraph(arrays.model_id, nodes, _edges(arrays.edges, ids)),
         frozenset(ids[place] for place in np.flatnonzero(arrays.removable).tolist()),
         arrays.defects,
-        _facts(arrays),
+        facts_of(_fact_codes(arrays), ids),
     )
 
 
-def _fact_arrays(facts: PieceFacts, places: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, int]:
-    numbers = {STATIC: 0} | {name: place + 1 for name, place in places.items()}
-    bodies = [numbers[facts.bodies[name]] if name in facts.bodies else NO_BODY for name in places]
-    ajar = [ABSENT if facts.ajar is None else int(name in facts.ajar) for name in places]
-    kind = ABSENT if facts.kind is None else PIECES.index(facts.kind)
-    return np.array(bodies, dtype=np.uint16), np.array(ajar, dtype=np.uint8), kind
+def _fact_arrays(codes: FactCodes) -> tuple[np.ndarray, np.ndarray, int]:
+    bodies = np.where(codes.bodies == NONE, NO_BODY, codes.bodies).astype(np.uint16)
+    ajar = np.where(codes.ajar == NONE, ABSENT, codes.ajar).astype(np.uint8)
+    return bodies, ajar, ABSENT if codes.kind == NONE else codes.kind
 
 
-def _facts(arrays: ModelArrays) -> PieceFacts:
-    ids = arrays.node_ids
-    body_of = zip(ids, arrays.bodies.tolist(), strict=True)
-    bodies = {name: ids[body - 1] if body else STATIC for name, body in body_of if body != NO_BODY}
-    drawn = arrays.ajar.tolist()
-    ajar = None if ABSENT in drawn or not drawn else frozenset(ids[k] for k, is_ajar in enumerate(drawn) if is_ajar)
-    return PieceFacts(None if arrays.piece == ABSENT else PIECES[arrays.piece], ajar, bodies)
+def _fact_codes(arrays: ModelArrays) -> FactCodes:
+    bodies, ajar = arrays.bodies.astype(np.int64), arrays.ajar.astype(np.int64)
+    kind = NONE if arrays.piece == ABSENT else arrays.piece
+    return FactCodes(np.where(bodies == NO_BODY, NONE, bodies), np.where(ajar == ABSENT, NONE, ajar), kind)
 
 
 def _nodes(arrays: ModelArrays) -> tuple[PartNode, ...]:

@@ -18,10 +18,11 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 import numpy as np
 
 from grafu.asset.scan_files import array_from
-from grafu.data.shards_arrays import ABSENT, DEFECT_KINDS, NO_BODY, PIECES
+from grafu.data.shards_arrays import ABSENT, DEFECT_KINDS, NO_BODY
 from grafu.errors import AssetTooLarge, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.graph.arrays import KIND_OF, LABELS
+from grafu.graph.piece_facts import PIECES
 
 _WORD: Final = ("<u4", ())
 _PLACE: Final = ("<i8", ())

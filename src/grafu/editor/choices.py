@@ -12,7 +12,7 @@ from typing import Any, final
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
 from grafu.additions.interior.request import MOST_PANELS, CompartmentChoice
-from grafu.asset.loop_cut import Loop
+from grafu.asset.lasso_cut import Lasso
 from grafu.asset.regrouping import Regroup, Regrouping
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import FIXED, MotionChoice, choice_in_words
@@ -44,7 +44,7 @@ class Choose(StrEnum):
     LABEL = "label"  # its category
     JOIN = "join"  # another part, by its id, becomes a piece of it
     SPLIT = "split"  # its connected shells become parts
-    CUT = "cut"  # what lies inside a loop becomes a part: {eye, corners, through}
+    CUT = "cut"  # what lies inside a lasso becomes a part: {eye, corners, through}
     SHELVES = "shelves"  # how many shelves the compartment of this number gets
     TOP = "top"  # of the whole: the shape of a missing top, or none
     HINGE = "hinge"  # of the whole: the template that doors get where it finds room
@@ -182,12 +182,12 @@ def _split(settings: Settings, part: str, _: Any, __: Known) -> Settings:
 
 def _cut(settings: Settings, part: str, value: Any, _: Known) -> Settings:
     if not isinstance(value, dict) or set(value) - {"eye", "corners", "through"}:
-        raise OptionError(f"a part is cut by a loop, `eye`, `corners` and `through`: got {_said(value)}")
+        raise OptionError(f"a part is cut by a lasso, `eye`, `corners` and `through`: got {_said(value)}")
     corners = value.get("corners")
     if not isinstance(corners, list):
-        raise OptionError(f"the corners of a loop must be a list of points: got {_said(corners)}")
-    loop = Loop(_point(value.get("eye")), tuple(_point(corner) for corner in corners), value.get("through") is True)
-    return settings.with_regrouping(Regrouping(Regroup.CUT, (part,), loop))
+        raise OptionError(f"the corners of a lasso must be a list of points: got {_said(corners)}")
+    lasso = Lasso(_point(value.get("eye")), tuple(_point(corner) for corner in corners), value.get("through") is True)
+    return settings.with_regrouping(Regrouping(Regroup.CUT, (part,), lasso))
 
 
 def _point(value: Any) -> tuple[float, float, float]:

@@ -37,7 +37,7 @@ _KEYS: Final = (
     ("5 / 6", "slides out / fixed"),
     ("g", "join with the part that was chosen before"),
     ("s", "split the part into its shells"),
-    ("c", "cut out of the part what the next line encloses"),
+    ("c", "cut out of the part what the next lasso encloses"),
     ("Ctrl Z / Ctrl Y", "undo / redo"),
     ("j / k", "next / previous model"),
     ("Esc", "choose no part"),
@@ -134,7 +134,7 @@ def _inspector() -> Html:
     group = tag("div", square, others, role="group", aria_label="How it moves")
     actions = (("accept", "Accept"), ("reject", "Reject"), ("automatic", "Automatic"), ("open", "Open or close"))
     buttons = tag("div", *(tag("button", w, type="button", data_do=k) for k, w in actions), class_="actions")
-    divisions = (("join", "Join with the part before"), ("split", "Split into shells"), ("cut", "Cut out by a line"))
+    divisions = (("join", "Join with the part before"), ("split", "Split into shells"), ("cut", "Cut out with a lasso"))
     through = tag("label", tag("input", type="checkbox", id="through"), " with all that lies behind", class_="through")
     divide = tag("div", *(tag("button", w, type="button", data_do=k) for k, w in divisions), through, class_="actions")
     clash = tag("button", "Show the collision", type="button", data_do="collision", hidden=True)

@@ -6,12 +6,12 @@ Some faces of a surface, and several surfaces of one material as one, keep their
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal, final
+from typing import Any, Literal, final
 
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from grafu.geometry.arrays import ArrayValue, Indices, Mat4, Points, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat4, Points, frozen_array
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 
 
@@ -102,15 +102,31 @@ def selected(surface: Surface, faces: Indices) -> Surface:
     return replace(surface, mesh=mesh, uv=uv, normals=normals, colors=colors)
 
 
+def attribute_rows(surface: Surface) -> Float[np.ndarray, "n k"]:
+    """Returns position and attributes side by side, one row per vertex."""
+    columns = [surface.mesh.vertices, surface.uv, surface.normals, surface.colors]
+    return np.hstack([np.asarray(c, dtype=np.float64) for c in columns if c is not None])
+
+
+def from_attributes(like: Surface, rows: Float[np.ndarray, "n k"], faces: Faces) -> Surface:
+    """Returns a surface like the given one from rows as `attribute_rows` makes them; those that no face uses go."""
+    used, index = np.unique(faces, return_inverse=True)
+    rows, at = rows[used], 3
+    found: dict[str, Any] = {}
+    for name, width in _WIDTHS.items():
+        if getattr(like, name) is not None:
+            found[name], at = rows[:, at : at + width], at + width
+    if "normals" in found:
+        found["normals"] = found["normals"] / np.maximum(
+            np.linalg.norm(found["normals"], axis=1, keepdims=True), 1e-300
+        )
+    if "colors" in found:
+        found["colors"] = np.clip(np.round(found["colors"]), 0, 255).astype(np.uint8)
+    return replace(like, mesh=TriangleMesh(rows[:, :3], index.reshape(faces.shape)), **found)
+
+
 def joined(like: Surface, pieces: Sequence[Surface]) -> Surface:
     """Returns pieces of one surface, which have the attributes that it has, as one; same vertices become one."""
     mesh = merge_meshes([piece.mesh for piece in pieces])
-    widths = {name: width for name, width in _WIDTHS.items() if getattr(like, name) is not None}
-    columns = (np.vstack([getattr(piece, name) for piece in pieces]).astype(np.float64) for name in widths)
-    rows, index = np.unique(np.hstack([mesh.vertices, *columns]), axis=0, return_inverse=True)
-    at, found = 3, {}
-    for name, width in widths.items():
-        found[name], at = rows[:, at : at + width], at + width
-    colors = found["colors"].astype(np.uint8) if "colors" in found else None
-    mesh = TriangleMesh(rows[:, :3], index.reshape(-1)[mesh.faces])
-    return replace(like, mesh=mesh, uv=found.get("uv"), normals=found.get("normals"), colors=colors)
+    rows, index = np.unique(np.vstack([attribute_rows(piece) for piece in pieces]), axis=0, return_inverse=True)
+    return from_attributes(like, rows, index.reshape(-1)[mesh.faces])

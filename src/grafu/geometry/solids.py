@@ -6,7 +6,7 @@ before. What several solids take of one triangle goes at once: one after another
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
@@ -14,7 +14,7 @@ import manifold3d
 import numpy as np
 from jaxtyping import Bool, Float
 
-from grafu.geometry.appearance import Surface
+from grafu.geometry.appearance import Surface, attribute_rows, from_attributes
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
@@ -104,31 +104,9 @@ def _cross(triangles: np.ndarray) -> Points:
     return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
 
 
-def _attributes(surface: Surface) -> np.ndarray:
-    """Returns position and attributes side by side, one row per vertex."""
-    columns = [surface.mesh.vertices, surface.uv, surface.normals, surface.colors]
-    return np.hstack([np.asarray(c, dtype=np.float64) for c in columns if c is not None])
-
-
-def _from_attributes(surface: Surface, rows: np.ndarray, faces: Faces) -> Surface:
-    """Returns a surface like the given one from rows as made by `_attributes`."""
-    used, index = np.unique(faces, return_inverse=True)
-    rows, at = rows[used], 3
-    uv = normals = colors = None
-    if surface.uv is not None:
-        uv, at = rows[:, at : at + 2], at + 2
-    if surface.normals is not None:
-        normals, at = rows[:, at : at + 3], at + 3
-        normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-    if surface.colors is not None:
-        colors = np.clip(np.round(rows[:, at : at + 4]), 0, 255).astype(np.uint8)
-    mesh = TriangleMesh(rows[:, :3], index.reshape(faces.shape))
-    return replace(surface, mesh=mesh, uv=uv, normals=normals, colors=colors)
-
-
 def _subtract_closed(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface | None:
     """Returns the boolean difference, None where manifold3d does not accept the surface."""
-    rows = _attributes(surface)
+    rows = attribute_rows(surface)
     body_mesh = manifold3d.Mesh(rows.astype(np.float32), surface.mesh.faces.astype(np.uint32))
     body_mesh.merge()
     body = manifold3d.Manifold(body_mesh)
@@ -141,8 +119,8 @@ def _subtract_closed(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface
         )
     cut = body.to_mesh()
     if not len(cut.tri_verts):
-        return _from_attributes(surface, rows, np.zeros((0, 3), np.int64))
-    return _from_attributes(surface, _padded(cut.vert_properties, rows.shape[1]), np.asarray(cut.tri_verts, np.int64))
+        return from_attributes(surface, rows, np.zeros((0, 3), np.int64))
+    return from_attributes(surface, _padded(cut.vert_properties, rows.shape[1]), np.asarray(cut.tri_verts, np.int64))
 
 
 def _padded(rows: np.ndarray, width: int) -> np.ndarray:
@@ -158,7 +136,7 @@ def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     near = _meet(triangles, Box.around(np.vstack([solid.vertices for solid in solids])))
     if not near.any():
         return surface
-    rows = _attributes(surface)
+    rows = attribute_rows(surface)
     # Faces without area go too: they would stay behind as needles in the cut.
     owner = np.flatnonzero(near)
     owner = owner[~_is_sliver(triangles[owner])]
@@ -172,7 +150,7 @@ def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     pieces = pieces[~_is_sliver(pieces)]
     new_faces = len(rows) + np.arange(3 * len(pieces)).reshape(-1, 3)
     faces = np.vstack([mesh.faces[~cut & ~flat], new_faces])
-    return _from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
+    return from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
 
 
 def _touched(triangles: np.ndarray, solid: ConvexSolid) -> Indices:

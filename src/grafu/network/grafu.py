@@ -15,9 +15,8 @@ from torch.nn.functional import pad
 from grafu.network.batch import GraphBatch, Predictions
 from grafu.network.config import GraFuConfig
 from grafu.network.encoder import WIDENING, GraphEncoder, pair_term_count, pair_terms
-from grafu.network.heads import FactAnswers, FactHeads, MotionHeads, PairHeads, SlotAnswers, SlotHeads
-from grafu.network.layers import Attention, perceptron
-from grafu.vocabulary import PieceKind
+from grafu.network.heads import FactHeads, MotionHeads, PairHeads, SlotAnswers, SlotHeads, no_facts
+from grafu.network.layers import Attention, masked_mean, perceptron
 
 
 @final
@@ -62,8 +61,7 @@ class SlotDecoder(nn.Module):
         self, nodes: Float[Tensor, "b n h"], mask: Bool[Tensor, "b n"]
     ) -> tuple[Float[Tensor, "b s h"], Bool[Tensor, "b s"]]:
         """Returns the slots and which of them are no padding."""
-        pooled = (nodes * mask[:, :, None]).sum(dim=1) / mask.sum(dim=1, keepdim=True).clamp(min=1)
-        free = self.free + self.summary(pooled)[:, None, :]
+        free = self.free + self.summary(masked_mean(nodes, mask))[:, None, :]
         slots = torch.cat([nodes, free.to(nodes.dtype)], dim=1)
         slot_mask = torch.cat([mask, torch.ones_like(free[..., 0], dtype=torch.bool)], dim=1)
         for layer in self.layers:
@@ -93,23 +91,10 @@ class GraFu(nn.Module):
         answers = self.slot_heads(slots, nodes, batch.boxes, batch.mask)
         terms = self._pair_terms(batch.boxes, answers, edges)
         pairs, motions = self.pair_heads(slots, terms), self.motion_heads(slots, terms)
-        facts = self._facts(slots, nodes, batch.mask, terms)
-        return Predictions(**answers._asdict(), **pairs._asdict(), **motions._asdict(), **facts._asdict(), mask=mask)
-
-    def _facts(
-        self,
-        slots: Float[Tensor, "b s h"],
-        nodes: Float[Tensor, "b n h"],
-        mask: Bool[Tensor, "b n"],
-        terms: Float[Tensor, "b s s t"],
-    ) -> FactAnswers:
+        facts = no_facts(slots, terms)
         if self.fact_heads is not None:
-            return self.fact_heads(slots, nodes, mask, terms)
-        return FactAnswers(
-            torch.zeros_like(terms[..., 0]),
-            torch.zeros_like(slots[..., 0]),
-            slots.new_zeros(len(slots), len(PieceKind)),
-        )
+            facts = self.fact_heads(slots, masked_mean(nodes, batch.mask), terms)
+        return Predictions(**answers._asdict(), **pairs._asdict(), **motions._asdict(), **facts._asdict(), mask=mask)
 
     def _pair_terms(
         self, given: Float[Tensor, "b n 6"], answers: SlotAnswers, edges: Float[Tensor, "b n n e"]

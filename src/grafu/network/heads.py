@@ -166,16 +166,18 @@ class FactHeads(nn.Module):
         self.piece = perceptron(hidden, HEAD, len(PieceKind))
 
     def forward(
-        self,
-        slots: Float[Tensor, "b s h"],
-        nodes: Float[Tensor, "b n h"],
-        mask: Bool[Tensor, "b n"],
-        terms: Float[Tensor, "b s s t"],
+        self, slots: Float[Tensor, "b s h"], pooled: Float[Tensor, "b h"], terms: Float[Tensor, "b s s t"]
     ) -> FactAnswers:
-        """Returns the answers; `nodes` are the encoded nodes of the input, `mask` which of them are no padding."""
+        """Returns the answers; `pooled` is the mean of the encoded nodes of the input."""
         body = self.body(slots, terms)[..., 0]
-        pooled = (nodes * mask[:, :, None]).sum(dim=1) / mask.sum(dim=1, keepdim=True).clamp(min=1)
         return FactAnswers((body + body.transpose(1, 2)) / 2, self.ajar(slots)[..., 0], self.piece(pooled))
+
+
+def no_facts(slots: Float[Tensor, "b s h"], terms: Float[Tensor, "b s s t"]) -> FactAnswers:
+    """Returns the answers of a network that is not asked about facts: all 0."""
+    return FactAnswers(
+        torch.zeros_like(terms[..., 0]), torch.zeros_like(slots[..., 0]), slots.new_zeros(len(slots), len(PieceKind))
+    )
 
 
 class MotionAnswers(NamedTuple):

@@ -42,6 +42,11 @@ class PairLinear(nn.Module):
         return self.of_terms(terms) + self.of_first(nodes)[:, :, None] + self.of_second(nodes)[:, None, :]
 
 
+def masked_mean(nodes: Float[Tensor, "b n h"], mask: Bool[Tensor, "b n"]) -> Float[Tensor, "b h"]:
+    """Returns the mean of the nodes in the mask; 0 where there is none."""
+    return (nodes * mask[:, :, None]).sum(dim=1) / mask.sum(dim=1, keepdim=True).clamp(min=1)
+
+
 _UNSEEN = -1e4  # the score of padding: exp of it is 0 in every precision, and it is no infinity
 
 

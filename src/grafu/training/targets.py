@@ -17,10 +17,8 @@ from torch import Tensor
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import NONE, NULL, UNKNOWN, KindSet, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.piece_facts import NOT_KNOWN, STATIC, PieceFacts
-from grafu.vocabulary import PieceKind
+from grafu.graph.piece_facts import NOT_KNOWN, PieceFacts, fact_codes
 
-PIECES = tuple(PieceKind)
 SLOT_STEP = 4  # graphs of a batch have so many nodes, or a multiple
 ROW_STEP = 64  # and their points as many rows
 
@@ -47,9 +45,8 @@ class GraphTargets(ArrayValue):
     """The answers for one graph of t nodes, given n of them.
 
     The fields up to `slide` are those of `grafu.graph.arrays.GraphArrays`, with `boxes` in the normalised frame of the
-    input. `thin` is the thin axis of each box. `anchors` names, for each input node, the node that it is. `bodies`
-    numbers the rigid bodies, 0 being what stands; `ajar` is 1 for what is drawn open; `piece` is the place of the kind
-    of the whole in `PieceKind`; each `NONE` where it is not known.
+    input. `thin` is the thin axis of each box. `anchors` names, for each input node, the node that it is. `bodies`,
+    `ajar` and `piece` are those of `grafu.graph.piece_facts.FactCodes`.
     """
 
     labels: Int64[np.ndarray, " t"]
@@ -111,6 +108,7 @@ def graph_targets(
     arrays = graph_arrays(target, kinds)
     place = {node.id: k for k, node in enumerate(target.nodes)}
     boxes = np.hstack([(arrays.boxes[:, :3] - origin) / scale, arrays.boxes[:, 3:] / scale])
+    codes = fact_codes(facts, list(place))
     return GraphTargets(
         labels=arrays.labels,
         boxes=boxes.astype(np.float32),
@@ -121,21 +119,10 @@ def graph_targets(
         slide=arrays.slide,
         thin=np.array([node.box.thin_axis for node in target.nodes], dtype=np.int64),
         anchors=np.array([place[name] for name in given], dtype=np.int64),
-        **_fact_arrays(target, facts),
+        bodies=codes.bodies,
+        ajar=codes.ajar,
+        piece=np.array(codes.kind, dtype=np.int64),
     )
-
-
-def _fact_arrays(target: FunctionalGraph, facts: PieceFacts) -> dict[str, np.ndarray]:
-    names = [node.id for node in target.nodes]
-    number = {body: k for k, body in enumerate(dict.fromkeys((STATIC, *facts.bodies.values())))}
-    bodies = [number[facts.bodies[name]] if name in facts.bodies else NONE for name in names]
-    ajar = [NONE if facts.ajar is None else int(name in facts.ajar) for name in names]
-    piece = NONE if facts.kind is None else PIECES.index(facts.kind)
-    return {
-        "bodies": np.array(bodies, dtype=np.int64),
-        "ajar": np.array(ajar, dtype=np.int64),
-        "piece": np.array(piece, dtype=np.int64),
-    }
 
 
 def mirrored_targets(targets: GraphTargets, across: int) -> GraphTargets:

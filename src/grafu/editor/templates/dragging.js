@@ -7,7 +7,7 @@ class LiveView extends ModelView {
   constructor(stage, { chosen, moved, movable }) {
     super(stage);
     Object.assign(this, { told: chosen, moved, movable });
-    this.loop = new LoopTool(this, this.canvas);
+    this.lasso = new LassoTool(this, this.canvas);
   }
 
   choose(place) {
@@ -23,7 +23,7 @@ class LiveView extends ModelView {
   }
 
   chooseItem(index, seen = false) {
-    if (this.loop.active) this.loop.leave();
+    if (this.lasso.active) this.lasso.leave();
     this.view.clashing.clear();
     super.chooseItem(index, seen);
     this.told(this.subject(index));
@@ -64,7 +64,7 @@ class LiveView extends ModelView {
   }
 
   grab(place) {
-    if (this.loop.active) return this.loop.grab(place);
+    if (this.lasso.active) return this.lasso.grab(place);
     const index = this.renderer.pick(this.camera, this.joints.poses(), this.view, place.x, place.y);
     if (index < 0 || this.view.chosen < 0 || this.subject(index) !== this.subject(this.view.chosen)) return null;
     const item = this.scene.items[index], joint = this.jointOf(index);

@@ -76,13 +76,13 @@ class Editor {
     if (before && part) this.choose("join", before, part).then(() => this.pick(before));
   }
 
-  // Cuts what the next loop encloses out of the part; what lies behind it, too, where that is wanted.
+  // Cuts what the next lasso encloses out of the part; what lies behind it, too, where that is wanted.
   cut() {
     const { part } = this.inspector;
     if (!part) return;
-    document.getElementById("chosen").textContent = `Draw a line around what is to be cut out of ${part}. Esc leaves.`;
-    this.view.loop.begin((loop) => {
-      this.choose("cut", part, { ...loop, through: document.getElementById("through").checked });
+    document.getElementById("chosen").textContent = `Draw a lasso around what is to be cut out of ${part}. Esc leaves.`;
+    this.view.lasso.begin((lasso) => {
+      this.choose("cut", part, { ...lasso, through: document.getElementById("through").checked });
     });
   }
 

@@ -1,16 +1,16 @@
-// A loop that is drawn over the view around what is to be a part of its own: the next drag draws it.
+// A lasso that is drawn over the view around what is to be a part of its own: the next drag draws it.
 
 const LEAST = 0.004; // of the picture: two corners are farther apart
 const FEWEST = 3; // corners
 const MOST = 200; // corners that are stated: of more, every other one, and so on
 
-class LoopTool {
+class LassoTool {
   constructor(view, canvas) {
     this.view = view;
     this.canvas = canvas;
     this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     this.shape = document.createElementNS("http://www.w3.org/2000/svg", "polygon");
-    this.svg.setAttribute("class", "overlay loop");
+    this.svg.setAttribute("class", "overlay lasso");
     this.svg.setAttribute("aria-hidden", "true");
     this.svg.append(this.shape);
     canvas.after(this.svg);
@@ -21,7 +21,7 @@ class LoopTool {
     return Boolean(this.done);
   }
 
-  // Waits for a loop; `done` gets it: the eye and the corners, metres, in the frame of the model.
+  // Waits for a lasso; `done` gets it: the eye and the corners, metres, in the frame of the model.
   begin(done) {
     this.view.closeAll();
     this.done = done;
@@ -35,7 +35,7 @@ class LoopTool {
     this.shape.setAttribute("points", "");
   }
 
-  // Returns what draws the loop while the pointer moves.
+  // Returns what draws the lasso while the pointer moves.
   grab(start) {
     const places = [start];
     this.canvas.addEventListener("pointerup", () => this.close(places), { once: true });

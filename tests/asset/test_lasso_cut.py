@@ -1,4 +1,4 @@
-"""What lies inside a loop: faces cut along it, nothing lost, attributes kept; a welded door that is cut out turns."""
+"""What lies inside a lasso: faces cut along it, nothing lost, attributes kept; a welded door that is cut out turns."""
 
 from dataclasses import replace
 
@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grafu import functionalize
-from grafu.asset.loop_cut import Loop, inside_loop
+from grafu.asset.lasso_cut import Lasso, inside_lasso
 from grafu.asset.part import Asset, Part, PartSource
 from grafu.asset.regrouping import Regroup, Regrouping, regrouped
 from grafu.errors import OptionError
@@ -26,11 +26,11 @@ from grafu.vocabulary import PartLabel
 EYE = (0.2, -3.0, 0.6)
 
 
-def around(box: Box, eye=EYE, margin: float = 0.0, through: bool = False) -> Loop:
-    """The loop around the front of a box."""
+def around(box: Box, eye=EYE, margin: float = 0.0, through: bool = False) -> Lasso:
+    """The lasso around the front of a box."""
     (x0, y, z0), (x1, _, z1) = box.low.tolist(), box.high.tolist()
     x0, x1, z0, z1 = x0 - margin, x1 + margin, z0 - margin, z1 + margin
-    return Loop(eye, ((x0, y, z0), (x1, y, z0), (x1, y, z1), (x0, y, z1)), through)
+    return Lasso(eye, ((x0, y, z0), (x1, y, z0), (x1, y, z1), (x0, y, z1)), through)
 
 
 def area(surfaces) -> float:
@@ -51,17 +51,17 @@ CORNERS = st.floats(-0.45, 0.45)
 def test_nothing_is_lost_and_what_is_inside_lies_within_the_loop(places, through) -> None:
     corners = tuple((x, -0.5, 0.5 + z) for x, z in places)
     try:
-        loop = Loop((0.0, -3.0, 0.5), corners, through)
+        lasso = Lasso((0.0, -3.0, 0.5), corners, through)
     except ValueError:
         return  # it crosses itself
     plate = slab()
-    inside, left = inside_loop((plate,), loop, 1.0)
+    inside, left = inside_lasso((plate,), lasso, 1.0)
     assert area(inside) + area(left) == pytest.approx(area([plate]), rel=1e-9)
     for surface in inside:
         assert surface.uv is not None
         assert np.allclose(surface.uv, surface.mesh.vertices[:, [0, 2]], atol=1e-9)  # cut, too, where a face is cut
         low, high = np.min(places, axis=0), np.max(places, axis=0)
-        spread = 3.1 / 2.5  # the back of the slab is farther off than the loop
+        spread = 3.1 / 2.5  # the back of the slab is farther off than the lasso
         assert (surface.mesh.vertices[:, [0, 2]] - [0.0, 0.5] >= spread * low.clip(max=0) - 1e-6).all()
         assert (surface.mesh.vertices[:, [0, 2]] - [0.0, 0.5] <= spread * high.clip(min=0) + 1e-6).all()
 
@@ -69,10 +69,10 @@ def test_nothing_is_lost_and_what_is_inside_lies_within_the_loop(places, through
 def test_what_lies_far_behind_stays_unless_it_is_wanted() -> None:
     front, back = slab(depth=0.02), slab(depth=0.02)
     far = replace(back, mesh=TriangleMesh(back.mesh.vertices + vec3(0.0, 0.5, 0.0), back.mesh.faces))
-    loop = Loop((0.0, -5.0, 0.5), ((-0.2, 0.0, 0.3), (0.2, 0.0, 0.3), (0.2, 0.0, 0.7), (-0.2, 0.0, 0.7)))
-    near = [s.mesh.box.high[1] for s in inside_loop((front, far), loop, 1.0)[0]]
+    lasso = Lasso((0.0, -5.0, 0.5), ((-0.2, 0.0, 0.3), (0.2, 0.0, 0.3), (0.2, 0.0, 0.7), (-0.2, 0.0, 0.7)))
+    near = [s.mesh.box.high[1] for s in inside_lasso((front, far), lasso, 1.0)[0]]
     assert max(near) == pytest.approx(0.02)
-    both = [s.mesh.box.high[1] for s in inside_loop((front, far), replace(loop, through=True), 1.0)[0]]
+    both = [s.mesh.box.high[1] for s in inside_lasso((front, far), replace(lasso, through=True), 1.0)[0]]
     assert max(both) == pytest.approx(0.52)
 
 
@@ -88,7 +88,7 @@ def test_what_lies_far_behind_stays_unless_it_is_wanted() -> None:
 )
 def test_a_loop_that_encloses_nothing_is_refused(eye, corners, said) -> None:
     with pytest.raises(ValueError, match=said):
-        Loop(eye, corners)
+        Lasso(eye, corners)
 
 
 def welded() -> tuple[Asset, Box]:
@@ -130,12 +130,12 @@ def test_all_or_nothing_inside_is_refused_in_words() -> None:
 
 
 def test_a_cut_has_one_part_and_a_loop_and_nothing_else_has_one() -> None:
-    loop = around(welded()[1])
+    lasso = around(welded()[1])
     for do, parts, given_loop in (
-        (Regroup.CUT, ("body", "foot"), loop),
+        (Regroup.CUT, ("body", "foot"), lasso),
         (Regroup.CUT, ("body",), None),
-        (Regroup.SPLIT, ("body",), loop),
-        (Regroup.JOIN, ("body", "foot"), loop),
+        (Regroup.SPLIT, ("body",), lasso),
+        (Regroup.JOIN, ("body", "foot"), lasso),
     ):
-        with pytest.raises(ValueError, match=r"one part is cut at a time|cut by a loop"):
+        with pytest.raises(ValueError, match=r"one part is cut at a time|cut by a lasso"):
             Regrouping(do, parts, given_loop)
