@@ -11,6 +11,7 @@ import argparse
 import json
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import onnx
@@ -93,7 +94,7 @@ def matrices(content: bytes) -> dict[str, Matrix]:
 
 
 def farthest(first: bytes, second: bytes, features: FeatureConfig) -> float:
-    """Returns how far the answers of two files are from each other at most."""
+    """Returns how far the answers that both files give are from each other at most."""
     rng = np.random.default_rng(0)
     anchors, neighbours = features.anchors, features.neighbours
     given = {
@@ -106,8 +107,15 @@ def farthest(first: bytes, second: bytes, features: FeatureConfig) -> float:
         "names": rng.integers(0, NAME_BUCKETS + 1, (PARTS, NAME_CODES)),
     }
     sessions = [onnx_runtime().InferenceSession(one) for one in (first, second)]
-    answers = [s.run(None, {item.name: given[item.name] for item in s.get_inputs()}) for s in sessions]
-    return max(float(np.abs(a - b).max()) for a, b in zip(*answers, strict=True))
+    ours, theirs = (answers_of(session, given) for session in sessions)
+    return max(float(np.abs(ours[name] - theirs[name]).max()) for name in ours.keys() & theirs.keys())
+
+
+def answers_of(session: Any, given: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Returns what a network in a session of ONNX Runtime answers to what it takes, by the names of the outputs."""
+    names = [output.name for output in session.get_outputs()]
+    answers = session.run(names, {item.name: given[item.name] for item in session.get_inputs()})
+    return dict(zip(names, answers, strict=True))
 
 
 if __name__ == "__main__":
