@@ -11,7 +11,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.solids import ConvexSolid, clip, subtract
+from grafu.geometry.solids import ConvexSolid, clip, in_any, subtract
 
 OAK = Material("oak")
 UNIT = Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0))
@@ -186,3 +186,27 @@ def test_a_sheet_is_not_shredded_by_many_overlapping_solids():
     points = random.uniform(0.1, 0.9, (400, 1, 3)) * [1.0, 1.0, 0.0] + random.normal(0.0, 0.08, (400, 12, 3))
     solids = [found for cloud in points if (found := ConvexSolid.around(cloud)) is not None]
     assert len(subtract(sheet(), solids).mesh.faces) < 1000
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(0, 12))
+@settings(max_examples=20)
+def test_points_lie_in_any_of_some_solids_or_in_none(seed, count):
+    rng = np.random.default_rng(seed)
+    points = rng.random((200, 3))
+    hulls = [ConvexSolid.around(rng.random(3) * 0.8 + 0.4 * rng.random((8, 3))) for _ in range(count)]
+    solids = [hull for hull in hulls if hull is not None]
+
+    expected = [any(bool(one.contains(point[None])[0]) for one in solids) for point in points]
+    np.testing.assert_array_equal(in_any(solids, points), expected)
+
+
+def test_a_hull_that_is_remembered_is_that_of_the_same_points_alone():
+    corners = UNIT.corners()
+    first, again = ConvexSolid.around(corners), ConvexSolid.around(corners.copy())
+    moved = ConvexSolid.around(corners + 1e-12)
+    assert first is again
+    assert moved is not first
+    assert moved is not None
+    np.testing.assert_array_equal(moved.box.low, UNIT.low + 1e-12)
+    assert ConvexSolid.around(corners[:3]) is None
+    assert ConvexSolid.around(np.asfortranarray(corners)) is first  # whatever the order in memory

@@ -1,5 +1,6 @@
 """Clearance: as little as needed, within its limits, recorded; and none at all where it is turned off."""
 
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
+from grafu.joints.clearance import make
 from grafu.joints.clearance.carve import Carving, Path, carve
 from grafu.joints.config import RealizationConfig
 from grafu.joints.make_plan import plan_from_annotation
@@ -289,3 +291,22 @@ def test_triangles_cut_less_than_the_hull_of_what_is_hollow():
     done = carving.recorded()
     assert (done.part, done.kind) == ("block", "carved")
     assert done.volume_share < 0.05
+
+
+def test_what_was_in_vain_is_not_tried_again_until_something_changed(monkeypatch):
+    """A block that encloses a door: nothing helps, and each of the ways to make room is tried once."""
+    tried = Counter[object]()
+
+    def counted(step):
+        def run(scene, path, ids, config):
+            tried[step, scene, path] += 1
+            return step(scene, path, ids, config)
+
+        return run
+
+    steps = {step: counted(step) for step in make._STEPS}
+    monkeypatch.setattr(make, "_STEPS", tuple(steps[step] for step in make._STEPS))
+    block = box("block", (-0.02, -0.05, 0.0), (0.42, 0.05, 0.6))
+    realized(scene(DOOR, block, joints=(hinged(),)))
+    assert tried
+    assert max(tried.values()) == 1

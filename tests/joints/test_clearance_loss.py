@@ -103,3 +103,21 @@ def test_what_many_solids_take_together_is_counted_once(count):
     slices = [solid((x, 0.25, -1.0), (x + 0.5, 0.75, 1.0)) for x in starts]  # each covers most of the next
 
     assert lost_volume(bar, slices) == pytest.approx(0.5 * 0.5, abs=2e-3)
+
+
+@pytest.mark.parametrize("width", [0.01, 0.04, 0.06, 0.2, 0.5, 0.59, 0.61, 0.8])
+def test_a_first_look_tells_on_which_side_of_the_limits_the_loss_lies(width):
+    bar = box("bar", (0.0, 0.0, 0.0), (1.0, 1.0, 0.5))
+    starts = np.linspace(0.1, 0.1 + width / 2, 200)
+    slices = [solid((x, -1.0, -1.0), (x + width / 2, 2.0, 1.0)) for x in starts]
+
+    exact, told = lost_volume(bar, slices), lost_volume(bar, slices, (0.05, 0.6))
+    assert exact == pytest.approx(width, abs=2e-3)
+    assert told == pytest.approx(exact, abs=0.02)
+    assert (told < 0.05, told < 0.6) == (exact < 0.05, exact < 0.6)
+
+
+def test_near_a_limit_the_loss_is_counted_as_finely_as_without_one():
+    bar = box("bar", (0.0, 0.0, 0.0), (1.0, 1.0, 0.5))
+    slices = [solid((x, -1.0, -1.0), (x + 0.3, 2.0, 1.0)) for x in np.linspace(0.1, 0.4, 200)]
+    assert lost_volume(bar, slices, (0.59,)) == lost_volume(bar, slices) != lost_volume(bar, slices, (0.3,))

@@ -143,6 +143,7 @@ def exported(network: "GraFu", features: "FeatureConfig") -> bytes:
         logging.disable(before)
 
 
+ONEDNN_CACHE = "ONEDNN_PRIMITIVE_CACHE_CAPACITY"
 EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 _MOST_JOBS = 8  # that many make models faster than a GPU learns from them
 _TOLD = ("category", "hinge", "rail", "attached", "joint")
@@ -154,6 +155,7 @@ def run_training(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the run cannot be begun or gone on with.
     """
+    prepare_processor()
     from grafu.cli.terminal import with_progress
     from grafu.training.loop import RunOptions, train
     from grafu.training.source import source_to_train_on
@@ -179,6 +181,14 @@ def run_training(options: argparse.Namespace) -> int:
             complain(str(error))
             return EXIT_FAILED
         return _ended(last, config, options.out, workers)
+
+
+def prepare_processor() -> None:
+    """Sets what makes training on a processor faster, where the user has not set it; before torch is imported."""
+    from grafu.processes.allocator import keep_freed_memory
+
+    keep_freed_memory()
+    os.environ.setdefault(ONEDNN_CACHE, "16384")  # code of matrix products, of which each size has its own
 
 
 def export_weights(folder: Path, target: Path, data: str = "synth") -> int:

@@ -7,7 +7,7 @@ before. What several solids take of one triangle goes at once: one after another
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import final
 
 import manifold3d
@@ -21,6 +21,9 @@ from grafu.geometry.budget import require_time
 from grafu.geometry.face_cuts import NOTHING, left_over
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 
+_REMEMBERED = 8192  # hulls, of at most ...
+_REMEMBERED_POINTS = 64  # ... so many points: a swept triangle with play has 48
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -33,22 +36,12 @@ class ConvexSolid(ArrayValue):
 
     @classmethod
     def around(cls, points: Points) -> "ConvexSolid | None":
-        """Returns the convex hull of the points; None where they are flat beyond repair."""
-        from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
+        """Returns the convex hull of the points; None where they are flat beyond repair.
 
-        try:
-            hull = ConvexHull(points)
-        except (QhullError, ValueError):
-            return None
-        planes = _merged_planes(hull.equations)
-        index = np.full(len(points), -1)
-        index[hull.vertices] = np.arange(len(hull.vertices))
-        corners = points[hull.simplices]
-        turned = np.einsum("ij,ij->i", _cross(corners), hull.equations[:, :3]) < 0
-        faces = index[hull.simplices]
-        faces[turned] = faces[turned][:, ::-1]
-        flipped = np.column_stack([planes[:, :3], -planes[:, 3]])
-        return cls(frozen_array(points[hull.vertices]), frozen_array(faces, np.int64), frozen_array(flipped))
+        Small hulls are remembered: one path is cut out of one part after another.
+        """
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        return _known_hull(points.tobytes()) if len(points) <= _REMEMBERED_POINTS else _hull(points)
 
     @cached_property
     def box(self) -> Box:
@@ -63,6 +56,39 @@ class ConvexSolid(ArrayValue):
     def mesh(self) -> TriangleMesh:
         """The watertight surface of the solid."""
         return TriangleMesh(self.vertices, self.faces)
+
+
+def _hull(points: Points) -> ConvexSolid | None:
+    from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
+
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):
+        return None
+    planes = _merged_planes(hull.equations)
+    index = np.full(len(points), -1)
+    index[hull.vertices] = np.arange(len(hull.vertices))
+    corners = points[hull.simplices]
+    turned = np.einsum("ij,ij->i", _cross(corners), hull.equations[:, :3]) < 0
+    faces = index[hull.simplices]
+    faces[turned] = faces[turned][:, ::-1]
+    flipped = np.column_stack([planes[:, :3], -planes[:, 3]])
+    return ConvexSolid(frozen_array(points[hull.vertices]), frozen_array(faces, np.int64), frozen_array(flipped))
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _known_hull(points: bytes) -> ConvexSolid | None:
+    return _hull(np.frombuffer(points).reshape(-1, 3))
+
+
+def in_any(solids: Sequence[ConvexSolid], points: Points) -> Bool[np.ndarray, " n"]:
+    """Returns whether points lie in one of the solids or on its surface."""
+    inside = np.zeros(len(points), dtype=bool)
+    for solid in solids:
+        left = np.flatnonzero(~inside)
+        left = left[solid.box.contains(points[left])]
+        inside[left] = solid.contains(points[left])
+    return inside
 
 
 def subtract(surface: Surface, solids: Sequence[ConvexSolid], clipped: Surface | None = None) -> Surface:

@@ -4,7 +4,7 @@ A block starts at a rectangle (a snap plane) and is extruded until it meets a su
 how much of a leaf lies on one.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import final
 
@@ -31,6 +31,8 @@ WOOD = Material("support block", base_color=(0.42, 0.31, 0.2, 1.0), roughness=0.
 METAL = Material("support plate", base_color=(0.55, 0.56, 0.58, 1.0), metallic=1.0, roughness=0.35)
 
 _GRID = 5  # rays per side of the rectangle (the authors cast 5 x 5)
+_STEPS = np.linspace(-1.0, 1.0, _GRID)
+_ACROSS = np.array([(s, t) for t in _STEPS for s in _STEPS])
 _ON_LEAF = 10  # rays per side of a leaf
 
 
@@ -46,17 +48,26 @@ class Footing:
 
     def grid(self, face: float) -> Points:
         """Returns points spread over a fraction of the rectangle's sides."""
-        steps = np.linspace(-face, face, _GRID)
-        s, t = (a.ravel()[:, None] for a in np.meshgrid(steps, steps))
-        return self.center + s * self.u + t * self.v
+        s, t = face * _ACROSS[:, :1], face * _ACROSS[:, 1:]
+        return np.asarray(self.center + s * self.u + t * self.v)
 
     def gap(self, target: RayCaster, reach: float, config: BlockConfig) -> float:
         """Returns the distance after which a fair fraction of the rectangle rests on the target; infinity if none."""
-        distances = np.sort(target.along(self.grid(config.face), self.direction))
-        distances = distances[distances <= reach]
-        if len(distances) < config.rays:
-            return float("inf")
-        return float(distances[int(config.rest * len(distances))])
+        return gaps([self], target, reach, config)[0]
+
+
+def gaps(footings: Sequence[Footing], target: RayCaster, reach: float, config: BlockConfig) -> list[float]:
+    """Returns the gap of each of several rectangles, see `Footing.gap`."""
+    if not footings:
+        return []
+    points = np.concatenate([footing.grid(config.face) for footing in footings])
+    directions = np.repeat([footing.direction for footing in footings], len(_ACROSS), axis=0)
+    distances = np.sort(target.distances(points, directions).reshape(len(footings), -1), axis=1)
+    reached = (distances <= reach).sum(axis=1)
+    return [
+        float(row[int(config.rest * count)]) if count >= config.rays else float("inf")
+        for row, count in zip(distances, reached.tolist(), strict=True)
+    ]
 
 
 def block(name: str, footing: Footing, length: float, config: BlockConfig, material: Material = WOOD) -> Visual:
@@ -76,7 +87,8 @@ def shortest_bridge(
     footings: Iterable[Footing], target: RayCaster, reach: float, config: BlockConfig
 ) -> tuple[Footing, float] | None:
     """Returns the footing that meets the target over the shortest gap, and that gap; None where none does."""
-    found = [(footing, footing.gap(target, reach, config)) for footing in footings]
+    tried = list(footings)
+    found = zip(tried, gaps(tried, target, reach, config), strict=True)
     reached = [(footing, gap) for footing, gap in found if np.isfinite(gap)]
     return min(reached, key=lambda pair: pair[1], default=None)
 

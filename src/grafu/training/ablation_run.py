@@ -22,6 +22,7 @@ from typing import final
 from grafu.asset.json_files import finite, read_own_json
 from grafu.errors import AssetError, ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.whole_file import write_whole
+from grafu.processes.allocator import keep_freed_memory
 from grafu.processes.lifetime import end_with_parent, interrupts_later, started_by_main_thread
 from grafu.training.ablation import Experiment
 from grafu.training.checkpoint import has_progress, load_best, read_config
@@ -237,6 +238,7 @@ class _Worker:
 
 def _work(run: AblationRun, threads: int, connection: Connection, started_by_main_thread: bool) -> None:
     end_with_parent(started_by_main_thread)
+    keep_freed_memory()
     use_threads(threads)
     try:
         for event in do_run(run):

@@ -20,7 +20,7 @@ from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import outer_points
 from grafu.geometry.sampling import sample_surface
-from grafu.geometry.solids import ConvexSolid, clip, subtract
+from grafu.geometry.solids import ConvexSolid, clip, in_any, subtract
 from grafu.geometry.transform import transform_points
 from grafu.joints.clearance.loss import lost_volume, measured_loss
 from grafu.joints.config import RealizationConfig
@@ -111,7 +111,7 @@ def carve(
         near = [solid for solid in solids if solid.box.overlaps(part.box)]
         clipped = [clip(surface, near) for surface in part.surfaces]
         area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
-        lost = _lost_ratio(part, near, area, config.max_carve)
+        lost = _lost_ratio(part, near, area, config)
         may_lose = 0 < lost < config.max_carve
         if not may_lose and not (0 < lost < config.max_carve_hidden and _is_hidden(scene, part, near, config)):
             continue
@@ -121,12 +121,17 @@ def carve(
     return scene.replaced(carved), done
 
 
-def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, limit: float) -> float:
-    """Returns the fraction of the part's surface that is cut, or of its volume if smaller; `area` is what is cut."""
+def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, config: RealizationConfig) -> float:
+    """Returns the fraction of the part's surface that is cut, or of its volume if smaller; `area` is what is cut.
+
+    It is exact enough to tell on which side of the limits it lies.
+    """
     if part.mesh.area == 0 or not solids:
         return 0.0
     by_area = area / part.mesh.area
-    return by_area if by_area < limit else min(by_area, lost_volume(part, solids))
+    if by_area < config.max_carve:
+        return by_area
+    return min(by_area, lost_volume(part, solids, (config.max_carve, config.max_carve_hidden)))
 
 
 def _is_hidden(scene: Scene, part: Part, solids: Sequence[ConvexSolid], config: RealizationConfig) -> bool:
@@ -134,7 +139,7 @@ def _is_hidden(scene: Scene, part: Part, solids: Sequence[ConvexSolid], config: 
     if sense_of(part.source.name).is_fitting:
         return True
     points = sample_surface(part.mesh, _SAMPLES).points
-    inside = points[np.any([solid.contains(points) for solid in solids], axis=0)]
+    inside = points[in_any(solids, points)]
     whole = merge_meshes(tuple(other.mesh for other in scene.parts.values()))
     return bool(np.count_nonzero(outer_points(inside, whole)) <= config.max_carve_seen * _SAMPLES)
 

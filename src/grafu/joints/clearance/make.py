@@ -38,10 +38,14 @@ class Cleared:
 def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Cleared:
     """Returns the scene in which the path is free, or as free as the limits allow."""
     done: list[Change] = []
+    vain: set[ClearanceStep] = set()  # what does not help this scene does not help it later either
     left = obstruction(scene, path, config)
     for step in _STEPS if config.trim else (adopt, separate):
         if not left.blockers:
             break
+        if step in vain:
+            continue
+        vain.add(step)
         tried, clearances = step(scene, path, left.blockers, config)
         if not clearances:
             continue
@@ -49,6 +53,7 @@ def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Clear
         if _is_better(remaining, left):
             scene, left = tried, remaining
             done += clearances
+            vain.clear()
     recorded = (one.recorded() if isinstance(one, Carving) else one for one in done)
     return Cleared(scene, tuple(recorded), left.blockers)
 

@@ -10,6 +10,7 @@ It builds; whether the hardware is in anything's way is judged by `place`.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from math import ceil, pi
 from typing import final
 
@@ -25,7 +26,7 @@ from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.survey import BorderSurvey
 from grafu.joints.hinge_config import HingeConfig, PinConfig
 from grafu.scene.border import BorderFrame
-from grafu.templates.template import HingeModel, HingeSize, HingeTemplate
+from grafu.templates.template import HingeModel, HingeSize, HingeTemplate, TemplateEnd
 from grafu.vocabulary import MechanismClass, PartLabel
 
 PIVOTS, MAKESHIFT = 4, 5  # preferences: of pivots after C, F, P and inset leaves, of makeshift mounts after all
@@ -211,12 +212,26 @@ def concealed_pins(frame: BorderFrame, config: ConcealedConfig) -> list[PinCandi
 @final
 @dataclass(frozen=True)
 class FittedHinge:
-    """One hinge in the object frame: the template as built, its pose, and the two ends as visuals."""
+    """One hinge in the object frame: the template as built and its pose; its two ends are mapped when asked for."""
 
     template: HingeTemplate
     T_object_template: Mat4
-    static: Visual
-    dynamic: Visual
+
+    @cached_property
+    def static(self) -> Visual:
+        """The static end."""
+        return self._visual("hinge_static", self.template.static)
+
+    @cached_property
+    def dynamic(self) -> Visual:
+        """The moving end."""
+        return self._visual("hinge_dynamic", self.template.dynamic)
+
+    def _visual(self, name: str, end: TemplateEnd) -> Visual:
+        T = self.T_object_template
+        visual = Visual(name, tuple(s.transformed(T) for s in end.surfaces), VisualRole.HARDWARE, PartLabel.MISC)
+        share_shape(visual.mesh, end.mesh, T)
+        return visual
 
 
 def barrel_radius(frame: BorderFrame, config: HingeConfig) -> float:
@@ -271,8 +286,4 @@ def fit_hinge(model: HingeModel, size: HingeSize, frame: BorderFrame, pin: PinCa
     """Returns one hinge of `model` at height z of a pin; names are given by `named`."""
     template = model.build(size)
     T = frame.T_object_border @ from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), pin.roll), vec3(pin.x, pin.y, z))
-    static = Visual("hinge_static", template.static.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
-    dynamic = Visual("hinge_dynamic", template.dynamic.transformed(T).surfaces, VisualRole.HARDWARE, PartLabel.MISC)
-    share_shape(static.mesh, template.static.mesh, T)
-    share_shape(dynamic.mesh, template.dynamic.mesh, T)
-    return FittedHinge(template, T, static, dynamic)
+    return FittedHinge(template, T)
