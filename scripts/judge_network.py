@@ -5,7 +5,8 @@
 Each model is asked about as it was found, with its labels hidden, and lacking parts (`grafu.data.corruption.corrupt`).
 Prints a table in Markdown, the paper's column beside ours, with the half widths of 95 % intervals from resampled
 models; then, of the doors as they were found, how many turn as they should, by what their handles say of the hinge's
-side. With --rule the rule-based baseline is judged instead.
+side; then, how often it states what the whole piece is, what is drawn ajar and what moves as one with a door or drawer,
+and how often that is right. With --rule the rule-based baseline is judged instead, which states none of the last.
 """
 
 import argparse
@@ -29,6 +30,7 @@ from grafu.evaluation.dataset import TEST_SEED
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Hinge
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.piece_facts import STATIC
 from grafu.metrics.graph_accuracy import GraphAccuracy, graph_accuracy, total_accuracy
 from grafu.synth.generate import make_specimen
 
@@ -50,6 +52,9 @@ OFF_MIDDLE = 0.1  # of a door's width: a handle nearer its middle states nothing
 DOOR_KINDS = ("a handle off the middle", "a handle in the middle", "its handle missing", "no handle")
 Accuracies = Mapping[str, GraphAccuracy]
 Doors = Mapping[str, tuple[int, int]]
+FACTS = {"kind": "the kind of the piece", "ajar": "parts drawn ajar", "rides": "parts that move with a door or drawer"}
+ASKED = ("natural", "masked")
+Facts = Mapping[tuple[str, str], tuple[int, int, int]]
 
 
 def main() -> int:
@@ -65,24 +70,55 @@ def main() -> int:
     with ProcessPoolExecutor(options.jobs) as pool:
         found: list[Accuracies] = []
         doors: list[Doors] = []
+        facts: list[Facts] = []
         weights = None if options.rule else options.weights
         for one in pool.map(partial(judge, weights, options.seed), range(options.count), chunksize=4):
             found.append(one[0])
             doors.append(one[1])
+            facts.append(one[2])
             print(f"  {len(found)}/{options.count}, {time.perf_counter() - began:.0f} s", file=sys.stderr, end="\r")
     print(file=sys.stderr)
-    print(table(found), door_table(doors), sep="\n\n")
+    print(table(found), door_table(doors), *([] if options.rule else [fact_table(facts)]), sep="\n\n")
     return 0
 
 
-def judge(weights: Path | None, seed: int, number: int) -> tuple[Accuracies, Doors]:
-    """Returns the figures of one model by variant, and those of its doors; without weights, those of the rules."""
+def judge(weights: Path | None, seed: int, number: int) -> tuple[Accuracies, Doors, Facts]:
+    """Returns the figures of one model by variant, of its doors and facts; without weights, those of the rules."""
     complete = complete_by_rule if weights is None else partial(complete_by_weights, open_network(weights))
     natural = specimen_pair(make_specimen(seed, number, FeatureConfig().points))
     pairs = asked_pairs(natural, number)
     completed = {name: complete(pair.input) for name, pair in pairs.items()}
     accuracies = {name: graph_accuracy(completed[name], pair.target) for name, pair in pairs.items()}
-    return accuracies, judge_doors(completed["natural"].completed, natural)
+    facts = {(name, what): n for name in ASKED for what, n in judge_facts(completed[name], pairs[name]).items()}
+    return accuracies, judge_doors(completed["natural"].completed, natural), facts
+
+
+def judge_facts(found: GraphCompletion, pair: GraphPair) -> dict[str, tuple[int, int, int]]:
+    """Returns of each kind of fact how many that are stated are right, are stated, and are true."""
+    facts, attached = pair.facts, {edge.child for edge in pair.target.attachments}
+    stated = {
+        "kind": set() if found.piece is None else {str(found.piece.kind)},
+        "ajar": {decision.part for decision in found.decisions if decision.question == "ajar"},
+        "rides": set(found.rides),
+    }
+    bodies = facts.bodies.items()
+    true = {
+        "kind": set() if facts.kind is None else {str(facts.kind)},
+        "ajar": {name for name in facts.ajar or () if name in pair.input},
+        "rides": {(body, name) for name, body in bodies if body not in (STATIC, name) and name not in attached},
+    }
+    return {what: (len(stated[what] & true[what]), len(stated[what]), len(true[what])) for what in FACTS}
+
+
+def fact_table(facts: Sequence[Facts]) -> str:
+    """Returns of each kind of fact how many are found, and how many of those that are stated are right."""
+    head = ["of the whole piece", "there are", *(f"{what}, {name}" for name in ASKED for what in ("found", "right"))]
+    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    for what, words in FACTS.items():
+        counts = {name: np.sum([one[name, what] for one in facts], axis=0).tolist() for name in ASKED}
+        cells = [f"{right / n:.3f}" if n else "-" for right, *of in counts.values() for n in reversed(of)]
+        lines.append(f"| {words} | {counts[ASKED[0]][2]} | {' | '.join(cells)} |")
+    return "\n".join(lines)
 
 
 def judge_doors(found: FunctionalGraph, pair: GraphPair) -> Doors:
