@@ -126,8 +126,8 @@ def _require_room(out: Path) -> None:
 
 
 def _plan(options: argparse.Namespace) -> "EvaluationPlan":
-    from grafu.evaluation.dataset import find_models
     from grafu.evaluation.config_file import read_config
+    from grafu.evaluation.dataset import find_models
     from grafu.evaluation.llm.config import LlmConfig
     from grafu.evaluation.methods import MethodOptions, parse_method
     from grafu.evaluation.tasks import EvaluationPlan

@@ -93,7 +93,9 @@ class Method:
         }
         for (needed, given), spelled in needs.items():
             if needed != given:
-                raise OptionError(f"method `{self.name}` must be given as {spelled if needed else f'`{self.name}` alone'}")
+                raise OptionError(
+                    f"method `{self.name}` must be given as {spelled if needed else f'`{self.name}` alone'}"
+                )
 
     @property
     def spelled(self) -> str:

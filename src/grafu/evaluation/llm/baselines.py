@@ -1,21 +1,25 @@
 """The two baselines that ask a language model about a model of furniture, from its parts to what the pipeline makes."""
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from hashlib import sha256
 
 from grafu.asset.part import IDENTITY_FRAME, Asset
+from grafu.errors import FunctionalizationError, ReplyError
 from grafu.evaluation.llm.chat import Message
 from grafu.evaluation.llm.config import EXAMPLES_SEED, LanguageModel
 from grafu.evaluation.llm.conversation import Answer, converse
 from grafu.evaluation.llm.edit_prompt import EDIT_INSTRUCTIONS, edit_messages
-from grafu.evaluation.llm.edit_reply import read_edit_reply, without_motions
+from grafu.evaluation.llm.edit_reply import read_edit_reply
 from grafu.evaluation.llm.graph_prompt import GRAPH_INSTRUCTIONS, graph_messages
 from grafu.evaluation.llm.graph_reply import read_graph_reply
+from grafu.evaluation.llm.graph_text import numbered
 from grafu.evaluation.llm.recording import Ask, replies_of
 from grafu.evaluation.still_picture import picture_of
 from grafu.graph.parse import parse_graph
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.gallery import builtin_gallery
 
 GRAPH, EDITS = "llm", "llm-edit"
@@ -56,7 +60,8 @@ def prompt_hash(name: str, model: LanguageModel) -> str:
     return sha256(repr(said).encode()).hexdigest()[:16]
 
 
-Begun = tuple[tuple[Message, ...], Callable[[str], Functionalized]]
+Accept = Callable[[str], Functionalized]
+Begun = tuple[tuple[Message, ...], Accept]
 
 
 def _graph(model: LanguageModel, bare: Asset, seed: int | None) -> Begun:
@@ -64,17 +69,39 @@ def _graph(model: LanguageModel, bare: Asset, seed: int | None) -> Begun:
 
     def build(text: str) -> Functionalized:
         found = read_graph_reply(text, graph, model.name)
-        return functionalize(bare.with_labels(dict(found.labels)), found.motions, builtin_gallery())
+        return functionalize(bare.with_labels(found.labels), found.motions, builtin_gallery())
 
-    return graph_messages(graph, model.config, seed, _picture(model, bare)), build
+    return graph_messages(graph, model.config, seed, _picture(model, bare)), _with_numbers(build, numbered(graph))
 
 
 def _edits(model: LanguageModel, bare: Asset, _: int | None) -> Begun:
-    def build(text: str) -> Functionalized:
-        settings = read_edit_reply(text, bare)
-        return functionalize(bare, without_motions(bare, model.name), builtin_gallery(), PipelineConfig(settings))
+    graph = parse_graph(bare)
+    numbers = numbered(graph)
+    ids = {number: part for part, number in numbers.items()}
 
-    return edit_messages(parse_graph(bare), _picture(model, bare)), build
+    def build(text: str) -> Functionalized:
+        stated = read_edit_reply(text, ids)
+        parts = tuple(replace(part, carried_by=stated.attached.get(part.id)) for part in bare.parts)
+        edited = replace(bare, parts=parts)  # it states no joints: those of the settings are the only ones
+        return functionalize(edited, MotionSource.ANNOTATION, builtin_gallery(), PipelineConfig(stated.settings))
+
+    return edit_messages(graph, _picture(model, bare)), _with_numbers(build, numbers)
+
+
+def _with_numbers(build: Accept, numbers: Mapping[str, str]) -> Accept:
+    """Returns the same, with parts named in its errors as the language model knows them."""
+    ids = sorted(map(re.escape, numbers), key=len, reverse=True)
+    named = re.compile(rf"(?<!\w)({'|'.join(ids)})(?!\w)")
+
+    def accept(text: str) -> Functionalized:
+        try:
+            return build(text)
+        except ReplyError:  # it names them so already
+            raise
+        except FunctionalizationError as error:
+            raise ReplyError(named.sub(lambda found: numbers[found[0]], str(error))) from None
+
+    return accept
 
 
 def _picture(model: LanguageModel, asset: Asset) -> bytes:

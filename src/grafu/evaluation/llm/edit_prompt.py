@@ -24,11 +24,13 @@ how far, in metres.
 - {{"do": "fold", "part": id, "to": "left", "right" or "top"}}: the part is one of two leaves that fold to this side.
 - {{"do": "fix", "part": id}}: the part does not move.
 - {{"do": "label", "part": id, "label": label}}: what the part is, one of {_LABELS}.
-- {{"do": "add", "what": "top", "handles", "interior" or "drawer boxes"}}: a top where none is; handles where a door \
-or drawer cannot be pulled; shelves and dividers; boxes behind the fronts of drawers.
+- {{"do": "attach", "part": id, "to": id}}: the part moves as one with another part, such as a board of a drawer with \
+the drawer's front. Handles that touch a door or drawer move with it in any case.
+- {{"do": "add", "what": "top", "handles" or "interior"}}: a top where none is; handles where a door or drawer cannot \
+be pulled; shelves and dividers.
 
-Every door, flap, lid and drawer is to open as in reality, without cutting into other parts; handles that touch a \
-door or drawer move with it. A part has at most one of hinge, slide, fold and fix.
+Every door, flap, lid and drawer is to open as in reality, without cutting into other parts. A part has at most one of \
+hinge, slide, fold, fix and attach.
 
 Reply with one JSON object and nothing else: {{"edits": [edits in any order]}}
 """

@@ -50,12 +50,10 @@ class Endpoint:
         from openai import APIConnectionError, APIStatusError, APITimeoutError, OpenAIError
 
         started = perf_counter()
+        messages: Any = [_as_sent(message) for message in request.messages]
         try:
             answer: Any = self.client.chat.completions.create(
-                model=request.model,
-                messages=[_as_sent(message) for message in request.messages],  # type: ignore[arg-type]
-                timeout=timeout,
-                **request.options,
+                model=request.model, messages=messages, timeout=timeout, **request.options
             )
         except APITimeoutError:
             raise NoReply(f"no reply within {timeout:g} s", again=True) from None

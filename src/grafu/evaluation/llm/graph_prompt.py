@@ -22,18 +22,18 @@ work.
 
 Frame: metres, Z is up, the front of the piece looks along -Y, the left of a person who stands before it is -X.
 
-Parts: `id` is unique; `label` is one of {_LABELS}; `name` is the word of the model's author, where there is one; `low` \
-and `high` are opposite corners of the box. A label may be `unknown` or wrong.
+Parts: `id` is unique; `label` is one of {_LABELS}; `name` is the word of the model's author, where there is one; \
+`low` and `high` are opposite corners of the box. A label may be `unknown` or wrong.
 
 Edges, each with `kind`, `parent` and `child`:
 - `hinge`: the child, a door, flap or lid, turns on the parent. `border` is the face of the child's box that carries \
 the pin: one of -X, +X, -Y, +Y, -Z, +Z, but not one of its two broad faces. `axis` is the signed axis, along that \
 border, about which the child opens: counter-clockwise where the axis points to you.
-- `rail`: the child, a drawer, slides on the parent. `axis` is the signed axis along which it opens. A drawer that runs \
-between two panels has a rail to each.
+- `rail`: the child, a drawer, slides on the parent. `axis` is the signed axis along which it opens. A drawer that \
+runs between two panels has a rail to each.
 - `slide`: the same of a child that is no drawer, such as a sliding door.
 - `turn`: the child turns about `axis` through the middle of its box, such as a knob.
-- `attached`: the child is fixed to a parent that moves, such as a handle on its door.
+- `attached`: the child moves as one with the parent, such as a handle with its door, or a board with its drawer.
 
 The piece works if every door has a hinge or a slide and every drawer rails; the parent of each is a part that holds \
 it: a side, a frame, a divider, a top or a bottom, or a door or drawer that moves itself; every handle is attached to \
@@ -47,9 +47,9 @@ Reply with one JSON object and nothing else:
 """
 
 
-def graph_messages(graph: FunctionalGraph, config: LlmConfig, seed: int | None = None, picture: bytes = b"") -> tuple[
-    Message, ...
-]:
+def graph_messages(
+    graph: FunctionalGraph, config: LlmConfig, seed: int | None = None, picture: bytes = b""
+) -> tuple[Message, ...]:
     """Returns the conversation's beginning for a model's graph of contacts; `picture` is a PNG of it, or empty.
 
     `seed` is that of the model, where it is synthetic: the examples are of another one.

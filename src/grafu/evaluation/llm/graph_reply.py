@@ -4,7 +4,6 @@ It is strict: a reply that names an unknown part or breaks a rule of functional 
 count for its edges alone, as in other predicted graphs: parts are added by our own steps.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, final
 
@@ -13,11 +12,12 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
 from grafu.errors import GraphError, ReplyError, did_you_mean
-from grafu.evaluation.llm.reply_json import object_in_reply
+from grafu.evaluation.llm.graph_text import numbered
+from grafu.evaluation.llm.reply_json import first_fault, object_in_reply
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.graph.edges import Attached, Edge, Hinge, MotionEdge, Rail, SignedAxis, Slide, Turn
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, MotionEdge, Rail, SignedAxis, Slide, Turn, ends_of
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import AXIS_NAMES, border_to_signed_axis, code_to_direction, face_to_border
@@ -81,14 +81,14 @@ class MiddleTurn:
 @final
 @dataclass(frozen=True)
 class CompletedByReply:
-    """What a reply states of a graph's parts: all labels, and the motions, in the object frame."""
+    """What a reply states of a graph's parts: all labels by id, and the motions, in the object frame."""
 
-    labels: Mapping[str, PartLabel]
+    labels: dict[str, PartLabel]
     motions: ForeignMotions
 
 
 def read_graph_reply(text: str, graph: FunctionalGraph, model: str) -> CompletedByReply:
-    """Returns what the reply of a language model states about a graph of contacts.
+    """Returns what the reply of a language model states about a graph of contacts, whose parts it names by numbers.
 
     Raises:
         ReplyError: if it is no JSON of the form that was asked for, or names a part that is not there.
@@ -98,37 +98,46 @@ def read_graph_reply(text: str, graph: FunctionalGraph, model: str) -> Completed
     try:
         stated = _Completion.model_validate(object_in_reply(text, "edges"))
     except ValidationError as error:
-        raise ReplyError(_first_fault(error)) from None
-    nodes = _with_new_parts(graph, stated)
-    relabelled_graph = relabelled(nodes, dict(stated.labels))
-    edges = [_edge(one, relabelled_graph) for one in stated.edges]
+        raise ReplyError(first_fault(error)) from None
+    completed = _completed(graph, stated)
+    given = completed.nodes[: len(graph.nodes)]
+    names = {node.id for node in given}
     carried = {one.child: one.parent for one in stated.edges if one.kind == "attached"}
-    completed = with_edges(relabelled_graph, [edge for edge in edges if edge is not None])
     carried |= {edge.child: edge.parent for edge in completed.motions if edge.parent in completed.moving}
-    given = {node.id for node in graph.nodes}
+    carried = {child: parent for child, parent in carried.items() if parent in names}
     parts = tuple(
-        ForeignPart(
-            node.id, TriangleMesh.box_mesh(node.box), True, completed.node(node.id).label, carried.get(node.id), slot
-        )
-        for slot, node in enumerate(graph.nodes)
+        ForeignPart(node.id, TriangleMesh.box_mesh(node.box), True, node.label, carried.get(node.id), slot)
+        for slot, node in enumerate(given)
     )
-    known = tuple(replace(part, parent=part.parent if part.parent in given else None) for part in parts)
-    joints = {edge.child: _joint(edge, completed) for edge in completed.motions if edge.child in given}
-    labels = {part.name: part.label for part in known}
+    joints = {edge.child: _joint(edge, completed) for edge in completed.motions if edge.child in names}
+    labels = {node.id: new.label for node, new in zip(graph.nodes, given, strict=True)}
     return CompletedByReply(
-        labels, ForeignMotions("grafu-pred", f"the reply of {model}", known, tuple(joints.values()))
+        labels, ForeignMotions("grafu-pred", f"the reply of {model}", parts, tuple(joints.values()))
     )
+
+
+def _completed(graph: FunctionalGraph, stated: _Completion) -> FunctionalGraph:
+    """Returns the completed graph, parts by their numbers: those of the given graph first, then the new ones."""
+    whole = relabelled(_with_new_parts(graph, stated), stated.labels)
+    edges = (_edge(one, whole) for one in stated.edges)
+    return with_edges(whole, [edge for edge in edges if edge is not None])
 
 
 def _with_new_parts(graph: FunctionalGraph, stated: _Completion) -> FunctionalGraph:
-    """Returns the graph with the parts that a reply adds."""
-    new = []
+    """Returns the graph, its parts named by numbers, with the parts that a reply adds.
+
+    Raises:
+        ReplyError: if a new part has no box, or the reply names a part that is not there.
+    """
+    names = numbered(graph)
+    contacts = tuple(Contact(names[a], names[b]) for a, b in map(ends_of, graph.edges))
+    new = [replace(node, id=names[node.id]) for node in graph.nodes]
     for part in stated.new_parts:
         low, high = np.array(part.low), np.array(part.high)
         if np.any(high < low):
             raise ReplyError(f"a new part must have `high` at least `low`: got {part.low}, {part.high} of `{part.id}`")
         new.append(PartNode(part.id, part.label, Box(low, high)))
-    whole = replace(graph, nodes=(*graph.nodes, *new))
+    whole = FunctionalGraph(graph.model_id, tuple(new), contacts)
     named = [*stated.labels, *(end for edge in stated.edges for end in (edge.parent, edge.child))]
     unknown = next((name for name in named if name not in whole), None)
     if unknown is not None:
@@ -144,14 +153,16 @@ def _edge(stated: _HingeEdge | _AxisEdge | _AttachedEdge, graph: FunctionalGraph
         return Attached(stated.parent, stated.child) if child.label is PartLabel.HANDLE else None
     axis: Any = AXIS_NAMES.index(stated.axis)
     if isinstance(stated, _AxisEdge):
-        kinds = {"rail": Rail, "slide": Slide, "turn": Turn}
+        kinds: dict[str, type[Rail | Slide | Turn]] = {"rail": Rail, "slide": Slide, "turn": Turn}
         return kinds[stated.kind](stated.parent, stated.child, axis)
     thin, face = child.box.thin_axis, AXIS_NAMES.index(stated.border)
     border = face_to_border(thin, face)  # type: ignore[arg-type]  # an index of six names
     sign: Any = axis % 2
     if border_to_signed_axis(thin, border, sign) != axis:
         along = AXIS_NAMES[border_to_signed_axis(thin, border, 1)][1]
-        raise GraphError(f"the axis of a hinge of `{child.id}` at {stated.border} runs along {along}: got {stated.axis}")
+        raise GraphError(
+            f"the axis of a hinge of `{child.id}` at {stated.border} runs along {along}: got {stated.axis}"
+        )
     return Hinge(stated.parent, stated.child, border, sign)
 
 
@@ -165,9 +176,3 @@ def _joint(edge: MotionEdge, graph: FunctionalGraph) -> ForeignJoint:
         code = OfficialRail(edge.axis)
     axis = code.axis_on(graph.node(edge.child).box)
     return ForeignJoint(edge.child, edge.joint_type, axis, limited=False, code=code)
-
-
-def _first_fault(error: ValidationError) -> str:
-    first = error.errors()[0]
-    where = ".".join(str(step) for step in first["loc"])
-    return f"`{where}` of the reply is wrong: {first['msg']}"

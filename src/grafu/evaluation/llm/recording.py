@@ -86,9 +86,10 @@ def _record(file: Path, request: ChatRequest, reply: Reply) -> None:
     Raises:
         ExportError: if it cannot be written.
     """
-    said = []
-    for message in request.messages:
-        said.append({"role": message.role, "has_picture": bool(message.picture)} | _text_of(message, file.parent))
+    said = [
+        {"role": message.role, "has_picture": bool(message.picture)} | _text_of(message, file.parent)
+        for message in request.messages
+    ]
     record = {"schema": SCHEMA, "model": request.model, **request.options, "messages": said, "reply": asdict(reply)}
     try:
         write_whole(json.dumps(record, indent=1) + "\n", file)

@@ -3,6 +3,8 @@
 import json
 from typing import Any, Final
 
+from pydantic import ValidationError
+
 from grafu.asset.json_files import parse_json, spelled
 from grafu.errors import AssetError, ReplyError
 
@@ -31,6 +33,13 @@ def object_in_reply(text: str, key: str) -> dict[str, Any]:
             return _strict(text[start:end])
         start = text.find("{", end)
     raise ReplyError(f"a reply must hold one JSON object with `{key}`: got {_kind(text)}")
+
+
+def first_fault(error: ValidationError) -> str:
+    """Returns the first thing that is wrong with the values of a reply, in one line for who wrote it."""
+    first = error.errors()[0]
+    where = ".".join(str(step) for step in first["loc"])
+    return f"`{where}` of the reply is wrong: {first['msg']}"
 
 
 def _strict(text: str) -> dict[str, Any]:

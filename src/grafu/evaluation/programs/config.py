@@ -1,4 +1,4 @@
-"""How an installed copy of another system is run on one model: its command line, where, for how long, what it writes."""
+"""How an installed copy of another system is run on one model: its command line, its time, what it writes."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
