@@ -135,7 +135,9 @@ def test_a_record_holds_the_request_and_no_secret(tmp_path: Path) -> None:
     assert address not in held
 
 
-@pytest.mark.parametrize("damage", ["", "{", "[]", '{"schema": "grafu.reply/1", "reply": {"text": 1}}', '{"schema": 2}'])
+@pytest.mark.parametrize(
+    "damage", ["", "{", "[]", '{"schema": "grafu.reply/1", "reply": {"text": 1}}', '{"schema": 2}']
+)
 def test_a_damaged_record_is_asked_for_again(tmp_path: Path, damage: str) -> None:
     with chat_server("It does.") as chat:
         first = ask_at(chat, tmp_path)
@@ -147,7 +149,14 @@ def test_a_damaged_record_is_asked_for_again(tmp_path: Path, damage: str) -> Non
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"examples": -1}, {"timeout": 0.0}, {"attempts": 0}, {"max_tokens": 0}, {"price_in": -1.0}, {"pause": float("nan")}],
+    [
+        {"examples": -1},
+        {"timeout": 0.0},
+        {"attempts": 0},
+        {"max_tokens": 0},
+        {"price_in": -1.0},
+        {"pause": float("nan")},
+    ],
 )
 def test_a_config_out_of_range_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match=next(iter(wrong))):

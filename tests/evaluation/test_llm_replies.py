@@ -214,7 +214,10 @@ def test_the_other_edits() -> None:
         ([{"do": "hinge", "part": "p2", "edge": "diagonal"}], "edits.0.hinge.edge"),
         ([{"do": "hinge", "part": "p2", "edge": "left", "degrees": -5}], "edits.0.hinge.degrees"),
         ([{"do": "slide", "part": "p2", "direction": "front", "distance": 1e400}], "edits.0.slide.distance"),
-        ([{"do": "fix", "part": "p2"}, {"do": "hinge", "part": "p2", "edge": "left"}], "at most one edit of its motions"),
+        (
+            [{"do": "fix", "part": "p2"}, {"do": "hinge", "part": "p2", "edge": "left"}],
+            "at most one edit of its motions",
+        ),
         ([{"do": "label", "part": "p2", "label": w} for w in ("door", "bar")], "at most one edit of its labels"),
         ([{"do": "attach", "part": a, "to": b} for a, b in (("p1", "p2"), ("p2", "p1"))], "in a circle"),
         ([{"do": "attach", "part": "p1", "to": "p1"}], "in a circle"),

@@ -195,11 +195,13 @@ def _command(options: argparse.Namespace) -> str:
 
 
 def _say(tables: "Sequence[ResultTable]", results: "Results", out: Path) -> None:
+    from grafu.pipeline.words import counted
+
     motion = next((table for table in tables if table.name == "motion"), None)
     if motion is not None:
         _print_motion(motion)
     for method, reasons in results.not_run.items():
-        complain(f"{method}: not run on {len(reasons)} models: {'; '.join(sorted(set(reasons.values())))}")
+        complain(f"{method}: not run on {counted(len(reasons), 'model')}: {'; '.join(sorted(set(reasons.values())))}")
     for failure in results.failures:
         complain(f"{failure.model}: {failure.what}: {failure.error}")
     say(f"written to {out / 'tables' / 'index.md'}; to look at: {out / RUN_PAGE}")

@@ -21,6 +21,7 @@ from grafu.evaluation.results import Results
 from grafu.evaluation.table import FORMS, Cell, Column, ResultTable, markdown
 from grafu.evaluation.tasks import EvaluationPlan
 from grafu.evaluation.usage_table import usage_table
+from grafu.pipeline.words import counted
 from grafu.version import __version__
 
 TOP = 5
@@ -143,7 +144,8 @@ def _index(plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ..
         "```",
         "",
         f"Methods: {', '.join(f'`{method.spelled}`' for method in plan.methods)}."
-        + (" Predictions of others are read from files." if any(m.name in FOREIGN for m in plan.methods) else ""),
+        + (" Predictions of others are read from files." if any(m.name in FOREIGN for m in plan.methods) else "")
+        + (" Language models are asked once; their replies are kept." if any(m.model for m in plan.methods) else ""),
         "",
         _twins(results),
         "",
@@ -174,7 +176,7 @@ def _not_run(results: Results) -> list[str]:
     if not results.not_run:
         return []
     lines = [
-        f"- {method}: on {len(reasons)} models: {'; '.join(sorted(set(reasons.values())))}"
+        f"- {method}: on {counted(len(reasons), 'model')}: {'; '.join(sorted(set(reasons.values())))}"
         for method, reasons in results.not_run.items()
     ]
     return ["## Not run", "", *lines, ""]

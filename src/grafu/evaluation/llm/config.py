@@ -21,7 +21,7 @@ class LlmConfig:
         ValueError: if a number is out of range.
     """
 
-    __pydantic_config__: ClassVar = ConfigDict(extra="forbid", strict=True)
+    __pydantic_config__: ClassVar = ConfigDict(extra="forbid")
 
     examples: int = 20
     """Completed graphs of synthetic furniture that are given as context."""
