@@ -122,7 +122,7 @@ def test_a_reply_is_kept_and_given_again_without_any_endpoint(tmp_path: Path) ->
 
 
 def test_a_record_holds_the_request_and_no_secret(tmp_path: Path) -> None:
-    with chat_server(lambda _: f"The key is {KEY} at {chat.address}, says the manual.") as chat:
+    with chat_server(lambda _: f"The key is {KEY} at {chat.address}, as the manual has it.") as chat:
         reply = ask_at(chat, tmp_path)
         address = chat.address
     held = texts_below(tmp_path)

@@ -2,8 +2,10 @@
 
 import json
 import os
+import re
 import sys
 import time
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,7 @@ import pytest
 from grafu.asset.part import Asset
 from grafu.errors import NotRun, OptionError, UnreadableAsset
 from grafu.evaluation.config_file import read_config
+from grafu.evaluation.llm.config import LlmConfig
 from grafu.evaluation.methods import Method, MethodOptions, made_by, parse_method
 from grafu.evaluation.perform import method_facts
 from grafu.evaluation.programs.config import ProgramConfig
@@ -187,3 +190,16 @@ def test_what_determines_an_output_determines_its_folder(tmp_path: Path) -> None
     longer = stub(tmp_path, "", timeout=5).program
     assert longer
     assert program_hash(longer) == hashes[0]
+
+
+def test_the_files_in_the_page_are_configs(tmp_path: Path) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "evaluation.md").read_text()
+    llm, *runs = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "llm.toml").write_text(llm)
+    stated = read_config(tmp_path / "llm.toml", LlmConfig)
+    assert set(re.findall(r"^(\w+) =", llm, re.MULTILINE)) == {field.name for field in fields(LlmConfig)}
+    assert stated.price_in
+    for number, text in enumerate(runs):
+        (tmp_path / f"{number}.toml").write_text(text)
+        assert read_config(tmp_path / f"{number}.toml", ProgramConfig).command[0].startswith("/opt/")
+    assert len(runs) == 2

@@ -19,7 +19,10 @@ from grafu.evaluation.usage_table import price_of, usage_table
 MODELS = tuple(ModelRef(f"made_{k}", "made", seed=1, number=k) for k in range(3))
 
 
-def method(config: LlmConfig = LlmConfig(price_in=2.0, price_out=10.0)) -> Method:
+PRICED = LlmConfig(price_in=2.0, price_out=10.0)
+
+
+def method(config: LlmConfig = PRICED) -> Method:
     return Method("llm", model=LanguageModel("m", config, Path("replies")))
 
 

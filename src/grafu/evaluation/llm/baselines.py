@@ -9,7 +9,7 @@ from grafu.asset.part import IDENTITY_FRAME, Asset
 from grafu.errors import FunctionalizationError, ReplyError
 from grafu.evaluation.llm.chat import Message
 from grafu.evaluation.llm.config import EXAMPLES_SEED, LanguageModel
-from grafu.evaluation.llm.conversation import Answer, converse
+from grafu.evaluation.llm.conversation import ModelAnswer, converse
 from grafu.evaluation.llm.edit_prompt import EDIT_INSTRUCTIONS, edit_messages
 from grafu.evaluation.llm.edit_reply import read_edit_reply
 from grafu.evaluation.llm.graph_prompt import GRAPH_INSTRUCTIONS, graph_messages
@@ -27,7 +27,7 @@ GRAPH, EDITS = "llm", "llm-edit"
 
 def asked(
     name: str, model: LanguageModel, asset: Asset, seed: int | None = None, ask: Ask | None = None
-) -> Answer[Functionalized]:
+) -> ModelAnswer[Functionalized]:
     """Returns what the pipeline makes of a language model's reply about an asset, and what that used up.
 
     A reply that cannot be read, or of which nothing can be built, is shown to the model with the reason, as often as

@@ -14,7 +14,7 @@ _LONGEST: Final = 300  # characters of what was wrong
 
 @final
 @dataclass(frozen=True)
-class Answer(Generic[T]):
+class ModelAnswer(Generic[T]):
     """What was made of a model's reply, in `values` (one or none), or the `fault` of its last; and what it used up."""
 
     values: tuple[T, ...]
@@ -22,7 +22,7 @@ class Answer(Generic[T]):
     usage: Usage
 
 
-def converse(first: tuple[Message, ...], ask: Ask, accept: Callable[[str], T], corrections: int) -> Answer[T]:
+def converse(first: tuple[Message, ...], ask: Ask, accept: Callable[[str], T], corrections: int) -> ModelAnswer[T]:
     """Returns what `accept` makes of the reply to these messages.
 
     Where `accept` raises a FunctionalizationError, the model is shown its message and replies again, so many times.
@@ -37,12 +37,12 @@ def converse(first: tuple[Message, ...], ask: Ask, accept: Callable[[str], T], c
             reply = ask(messages)
         except Unanswered as failure:
             missed = Usage(failure.requests, failure.requests)
-            return Answer((), f"no reply: {failure}", usage + missed)
+            return ModelAnswer((), f"no reply: {failure}", usage + missed)
         usage += usage_of(reply)
         try:
-            return Answer((accept(reply.text),), "", usage)
+            return ModelAnswer((accept(reply.text),), "", usage)
         except FunctionalizationError as fault:
             why = " ".join(str(fault).split())[:_LONGEST]
         wrong = Message("user", f"That reply cannot be used: {why}. Reply again with the whole corrected JSON object.")
         messages = (*messages, Message("assistant", reply.text), wrong)
-    return Answer((), f"a reply that cannot be used: {why}", usage)
+    return ModelAnswer((), f"a reply that cannot be used: {why}", usage)
