@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from chat_server import KEY, LATE, ChatServer, chat_server, completion, environment
-from grafu.errors import NotRun
+from grafu.errors import ExportError, NotRun
 from grafu.evaluation.llm.chat import ChatRequest, Message, Reply, Usage
 from grafu.evaluation.llm.config import LanguageModel, LlmConfig
 from grafu.evaluation.llm.endpoint import NoReply, endpoint_of
@@ -133,6 +133,13 @@ def test_a_record_holds_the_request_and_no_secret(tmp_path: Path) -> None:
     assert reply.text.count("[removed]") == 2
     assert KEY not in held + repr(endpoint_of({"OPENAI_API_KEY": KEY}))
     assert address not in held
+
+
+def test_nothing_is_asked_where_the_reply_could_not_be_kept(tmp_path: Path) -> None:
+    (tmp_path / "replies").write_text("mine")
+    with chat_server("It does.") as chat, pytest.raises(ExportError, match="another --replies"):
+        ask_at(chat, tmp_path)
+    assert chat.requests == []
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import time
 from dataclasses import fields
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from grafu.asset.part import Asset
@@ -23,6 +24,7 @@ from grafu.export.particulate import export_particulate
 from grafu.export.singapo import export_singapo
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.truth.clashes import articulated_of
+from small_assets import load_annotated, write_pnm
 
 # Copies what was prepared for the model to the folder that it is given, as the named system would write it there.
 STUB = """\
@@ -75,6 +77,16 @@ def test_what_a_program_writes_is_read_and_built(
         assert len(parts) == len(cabinet.joints)
         assert all(part.raw and part.raw.aligned for part in parts)
     assert (tmp_path / "prepared" / "runs").read_text().split() == [cabinet.name]  # the second time it was read
+
+
+def test_a_prediction_on_the_mesh_that_was_written_fits_a_model_in_any_frame(tmp_path: Path) -> None:
+    turned = np.array([[0.0, -50.0, 0.0], [50.0, 0.0, 0.0], [0.0, 0.0, 50.0]])
+    asset = load_annotated(write_pnm(tmp_path / "data", turned))
+    prepare(tmp_path, asset, "particulate")
+    made = made_by(stub(tmp_path, STUB, "particulate", result="made/*"), asset, asset.name)
+    parts = method_facts(asset, made).parts
+    assert len(parts) == 2
+    assert all(part.raw and part.raw.aligned for part in parts)
 
 
 def test_another_command_runs_again_and_another_model_too(tmp_path: Path, cabinet: Asset) -> None:

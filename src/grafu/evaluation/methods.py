@@ -86,16 +86,14 @@ class Method:
     def __post_init__(self) -> None:
         if self.name not in KNOWN:
             raise OptionError(f"a method must be one of {', '.join(KNOWN)}: got `{self.name}`")
-        needs = {
-            (self.name in FOREIGN, self.folder is not None): f"`{self.name}:DIR` with a folder of predictions",
-            (self.name in RUN, self.program is not None): f"`{self.name}:FILE` with a file that states how to run it",
-            (self.name in ASKED, self.model is not None): f"`{self.name}:MODEL` with the name of a language model",
-        }
-        for (needed, given), spelled in needs.items():
-            if needed != given:
-                raise OptionError(
-                    f"method `{self.name}` must be given as {spelled if needed else f'`{self.name}` alone'}"
-                )
+        for names, given, spelled in (
+            (FOREIGN, self.folder, "DIR` with a folder of predictions"),
+            (RUN, self.program, "FILE` with a file that states how to run it"),
+            (ASKED, self.model, "MODEL` with the name of a language model"),
+        ):
+            if (self.name in names) != (given is not None):
+                said = f"`{self.name}:{spelled}" if self.name in names else f"`{self.name}` alone"
+                raise OptionError(f"method `{self.name}` must be given as {said}")
 
     @property
     def spelled(self) -> str:

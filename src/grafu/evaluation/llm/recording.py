@@ -5,6 +5,7 @@ with, stand once in a file of their own. Replies that are of no use are kept, to
 """
 
 import json
+import os
 from collections.abc import Callable
 from dataclasses import asdict
 from hashlib import sha256
@@ -46,11 +47,20 @@ def replies_of(model: LanguageModel, open_endpoint: Callable[[], Endpoint] = end
         known = _recorded(file)
         if known is not None:
             return known
-        reply = _sent(request, open_endpoint(), model)
+        endpoint = open_endpoint()
+        _require_room(model.replies)
+        reply = _sent(request, endpoint, model)
         _record(file, request, reply)
         return reply
 
     return ask
+
+
+def _require_room(folder: Path) -> None:
+    """Refuses a folder that cannot be written to, before a reply costs anything."""
+    above = next(place for place in (folder, *folder.absolute().parents) if place.exists())
+    if not above.is_dir() or not os.access(above, os.W_OK):
+        raise ExportError(f"replies cannot be kept in `{folder}`: choose another --replies")
 
 
 def _sent(request: ChatRequest, endpoint: Endpoint, model: LanguageModel) -> Reply:
@@ -91,10 +101,7 @@ def _record(file: Path, request: ChatRequest, reply: Reply) -> None:
         for message in request.messages
     ]
     record = {"schema": SCHEMA, "model": request.model, **request.options, "messages": said, "reply": asdict(reply)}
-    try:
-        write_whole(json.dumps(record, indent=1) + "\n", file)
-    except ExportError as error:
-        raise ExportError(f"{error}; a reply that cannot be kept would be lost: give another --replies") from None
+    write_whole(json.dumps(record, indent=1) + "\n", file)
 
 
 def _text_of(message: Message, folder: Path) -> dict[str, str]:

@@ -103,7 +103,7 @@ def _require_installed(program: OutsideProgram) -> None:
 def _run(config: ProgramConfig, folder: Path, model_id: str) -> None:
     given, out = folder / "input", folder / "output"
     places = {"mesh": given / _MESH, "picture": given / _PICTURE, "out": out, "id": model_id}
-    command = [text.format(**places) for text in config.command]
+    command = [text.format(**{word: str(place) for word, place in places.items()}) for text in config.command]
     with TemporaryFile() as said:
         try:
             process = subprocess.Popen(
