@@ -145,7 +145,7 @@ def test_examples_are_never_of_the_furniture_that_is_evaluated() -> None:
     others, _ = graph_messages(asset, QUICK, SEED)
     assert graph_text(make_specimen(EXAMPLES_SEED, 0, points=0).given) in others.text
     assert graph_text(make_specimen(EXAMPLES_SEED, 0, points=0).given) not in own.text
-    assert make_specimen(EXAMPLES_SEED + 1, 0, points=0).given.nodes  # what its examples begin with
+    assert examples_text(EXAMPLES_SEED + 1, 1, QUICK.most_parts)[0] in own.text
 
 
 def test_the_prompt_holds_twenty_examples_by_default_and_no_annotation(cabinet: Asset) -> None:
