@@ -48,6 +48,7 @@ def test_a_request_carries_instructions_picture_and_key_and_its_reply_is_counted
     [
         (500, True, "HTTP 500"),
         (429, True, "HTTP 429"),
+        (400, False, r"HTTP 400 \(for a model that reads no pictures, state `picture = false`"),
         (401, False, "HTTP 401"),
         (404, False, "HTTP 404"),
         (b"<html>busy</html>", True, "no chat completion"),

@@ -22,6 +22,8 @@ KEY, ADDRESS = "OPENAI_API_KEY", "OPENAI_BASE_URL"
 _NO_KEY: Final = "none"  # the client wants one, also where the endpoint does not
 _BUSY: Final = (408, 409, 429)  # HTTP states in which it is worth asking again, beside the server's own errors
 _SERVER: Final = 500
+_REFUSED: Final = 400
+_NO_PICTURES: Final = " (for a model that reads no pictures, state `picture = false` in the file of --llm)"
 _HIDDEN: Final = "[removed]"
 
 
@@ -60,11 +62,16 @@ class Endpoint:
         except APIConnectionError:
             raise NoReply(f"the endpoint of {ADDRESS} cannot be reached", again=True) from None
         except APIStatusError as error:
-            state = error.status_code
-            raise NoReply(f"the endpoint answered HTTP {state}", state in _BUSY or state >= _SERVER) from None
+            state, shown = error.status_code, any(message.picture for message in request.messages)
+            hint = _NO_PICTURES if state == _REFUSED and shown else ""
+            raise NoReply(f"the endpoint answered HTTP {state}{hint}", state in _BUSY or state >= _SERVER) from None
         except (OpenAIError, ValueError) as error:
             raise NoReply(f"the endpoint sent no chat completion ({type(error).__name__})", again=True) from None
         return self._reply(answer, perf_counter() - started)
+
+    def close(self) -> None:
+        """Ends the connections."""
+        self.client.close()
 
     def _reply(self, answer: Any, seconds: float) -> Reply:
         try:

@@ -7,6 +7,7 @@ with, stand once in a file of their own. Replies that are of no use are kept, to
 import json
 import os
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import asdict
 from hashlib import sha256
 from pathlib import Path
@@ -47,9 +48,9 @@ def replies_of(model: LanguageModel, open_endpoint: Callable[[], Endpoint] = end
         known = _recorded(file)
         if known is not None:
             return known
-        endpoint = open_endpoint()
-        _require_room(model.replies)
-        reply = _sent(request, endpoint, model)
+        with closing(open_endpoint()) as endpoint:
+            _require_room(model.replies)
+            reply = _sent(request, endpoint, model)
         _record(file, request, reply)
         return reply
 
