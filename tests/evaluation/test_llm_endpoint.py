@@ -136,6 +136,12 @@ def test_a_record_holds_the_request_and_no_secret(tmp_path: Path) -> None:
     assert address not in held
 
 
+def test_a_word_in_place_of_a_key_is_left_in_replies() -> None:
+    with chat_server('{"edges": []}') as chat:
+        endpoint = endpoint_of({"OPENAI_BASE_URL": chat.address, "OPENAI_API_KEY": "e"})
+        assert endpoint.send(REQUEST, 5.0).text == '{"edges": []}'
+
+
 def test_nothing_is_asked_where_the_reply_could_not_be_kept(tmp_path: Path) -> None:
     (tmp_path / "replies").write_text("mine")
     with chat_server("It does.") as chat, pytest.raises(ExportError, match="another --replies"):

@@ -25,6 +25,7 @@ _SERVER: Final = 500
 _REFUSED: Final = 400
 _NO_PICTURES: Final = " (for a model that reads no pictures, state `picture = false` in the file of --llm)"
 _HIDDEN: Final = "[removed]"
+_LEAST_SECRET: Final = 8  # characters: servers without keys take any short word, which a reply may well hold
 
 
 class NoReply(Exception):
@@ -99,7 +100,7 @@ def endpoint_of(environment: Mapping[str, str] = os.environ) -> Endpoint:
     from openai import OpenAI
 
     client = OpenAI(api_key=key or _NO_KEY, base_url=address or None, max_retries=0)
-    return Endpoint(client, tuple(secret for secret in (key, address.rstrip("/")) if secret))
+    return Endpoint(client, tuple(s for s in (key, address.rstrip("/")) if len(s) >= _LEAST_SECRET))
 
 
 def _as_sent(message: Message) -> dict[str, Any]:
