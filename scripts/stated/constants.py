@@ -16,6 +16,8 @@ from grafu.data.corruption.config import PAPER as CORRUPTION
 from grafu.data.furfun import folder
 from grafu.data.shards_arrays import STEPS
 from grafu.evaluation import bootstrap, distribution, measures, methods, moving_parts, plausible, twins
+from grafu.evaluation.llm.config import LlmConfig
+from grafu.evaluation.programs.config import ProgramConfig
 from grafu.metrics.collision import TOLERANT, ConnectivityConfig
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
@@ -92,6 +94,13 @@ def evaluation() -> Iterator[Sentence]:
         "less the mean of {} synthetic models of seed {}",
         (distribution.TRAINING_COUNT, distribution.TRAINING_SEED),
     )
+    llm, run = LlmConfig(), ProgramConfig(("program", "{out}"))
+    yield page, "what works, {} examples, the graph", (llm.examples,)
+    yield page, "one fixed seed, at most {} parts each", (llm.most_parts,)
+    yield page, "{:g} s\nwithout an answer) is sent {} times at most", (llm.timeout, llm.attempts)
+    for name in ("examples", "most_parts", "timeout", "attempts", "pause", "corrections"):
+        yield page, f"\n{name} = {{}} ", (getattr(llm, name),)
+    yield page, "timeout = {}                 # seconds for a model", (run.timeout,)
     yield "metrics.md", "the body cuts deeper than {} of the largest side", (TOLERANT.tolerance,)
     yield "metrics.md", "compares it with {} of the largest side", (ConnectivityConfig().tolerance,)
 

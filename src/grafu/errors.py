@@ -13,6 +13,8 @@
       OptionError             options contradict each other, or ask for what there is not
       ExportError             a format cannot say this, or the output cannot be written
       TooComplex              it takes more time or room than its budget holds
+      ReplyError              what a language model replied cannot be used
+      NotRun                  a method of an evaluation needs what is not there: an endpoint, an installed program
 
 A part that cannot be realized is not an exception: it is an outcome with a reason (`grafu.joints.report`).
 Messages are one line: what was given, what was expected, how to fix it.
@@ -90,3 +92,11 @@ class NotBuilt(FunctionalizationError):
 
 class TooComplex(FunctionalizationError):
     """Work on a part, or on the whole, would take more time or memory than its budget allows."""
+
+
+class ReplyError(FunctionalizationError):
+    """What a language model replied is not in the form that was asked for, or names what there is not."""
+
+
+class NotRun(FunctionalizationError):
+    """A method of an evaluation needs an endpoint or an installed program that is not there."""

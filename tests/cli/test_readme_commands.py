@@ -73,6 +73,8 @@ def test_every_command_of_a_page_for_users_runs_in_order(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("webbrowser.open", lambda _: True)
+    for name in ("OPENAI_API_KEY", "OPENAI_BASE_URL"):  # no test asks a language model
+        monkeypatch.delenv(name, raising=False)
     copy_samples(tmp_path, PAGES[page])
     for line in PAGES[page]:
         try:

@@ -35,7 +35,9 @@ Finished work is kept in DIR/rows.jsonl: after it was stopped or killed, the sam
 data:    a folder of models whose joints are annotated (PartNet-Mobility, HSSD with S2O annotations, URDF, the authors'
          releases), results with decisions made in grafu edit, or synth:SEED:COUNT for synthetic furniture
 methods: annotation, rule, network, and what others predicted: particulate:DIR, singapo:DIR, grafu-pred:DIR, urdf:DIR,
-         where DIR holds one entry per model id
+         where DIR holds one entry per model id; particulate-run:FILE, singapo-run:FILE run an installed copy as a TOML
+         file states; llm:MODEL (completed graphs) and llm-edit:MODEL (edits) ask a language model at OPENAI_BASE_URL
+         with OPENAI_API_KEY, and keep its replies; what cannot be run is a row that states so
 tables:  motion, masking (labels hidden), static (tops, grasps, interiors), models (worst first), ood (farthest from
          what the network was trained on)
 """
@@ -44,6 +46,7 @@ examples:
   grafu evaluate --data models --out results
   grafu evaluate --data models --methods network,particulate:predictions --tables motion,models --out results
   grafu evaluate --data synth:990002:100 --methods rule,network --out results
+  grafu evaluate --data models --methods network,llm:MODEL --llm llm.toml --tables motion,models --out results
 """
 
 
@@ -62,6 +65,12 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument("--jobs", type=positive_count, metavar="J", help="processes (default: one per core)")
     parser.add_argument("--overwrite", action="store_true", help="measure everything anew")
+    parser.add_argument(
+        "--llm", type=Path, metavar="FILE", help="how language models are asked: a TOML file (default: as documented)"
+    )
+    parser.add_argument(
+        "--replies", type=Path, metavar="DIR", help="where their replies are kept and read from (default: OUT/replies)"
+    )
     add_limit_options(parser, _SECONDS)
     add_telling_options(parser, "each task")
     parser.set_defaults(run=run)
@@ -117,11 +126,15 @@ def _require_room(out: Path) -> None:
 
 
 def _plan(options: argparse.Namespace) -> "EvaluationPlan":
+    from grafu.evaluation.config_file import read_config
     from grafu.evaluation.dataset import find_models
-    from grafu.evaluation.methods import parse_method
+    from grafu.evaluation.llm.config import LlmConfig
+    from grafu.evaluation.methods import MethodOptions, parse_method
     from grafu.evaluation.tasks import EvaluationPlan
 
-    methods = tuple(parse_method(word) for word in _words(options.methods))
+    llm = read_config(options.llm, LlmConfig) if options.llm else LlmConfig()
+    chosen = MethodOptions(llm, options.replies or options.out / "replies", options.out / "predictions")
+    methods = tuple(parse_method(word, chosen) for word in _words(options.methods))
     absent = next((method for method in methods if method.folder is not None and not method.folder.is_dir()), None)
     if absent is not None:
         raise OptionError(f"`{absent.folder}` of the method {absent.name} must be a folder with an entry per model id")
@@ -159,9 +172,11 @@ def _do(
         for row in made:
             append_rows(file, [row])
             rows[row.key] = row
-            bar.ends(names[row.key], f"{names[row.key]}: {row.error or f'{row.seconds:.1f} s'}")
+            not_run = row.not_run and f"not run: {row.not_run}"
+            bar.ends(names[row.key], f"{names[row.key]}: {row.error or not_run or f'{row.seconds:.1f} s'}")
             if options.json_lines:
-                print_json({**row.task, "seconds": row.seconds, "error": row.error or None})
+                ended = {"error": row.error or None, "not_run": row.not_run or None}
+                print_json({**row.task, "seconds": row.seconds, **ended})
 
 
 def _named(task: "Task") -> str:
@@ -174,13 +189,19 @@ def _named(task: "Task") -> str:
 def _command(options: argparse.Namespace) -> str:
     """Returns the command that gives these tables, whatever it was spelled like."""
     words = ["grafu", "evaluate", "--data", options.data, "--methods", options.methods, "--tables", options.tables]
-    return shlex.join([*words, "--seeds", str(options.seeds), "--out", str(options.out)])
+    given = [("--llm", options.llm), ("--replies", options.replies)]
+    more = [word for name, path in given if path is not None for word in (name, str(path))]
+    return shlex.join([*words, "--seeds", str(options.seeds), *more, "--out", str(options.out)])
 
 
 def _say(tables: "Sequence[ResultTable]", results: "Results", out: Path) -> None:
+    from grafu.pipeline.words import counted
+
     motion = next((table for table in tables if table.name == "motion"), None)
     if motion is not None:
         _print_motion(motion)
+    for method, reasons in results.not_run.items():
+        complain(f"{method}: not run on {counted(len(reasons), 'model')}: {'; '.join(sorted(set(reasons.values())))}")
     for failure in results.failures:
         complain(f"{failure.model}: {failure.what}: {failure.error}")
     say(f"written to {out / 'tables' / 'index.md'}; to look at: {out / RUN_PAGE}")

@@ -54,6 +54,8 @@ def _has_interval(table: ResultTable, k: int) -> bool:
 def _page_cell(cell: Cell, column: Column) -> run_table.Cell:
     if isinstance(cell, Figure):
         return cell.value
+    if isinstance(cell, str) and column.kind != "text":
+        return None  # a word in place of a number that is not known
     if isinstance(cell, bool):
         return ("yes" if cell else "no") if column.kind == "text" else int(cell)
     return cell

@@ -4,7 +4,7 @@ Only the annotation sees the annotation. Labels are hidden at random, the same o
 measures nothing.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Final, final
@@ -15,6 +15,11 @@ from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
+from grafu.evaluation.config_file import read_config
+from grafu.evaluation.llm.baselines import EDITS, GRAPH
+from grafu.evaluation.llm.config import LanguageModel, LlmConfig
+from grafu.evaluation.programs.config import OutsideProgram, ProgramConfig
+from grafu.evaluation.programs.running import predicted_by
 from grafu.pipeline.foreign import prediction_for
 from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption
@@ -55,32 +60,46 @@ def mask_order(asset: Asset, seed: int) -> list[str]:
 
 OWN: Final = ("annotation", "rule", "network")
 FOREIGN: Final = ("particulate", "singapo", "grafu-pred", "urdf")
+RUN: Final = ("particulate-run", "singapo-run")
+ASKED: Final = (GRAPH, EDITS)
+KNOWN: Final = (*OWN, *FOREIGN, *RUN, *ASKED)
 _JOINTS_ALONE = AdditionConfig(handles=None, grips=None, interior=NOTHING)
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Method:
-    """A source of motions by its name; foreign ones have a folder that holds one entry per model id.
+    """A source of motions by its name, and where it needs that, from where they come.
+
+    Predictions of others have a folder that holds one entry per model id; what is run has a program, what is asked a
+    language model.
 
     Raises:
-        OptionError: if the name is none of those known, or a folder is missing or superfluous.
+        OptionError: if the name is none of those known, or what it needs is missing or superfluous.
     """
 
     name: str
     folder: Path | None = None
+    program: OutsideProgram | None = None
+    model: LanguageModel | None = None
 
     def __post_init__(self) -> None:
-        if self.name not in (*OWN, *FOREIGN):
-            raise OptionError(f"a method must be one of {', '.join((*OWN, *FOREIGN))}: got `{self.name}`")
-        if (self.folder is None) == (self.name in FOREIGN):
-            said = f"`{self.name}:DIR` with a folder of predictions" if self.name in FOREIGN else f"`{self.name}` alone"
-            raise OptionError(f"method `{self.name}` must be given as {said}")
+        if self.name not in KNOWN:
+            raise OptionError(f"a method must be one of {', '.join(KNOWN)}: got `{self.name}`")
+        for names, given, spelled in (
+            (FOREIGN, self.folder, "DIR` with a folder of predictions"),
+            (RUN, self.program, "FILE` with a file that states how to run it"),
+            (ASKED, self.model, "MODEL` with the name of a language model"),
+        ):
+            if (self.name in names) != (given is not None):
+                said = f"`{self.name}:{spelled}" if self.name in names else f"`{self.name}` alone"
+                raise OptionError(f"method `{self.name}` must be given as {said}")
 
     @property
     def spelled(self) -> str:
         """The method as the command spells it."""
-        return self.name if self.folder is None else f"{self.name}:{self.folder}"
+        of = self.folder or (self.program and self.program.path) or (self.model and self.model.name)
+        return f"{self.name}:{of}" if of else self.name
 
     @property
     def can_be_masked(self) -> bool:
@@ -88,14 +107,29 @@ class Method:
         return self.name in ("rule", "network")
 
 
-def parse_method(text: str) -> Method:
-    """Returns the method that a word of the command line spells: `network`, `particulate:DIR`.
+@final
+@dataclass(frozen=True, slots=True)
+class MethodOptions:
+    """How language models are asked, and the folders in which their replies and what programs wrote are kept."""
+
+    llm: LlmConfig = field(default_factory=LlmConfig)
+    replies: Path = Path("replies")
+    outputs: Path = Path("predictions")
+
+
+def parse_method(text: str, options: MethodOptions = MethodOptions()) -> Method:
+    """Returns the method that a word of the command line spells: `network`, `particulate:DIR`, `llm:MODEL`.
 
     Raises:
-        OptionError: if it spells none.
+        OptionError: if it spells none, or the file that it names cannot be read.
     """
-    name, _, folder = text.strip().partition(":")
-    return Method(name, Path(folder) if folder else None)
+    name, _, of = text.strip().partition(":")
+    if name in ASKED and of:
+        return Method(name, model=LanguageModel(of, options.llm, options.replies))
+    if name in RUN and of:
+        config = read_config(Path(of), ProgramConfig)
+        return Method(name, program=OutsideProgram(Path(of), config, options.outputs, name.removesuffix("-run")))  # type: ignore[arg-type]
+    return Method(name, Path(of) if of else None)
 
 
 def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = False) -> Functionalized:
@@ -104,16 +138,23 @@ def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = Fa
     With `joints_alone`, nothing is added that decides no joint: no handles, grips and interiors.
 
     Raises:
-        AssetError: if a foreign prediction is missing, damaged, or fits no part.
+        AssetError: if a foreign prediction is missing, damaged, or fits no part, or a program fails.
         WeightsError: if the network's weights are missing.
+        NotRun: if a program is not installed.
+        OptionError: if the method asks a language model, which `grafu.evaluation.llm.baselines` does.
     """
     config = PipelineConfig(Settings(additions=_JOINTS_ALONE)) if joints_alone else PipelineConfig()
     if method.can_be_masked:
         return functionalize(asset.without_annotation(), MotionSource(method.name), builtin_gallery(), config)
-    if method.folder is None:
+    if method.name == "annotation":
         return functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
-    choice = SourceOption(MotionSource(method.name), method.folder)
-    foreign = prediction_for(choice, model_id, alone=False)
+    if method.program is not None:
+        foreign = predicted_by(method.program, asset.without_annotation(), model_id)
+    elif method.folder is not None:
+        choice = SourceOption(MotionSource(method.name), method.folder)
+        foreign = prediction_for(choice, model_id, alone=False)
+    else:
+        raise OptionError(f"a language model is asked apart from other methods: got `{method.spelled}`")
     return functionalize(asset.without_annotation(), foreign, builtin_gallery(), config)
 
 

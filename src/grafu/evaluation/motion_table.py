@@ -5,6 +5,7 @@ The paper's own rows (its table Quantitative evaluation, its masking table and i
 `MODELS` counts its models of PartNet-Mobility's storage furniture and of HSSD; figures are fractions, not per cent.
 """
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, final
@@ -81,6 +82,7 @@ _NOTES = (
     "interval of a bootstrap over objects.",
     "Plain columns: the stated axes and ranges on the meshes as they are. `+ fix`: what the geometric realization "
     "built of them, hardware included.",
+    "Rows `not run` state on how many models a method was not run, and why; they count in none of its figures.",
     "Rows marked `the paper` are printed there; they were measured on other models by other code.",
 )
 
@@ -90,12 +92,20 @@ def motion_table(results: Results) -> ResultTable:
     rows: list[tuple[Cell, ...]] = []
     for method in results.made:
         outcomes = results.outcomes(method)
-        rows += _rows(method, ALL, outcomes)
-        for category in results.categories if len(results.categories) > 1 else ():
+        rows += _rows(method, ALL, outcomes) if outcomes else []
+        rows += _not_run(method, results)
+        for category in results.categories if len(results.categories) > 1 and outcomes else ():
             rows += _rows(method, category, [o for o in outcomes if o.category == category])
     return ResultTable(
         "motion", "Motion correctness, collision and connectivity", _COLUMNS, (*rows, *_published()), _NOTES
     )
+
+
+def _not_run(method: str, results: Results) -> list[tuple[Cell, ...]]:
+    """Returns the row of a method that was not run on some models or all: on how many, and why."""
+    reasons = Counter(results.not_run.get(method, {}).values())
+    nothing = (None,) * len(_FIGURES)
+    return [(method, f"not run: {why}", "objects", number, None, *nothing) for why, number in reasons.items()]
 
 
 def _rows(method: str, data: str, outcomes: Sequence[PartOutcome]) -> list[tuple[Cell, ...]]:

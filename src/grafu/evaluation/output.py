@@ -20,6 +20,8 @@ from grafu.evaluation.result_tables import masking_table, models_table, static_t
 from grafu.evaluation.results import Results
 from grafu.evaluation.table import FORMS, Cell, Column, ResultTable, markdown
 from grafu.evaluation.tasks import EvaluationPlan
+from grafu.evaluation.usage_table import usage_table
+from grafu.pipeline.words import counted
 from grafu.version import __version__
 
 TOP = 5
@@ -111,10 +113,12 @@ Parts of a model on which a method failed count as static.
 
 
 def build_tables(plan: EvaluationPlan, results: Results) -> tuple[ResultTable, ...]:
-    """Returns the tables that were asked for, in the order of `TABLES`."""
+    """Returns the tables that were asked for, in the order of `TABLES`, and last what language models used up."""
     found = [build(results) for name, build in _BUILDERS.items() if name in plan.tables]
     if "ood" in plan.tables and results.training:
         found.append(ood_table(results, plan.ranked_method.spelled))
+    if any(method.model is not None for method in plan.methods):
+        found.append(usage_table(results, plan.methods))
     return tuple(found)
 
 
@@ -140,7 +144,8 @@ def _index(plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ..
         "```",
         "",
         f"Methods: {', '.join(f'`{method.spelled}`' for method in plan.methods)}."
-        + (" Predictions of others are read from files." if any(m.name in FOREIGN for m in plan.methods) else ""),
+        + (" Predictions of others are read from files." if any(m.name in FOREIGN for m in plan.methods) else "")
+        + (" Language models are asked once; their replies are kept." if any(m.model for m in plan.methods) else ""),
         "",
         _twins(results),
         "",
@@ -154,6 +159,7 @@ def _index(plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ..
         "",
         _HOW,
         *(markdown(table).replace("# ", "## ", 1) for table in tables if table.name != "models"),
+        *_not_run(results),
         *_failures(results),
     ]
     return "\n".join(lines).rstrip() + "\n"
@@ -164,6 +170,16 @@ def _twins(results: Results) -> str:
         return "No two models are one geometry."
     pairs = ", ".join(f"{a} and {b}" for a, b in results.twins)
     return f"Models of one geometry: {pairs}."
+
+
+def _not_run(results: Results) -> list[str]:
+    if not results.not_run:
+        return []
+    lines = [
+        f"- {method}: on {counted(len(reasons), 'model')}: {'; '.join(sorted(set(reasons.values())))}"
+        for method, reasons in results.not_run.items()
+    ]
+    return ["## Not run", "", *lines, ""]
 
 
 def _failures(results: Results) -> list[str]:

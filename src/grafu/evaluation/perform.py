@@ -1,21 +1,26 @@
 """One task from model to row: read, make, measure. A failure is a row with its error, never the end of a run."""
 
+from dataclasses import dataclass
 from functools import lru_cache
 from time import perf_counter
+from typing import final
 
 from grafu.asset.part import Asset
-from grafu.errors import FunctionalizationError
+from grafu.errors import FunctionalizationError, NotRun
 from grafu.evaluation.completeness import completeness_of
 from grafu.evaluation.dataset import ModelRef, category_of, load_model
 from grafu.evaluation.distribution import graph_features
+from grafu.evaluation.llm.baselines import asked
+from grafu.evaluation.llm.config import LanguageModel
 from grafu.evaluation.measures import PartMeasure, measure_parts
-from grafu.evaluation.methods import made_by, made_with_labels_hidden
+from grafu.evaluation.methods import Method, made_by, made_with_labels_hidden
 from grafu.evaluation.moving_parts import MovingPart, counted_parts, raw_object
 from grafu.evaluation.plausible import judge_motion
 from grafu.evaluation.records import (
     CompletenessRecord,
     EvaluatedMotion,
     EvaluatedPart,
+    Facts,
     MadeFacts,
     MeasureRecord,
     MethodFacts,
@@ -23,6 +28,7 @@ from grafu.evaluation.records import (
     ResultRow,
     TruthRecord,
     TwinFacts,
+    UsageRecord,
 )
 from grafu.evaluation.tasks import MadeTask, MaskTask, MethodTask, ModelTask, Task, TwinTask, key_of
 from grafu.evaluation.twins import compare_twins, fingerprint
@@ -32,19 +38,41 @@ from grafu.pipeline.functionalize import Functionalized
 from grafu.synth.generate import make_specimen
 
 
+@final
+@dataclass(frozen=True)
+class TaskOutcome:
+    """What a task found, or why it failed or was not run, and what asking a language model used up."""
+
+    facts: Facts | None = None
+    error: str = ""
+    not_run: str = ""
+    usage: UsageRecord | None = None
+
+
 def perform(task: Task) -> ResultRow:
     """Returns the row of a task; whatever goes wrong but an interruption is said in it."""
     started = perf_counter()
     try:
-        facts, error = _facts(task), ""
+        outcome = _outcome(task)
+    except NotRun as reason:
+        outcome = TaskOutcome(not_run=_one_line(str(reason)))
     except FunctionalizationError as fault:
-        facts, error = None, _one_line(str(fault))
+        outcome = TaskOutcome(error=_one_line(str(fault)))
     except MemoryError:
-        facts, error = None, "out of memory: run fewer --jobs at once"
+        outcome = TaskOutcome(error="out of memory: run fewer --jobs at once")
     except Exception as fault:  # isolation is this module's task: the next model must still be measured
-        facts, error = None, _one_line(f"internal error, which is our fault ({type(fault).__name__}: {fault})")
+        why = f"internal error, which is our fault ({type(fault).__name__}: {fault})"
+        outcome = TaskOutcome(error=_one_line(why))
     seconds = round(perf_counter() - started, 3)
-    return ResultRow(key=key_of(task), task=task.facts(), seconds=seconds, error=error, facts=facts)
+    return ResultRow(
+        key=key_of(task),
+        task=task.facts(),
+        seconds=seconds,
+        error=outcome.error,
+        not_run=outcome.not_run,
+        usage=outcome.usage,
+        facts=outcome.facts,
+    )
 
 
 def failed(task: Task, why: str) -> ResultRow:
@@ -52,19 +80,29 @@ def failed(task: Task, why: str) -> ResultRow:
     return ResultRow(key=key_of(task), task=task.facts(), seconds=0.0, error=why)
 
 
-def _facts(task: Task) -> ModelFacts | MethodFacts | TwinFacts | MadeFacts:
+def _outcome(task: Task) -> TaskOutcome:
     match task:
         case ModelTask():
-            return model_facts(task)
+            return TaskOutcome(model_facts(task))
+        case MethodTask(method=Method(model=LanguageModel() as model)):
+            return _asked_outcome(task, model)
         case MethodTask():
-            return method_facts(task)
+            asset = _asset(task.model)
+            return TaskOutcome(method_facts(asset, made_by(task.method, asset, task.model.id)))
         case MaskTask():
-            return mask_facts(task)
+            return TaskOutcome(mask_facts(task))
         case TwinTask():
-            return twin_facts(task)
+            return TaskOutcome(twin_facts(task))
         case MadeTask():
             made = make_specimen(task.seed, task.number, points=8).asset
-            return MadeFacts(features=graph_features(parse_graph(made)))
+            return TaskOutcome(MadeFacts(features=graph_features(parse_graph(made))))
+
+
+def _asked_outcome(task: MethodTask, model: LanguageModel) -> TaskOutcome:
+    asset = _asset(task.model)
+    answer = asked(task.method.name, model, asset, task.model.seed)
+    facts = next((method_facts(asset, made) for made in answer.values), None)
+    return TaskOutcome(facts, _one_line(answer.fault), usage=UsageRecord.of(answer.usage))
 
 
 def model_facts(task: ModelTask) -> ModelFacts:
@@ -78,11 +116,9 @@ def model_facts(task: ModelTask) -> ModelFacts:
     )
 
 
-def method_facts(task: MethodTask) -> MethodFacts:
-    """Returns what a method made of a model: on its axes alone, fixed, and the statics."""
-    asset = _asset(task.model)
+def method_facts(asset: Asset, result: Functionalized) -> MethodFacts:
+    """Returns how good what a method made of a model is: on its axes alone, fixed, and the statics."""
     truth = counted_parts(asset)
-    result = made_by(task.method, asset, task.model.id)
     raw = raw_object(result.asset, result.plan)
     measures = measure_parts(raw, truth, asset.extent), measure_parts(result.object, truth, asset.extent)
     skipped = {skip.part: f"{skip.reason.value}: {skip.why}" for skip in result.report.skipped}

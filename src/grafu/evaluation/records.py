@@ -6,6 +6,7 @@ the last of a key counts.
 
 import os
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -14,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 from grafu.asset.json_files import read_own
 from grafu.errors import AssetError, ExportError
 from grafu.evaluation.completeness import Completeness
+from grafu.evaluation.llm.chat import Usage
 from grafu.evaluation.measures import PartMeasure
 from grafu.evaluation.moving_parts import MovingPart
 from grafu.geometry.arrays import Vec3, vec3
@@ -171,13 +173,34 @@ class MadeFacts(EvaluationRecord):
 Facts = Annotated[ModelFacts | MethodFacts | TwinFacts | MadeFacts, Field(discriminator="kind")]
 
 
+class UsageRecord(EvaluationRecord):
+    """What asking a language model about one model used up; tokens are null where the endpoint does not state them."""
+
+    requests: int
+    unanswered: int
+    tokens_in: int | None
+    tokens_out: int | None
+    seconds: FiniteFloat
+
+    @classmethod
+    def of(cls, usage: Usage) -> "UsageRecord":
+        """Returns the record of what was used up."""
+        return cls(**asdict(usage))
+
+    def usage(self) -> Usage:
+        """Returns what was used up."""
+        return Usage(**self.model_dump())
+
+
 class ResultRow(EvaluationRecord):
-    """One line: which task (its key states all that determines it), what it found, or why it failed."""
+    """One line: which task (its key states all that determines it), what it found, or why it failed or was not run."""
 
     key: str
     task: dict[str, str]
     seconds: FiniteFloat
     error: str = ""
+    not_run: str = ""
+    usage: UsageRecord | None = None
     facts: Facts | None = None
 
 
@@ -252,5 +275,5 @@ def append_rows(path: Path, rows: Iterable[ResultRow]) -> None:
 
 
 def done(rows: Mapping[str, ResultRow], key: str) -> bool:
-    """Whether a task needs no more work; one that failed is tried again."""
-    return key in rows and not rows[key].error
+    """Whether a task needs no more work; one that failed, or was not run, is tried again."""
+    return key in rows and not rows[key].error and not rows[key].not_run

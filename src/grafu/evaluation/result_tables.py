@@ -99,7 +99,8 @@ _STATIC_NOTES = (
 
 def static_table(results: Results) -> ResultTable:
     """Returns five rows per method, and the paper's."""
-    rows = [row for method in results.made for row in _static_rows(method, list(results.completeness(method).values()))]
+    run = [method for method, made in results.made.items() if made]
+    rows = [row for method in run for row in _static_rows(method, list(results.completeness(method).values()))]
     return ResultTable("static", "Static functionalization", _STATIC, (*rows, *_published_static()), _STATIC_NOTES)
 
 

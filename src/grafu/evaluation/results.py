@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import final
 
+from grafu.evaluation.llm.chat import Usage
 from grafu.evaluation.records import (
     CompletenessRecord,
     EvaluatedMotion,
@@ -70,7 +71,8 @@ class PartOutcome:
 class Results:
     """All that the rows of a run say; models that could not be read are in `failures` alone.
 
-    `made` and `masked` are by method (as the command spells it), then, in `masked`, by draw, then by model.
+    `made` and `masked` are by method (as the command spells it), then, in `masked`, by draw, then by model. `not_run`
+    states by method and model why a model was not given to it, `usage` what asking a language model used up.
     """
 
     models: Mapping[str, ModelFacts]
@@ -80,6 +82,8 @@ class Results:
     twins: tuple[tuple[str, str], ...] = ()
     training: tuple[tuple[float, ...], ...] = ()
     failures: tuple[Failure, ...] = ()
+    not_run: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    usage: Mapping[str, Mapping[str, Usage]] = field(default_factory=dict)
 
     @property
     def categories(self) -> tuple[str, ...]:
@@ -134,6 +138,8 @@ def collect(tasks: Iterable[Task], rows: Mapping[str, ResultRow]) -> Results:
         tuple(gathered.twins),
         tuple(gathered.training),
         tuple(gathered.failures),
+        gathered.not_run,
+        gathered.usage,
     )
 
 
@@ -148,6 +154,8 @@ class _Gathered:
         self.twins: list[tuple[str, str]] = []
         self.training: list[tuple[float, ...]] = []
         self.failures: list[Failure] = []
+        self.not_run: dict[str, dict[str, str]] = {}
+        self.usage: dict[str, dict[str, Usage]] = {}
 
     def add(self, task: Task, row: ResultRow) -> None:
         """Takes one row in."""
@@ -156,7 +164,7 @@ class _Gathered:
             case ModelTask(model), ModelFacts() as facts:
                 self.models[model.id] = facts
             case MethodTask(model, method), facts:
-                self.made.setdefault(method.spelled, {})[model.id] = _method_facts(facts, failure)
+                self._take_method(model.id, method.spelled, row, _method_facts(facts, failure))
             case MaskTask(model, method, ratio, seed), facts:
                 draws = self.masked.setdefault(method.spelled, {})
                 draws.setdefault((ratio, seed), {})[model.id] = _method_facts(facts, failure)
@@ -168,6 +176,15 @@ class _Gathered:
                 self.training.append(facts.features)
         if row.error:
             self.failures.append(failure)
+
+    def _take_method(self, model: str, method: str, row: ResultRow, outcome: MethodFacts | Failure) -> None:
+        made = self.made.setdefault(method, {})
+        if row.not_run:
+            self.not_run.setdefault(method, {})[model] = row.not_run
+        else:
+            made[model] = outcome
+        if row.usage is not None:
+            self.usage.setdefault(method, {})[model] = row.usage.usage()
 
     def _lend(self, model: str, motions: Mapping[str, EvaluatedMotion]) -> None:
         for part, record in motions.items():

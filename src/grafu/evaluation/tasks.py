@@ -18,7 +18,9 @@ from grafu.completion.session import SHIPPED_WEIGHTS
 from grafu.errors import AssetError, OptionError
 from grafu.evaluation.dataset import ModelRef, files_of_model
 from grafu.evaluation.distribution import TRAINING_COUNT, TRAINING_SEED
+from grafu.evaluation.llm.baselines import prompt_hash
 from grafu.evaluation.methods import LEVELS, Method
+from grafu.evaluation.programs.running import program_hash
 from grafu.evaluation.records import ModelFacts, ResultRow
 from grafu.evaluation.twins import alike_pairs
 from grafu.version import __version__
@@ -119,6 +121,10 @@ def _of_method(method: Method, model: ModelRef) -> dict[str, str]:
     if method.folder is not None:
         entries = sorted(method.folder.glob(f"{escape(model.id)}*"))
         return {"method": method.spelled, "predictions": " ".join(_state_of(entry) for entry in entries)}
+    if method.program is not None:
+        return {"method": method.spelled, "program": program_hash(method.program)}
+    if method.model is not None:
+        return {"method": method.spelled, "prompt": prompt_hash(method.name, method.model)}
     return {"method": method.name, "weights": _weights() if method.name == "network" else ""}
 
 
