@@ -9,7 +9,7 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty
 
-from . import objects, work
+from . import objects, thumbnails, work
 from .boxes import draw_boxes, remove_boxes
 from .state import fill_slot, free_slot, report_of, session_of, settings_of, shown_slot, slot_of, store
 
@@ -148,6 +148,7 @@ class Applies:
             draw_boxes(session)
         session.status = f"{len(after.joints)} joints, {len(after.added)} parts added, {len(after.skipped)} left out"
         self.report({"INFO"}, session.status)
+        thumbnails.begin()
         return {"FINISHED"}
 
     def _refused(self, context, why):
