@@ -52,6 +52,7 @@ class GRAFU_OT_drag_joint(Applies, bpy.types.Operator):
         self._is_dragged = True
         _show(empty, self.what, grips, self.value)
         context.window_manager.modal_handler_add(self)
+        self._is_modal = True
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):

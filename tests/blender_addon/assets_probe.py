@@ -15,7 +15,7 @@ from probe_end import carry_out  # noqa: E402
 from stepping import FACTS, session, step  # noqa: E402
 
 import blender_addon  # noqa: E402
-from blender_addon import asset_operators, drag_operators, gizmos, joint_operators, objects, thumbnails  # noqa: E402
+from blender_addon import asset_operators, drag_operators, gizmos, objects, thumbnails  # noqa: E402
 
 
 def libraries() -> list:
@@ -71,7 +71,8 @@ def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     blender_addon.register()
     grafu, before = bpy.ops.grafu, libraries()
-    FACTS.append({"step": "before", "can remove": grafu.remove_assets.poll(), "gizmos": gizmos.CLASSES[0].is_registered})
+    known = bpy.types.GizmoGroup.bl_rna_get_subclass_py(gizmos.CLASSES[0].__name__) is not None
+    FACTS.append({"step": "before", "can remove": grafu.remove_assets.poll(), "gizmos": known})
     grafu.add_assets()
     first = set(libraries()) - set(before)
     grafu.add_assets()
@@ -98,14 +99,14 @@ def main():
 
 
 def pictures():
-    """The pictures of the dialogs, as a process draws them."""
-    before = [item[3] for item in joint_operators.template_items(None, bpy.context)]
+    """The pictures of the dialogs, as a process draws them; without a window Blender makes no icons of them."""
     run = thumbnails.started()
     run.wait()
+    before = thumbnails.how_many()
     thumbnails.take(run.folder)
     run.close()
-    after = {item[0]: item[3] for item in joint_operators.template_items(None, bpy.context)}
-    FACTS.append({"step": "pictures", "before": before, "after": after, "number": thumbnails.how_many()})
+    sizes = {key: list(one.image_size) for key, one in thumbnails._pictures.items()}
+    FACTS.append({"step": "pictures", "before": before, "sizes": sizes, "gone": not run.folder.exists()})
 
 
 def dragged(grafu):

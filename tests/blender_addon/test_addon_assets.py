@@ -68,12 +68,11 @@ def test_a_handle_stands_on_what_it_is_dropped_on(facts):
         assert high > 0.01
 
 
-def test_dialogs_show_pictures_as_soon_as_they_are_drawn(facts):
+def test_pictures_for_the_dialogs_stay_when_their_files_are_gone(facts):
     drawn = facts["pictures"]
-    assert not any(icon for icon in drawn["before"] if icon != "NONE")
-    assert all(drawn["after"][model.id] for model in builtin_gallery().hinges)
-    assert len({drawn["after"][model.id] for model in builtin_gallery().hinges}) == len(builtin_gallery().hinges)
-    assert drawn["number"] == len(facts["marked"]["assets"])
+    assert drawn["before"] == 0
+    assert drawn["gone"]
+    assert drawn["sizes"] == dict.fromkeys(facts["marked"]["assets"], [256, 256])
 
 
 def test_what_is_dropped_is_built_on_the_nearest_part_and_taken_away(changes, facts):
