@@ -24,12 +24,12 @@ def handle_items(_, __):
         from grafu.templates.handles import HANDLES
 
         rows = [
-            (SAME, "Like the others", "The style of the model's other handles"),
-            *((h.id, h.title, h.family) for h in HANDLES),
-            *((name, title, "carved into the front") for name, title in GRIPS),
-            (NOTHING, "Nothing", "No handle and no grip"),
+            (SAME, "Like the others", "The style of the model's other handles", "LINKED"),
+            *((h.id, h.title, h.family, thumbnails.icon_of("handle", h.id)) for h in HANDLES),
+            *((name, title, "carved into the front", "MOD_BOOLEAN") for name, title in GRIPS),
+            (NOTHING, "Nothing", "No handle and no grip", "X"),
         ]
-        _items[key] = [(*row, thumbnails.icon_of("handle", row[0]), number) for number, row in enumerate(rows)]
+        _items[key] = [(*row, number) for number, row in enumerate(rows)]
     return _items[key]
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import bpy
 from bpy.props import StringProperty
 
-from . import objects, thumbnails, work
+from . import objects, thumbnails
 from .run_operators import Applies, active_run
 from .state import session_of
 from .versions import add_asset_library, own_folder, remove_asset_library
@@ -23,7 +23,7 @@ def library():
 
 
 def dropped(thing) -> tuple:
-    """Returns kind (`hinge`, `rail`, `handle`) and id of the template that an object is; two times empty: it is none."""
+    """Returns kind (`hinge`, `rail`, `handle`) and id of the template that an object is; both empty: it is none."""
     held = [one for one in (thing, thing and thing.instance_collection, *_holders(thing)) if one is not None]
     found = next((one for one in held if one.get(objects.KIND) == "template"), None)
     return (found["kind"], found[objects.ID]) if found is not None else ("", "")

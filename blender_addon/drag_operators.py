@@ -50,7 +50,7 @@ class GRAFU_OT_drag_joint(Applies, bpy.types.Operator):
         self._grips, self._before = grips, (empty["open"], grips.upper)
         self.value = grips.upper if self.what == LIMIT else grips.value
         self._is_dragged = True
-        _show(empty, self.what, grips, self.value)
+        _show(empty, self.what, self.value)
         context.window_manager.modal_handler_add(self)
         self._is_modal = True
         return {"RUNNING_MODAL"}
@@ -137,7 +137,7 @@ class GRAFU_OT_drag_joint(Applies, bpy.types.Operator):
             overlay.show_dragged(_border_in_world(empty, self.side))
         else:
             self.value = within(self._grips, self.what, self._grips.value_under(_ray(context, empty, at), self.value))
-            _show(empty, self.what, self._grips, self.value)
+            _show(empty, self.what, self.value)
         context.area.tag_redraw()
 
     def _let_go(self, context) -> None:
@@ -174,8 +174,9 @@ def nearest_border(context, empty, at) -> str:
 
 def borders_in_world(empty) -> dict:
     """Returns the borders that a joint's part could turn about, by side: two points of the world each."""
-    from grafu.export.blend.grips import borders_of
     from mathutils import Vector
+
+    from grafu.export.blend.grips import borders_of
 
     link, found = borders_of(empty)
     return {side.value: tuple(link.matrix_world @ Vector(end) for end in ends) for side, ends in found.items()}
@@ -188,6 +189,7 @@ def _border_in_world(empty, side: str) -> tuple:
 def _ray(context, empty, at):
     """Returns what is under a point of the region as a ray in the frame of a joint's empty."""
     from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
+
     from grafu.geometry.axis import Axis
 
     M = empty.matrix_world.inverted()
@@ -196,7 +198,7 @@ def _ray(context, empty, at):
     return Axis(tuple(M @ start), tuple(towards))
 
 
-def _show(empty, what: str, grips, value: float) -> None:
+def _show(empty, what: str, value: float) -> None:
     """Shows the joint while it is dragged: open, or wide open at the limit."""
     from grafu.export.blend.joints import mute_joint
 

@@ -1,4 +1,4 @@
-"""Handles in the 3D View for the chosen joint: an arrow that opens it, one for its widest opening, a dot for its border.
+"""Handles in the 3D View for the chosen joint: an arrow that opens it, one for its limit, a dot for its border.
 
 They only show where these are, and start `grafu.drag_joint`.
 """
@@ -72,10 +72,14 @@ class GRAFU_GGT_joint(bpy.types.GizmoGroup):
 
 
 def draggable(context):
-    """Returns the empty of the chosen joint where it is seen and moves by itself, else None."""
-    session = session_of(context)
+    """Returns the empty of the chosen joint where it moves by itself and something of it is selected, else None."""
+    session, active = session_of(context), context.active_object
     row = session.active_joint if session.has_result else None
-    empty = objects.joint_empties(session).get(row.part) if row is not None else None
+    if row is None or active is None or not active.select_get():
+        return None
+    if objects.joint_part_of(session, active) != row.part:
+        return None
+    empty = objects.joint_empties(session).get(row.part)
     if empty is None or "open" not in empty or "leader" in empty or not empty.visible_get():
         return None
     return empty

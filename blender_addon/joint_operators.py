@@ -39,9 +39,11 @@ def _fitting(what, make, operator, context):
     if operator is not None and operator.asked and context is not None:
         slides = _slides(context, operator.part)
     only = operator.mechanism if what == "templates" and slides is not None else AUTO
-    key = what, slides, only, thumbnails.how_many()
+    now = _template_now(context, operator.part) if what == "templates" and slides is not None else ""
+    key = what, slides, only, now, thumbnails.how_many()
     if key not in _items:
-        usual = (AUTO, "Automatic", "What fits best", "NONE", 0)
+        icon = thumbnails.icon_of("rail" if slides else "hinge", now)  # the picture of what it has
+        usual = (AUTO, "Automatic", "What fits best", icon, 0)
         rows = [(row, number + 1) for number, row in enumerate(make())]
         kept = [
             (*texts, thumbnails.icon_of("rail" if rail else "hinge", texts[0]), number)
@@ -78,6 +80,12 @@ def _slides(context, part: str):
 
     row = session_of(context).joints.get(part)
     return motion_kind(JointType(row.type)).slides if row is not None and row.type else None
+
+
+def _template_now(context, part: str) -> str:
+    """Returns the id of the template that a joint has; empty: none."""
+    row = session_of(context).joints.get(part)
+    return row.template if row is not None else ""
 
 
 def _class_chosen(operator, _):

@@ -6,8 +6,8 @@ from .texts import share_of_names
 
 LEVEL_ICONS = {"ok": "CHECKMARK", "warning": "ERROR", "error": "CANCEL"}
 ICON = 20.0  # pixels that the icon before a name takes
-STYLE = 60.0  # pixels that the style of an added part needs
-CATEGORY = 116.0  # pixels that a category and the button beside it need
+BUTTONS = 46.0  # pixels that the two buttons beside a part need, without words
+_WORD = 50.0  # pixels from which on a category is readable on its button
 
 
 class GRAFU_UL_joints(bpy.types.UIList):
@@ -30,7 +30,7 @@ class GRAFU_UL_additions(bpy.types.UIList):
         button = row.operator("grafu.set_addition", text="", icon="CHECKBOX_HLT" if item.accepted else "CHECKBOX_DEHLT")
         button.part, button.accepted = item.part, not item.accepted
         added = (one.part for one in data.additions)
-        names = row.split(factor=share_of_names(context, added, ICON, STYLE), align=True)
+        names = row.split(factor=share_of_names(context, added, ICON), align=True)
         names.active = item.accepted
         names.label(text=item.part)
         names.label(text=item.about.split(": ")[-1])  # the part's name states what it is
@@ -41,11 +41,13 @@ class GRAFU_UL_parts(bpy.types.UIList):
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
         """Draws the part and its category, which a click corrects."""
-        names = (one.part for one in data.parts)
-        row = layout.split(factor=share_of_names(context, names, rest=CATEGORY), align=True)
+        names = [one.part for one in data.parts]
+        row = layout.split(factor=share_of_names(context, names, rest=BUTTONS), align=True)
+        has_word = share_of_names(context, names) == share_of_names(context, names, rest=BUTTONS + _WORD)
         row.label(text=item.part)
         row = row.row(align=True)
-        button = row.operator("grafu.set_label", text=item.category)
+        word = {"text": item.category} if has_word else {"text": "", "icon": "GREASEPENCIL"}
+        button = row.operator("grafu.set_label", **word)
         button.part, button.label = item.part, item.category
         row.operator("grafu.set_motion", text="", icon="CON_ROTLIMIT").part = item.part
 

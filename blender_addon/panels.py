@@ -3,7 +3,7 @@
 import bpy
 
 from .asset_operators import library
-from .lists import CATEGORY, ICON, LEVEL_ICONS, STYLE
+from .lists import BUTTONS, ICON, LEVEL_ICONS
 from .objects import joint_empties
 from .run_operators import active_run
 from .state import session_of, shown_slot, slots_in
@@ -91,7 +91,7 @@ def _draw_joint(context, box, joint):
     row.operator("grafu.pick_joint", text="", icon="EYEDROPPER")
     empty = joint_empties(session_of(context)).get(joint.part)
     moves = empty is not None and "open" in empty
-    lines = [joint.part if cut else "", joint.why, *joint.figures.splitlines(), _limits(empty) if moves else ""]
+    lines = [joint.part if cut else "", joint.mechanism, joint.why, *joint.figures.splitlines(), _limits(empty) if moves else ""]
     draw_text(context, box, "\n".join(line for line in lines if line), _BOX)
     if moves:
         box.prop(empty, '["open"]', text="Open", slider=True)
@@ -153,7 +153,9 @@ class GRAFU_PT_additions(_ResultPanel, bpy.types.Panel):
         layout, session = self.layout, session_of(context)
         if session.additions:
             layout.template_list("GRAFU_UL_additions", "", session, "additions", session, "addition_index", rows=3)
-            _draw_cut_name(context, layout, session.additions, session.addition_index, ICON, STYLE)
+            if 0 <= session.addition_index < len(session.additions):
+                row = session.additions[session.addition_index]
+                _draw_whole(context, layout, session.additions, row.part, row.about.split(": ")[-1], ICON)
         else:
             layout.label(text="Nothing was added")
         if session.left_out:
@@ -187,13 +189,16 @@ class GRAFU_PT_parts(_ResultPanel, bpy.types.Panel):
         """Draws it."""
         layout, session = self.layout, session_of(context)
         layout.template_list("GRAFU_UL_parts", "", session, "parts", session, "part_index", rows=5)
-        _draw_cut_name(context, layout, session.parts, session.part_index, rest=CATEGORY)
+        if 0 <= session.part_index < len(session.parts):
+            row = session.parts[session.part_index]
+            _draw_whole(context, layout, session.parts, row.part, row.category, BUTTONS)
 
 
-def _draw_cut_name(context, layout, rows, index, icons=0.0, rest=0.0):
-    """Draws the name of the chosen row once more, whole, where the list has too little room for it."""
-    if 0 <= index < len(rows) and is_cut(context, rows[index].part, icons, rest):
-        draw_text(context, layout, rows[index].part)
+def _draw_whole(context, layout, rows, name, about, taken):
+    """Draws the chosen row once more, whole, where the list has too little room for it; `taken`: pixels of icons."""
+    longest = max((row.part for row in rows), key=len)
+    if is_cut(context, f"{longest}  {about}", taken):
+        draw_text(context, layout, f"{name}: {about}")
 
 
 class GRAFU_PT_assets(_Panel, bpy.types.Panel):

@@ -1,4 +1,4 @@
-"""Words in the sidebar: lines that are broken where it ends, and names in its lists, which are given the room they need.
+"""Words in the sidebar: lines that are broken where it ends, and names in its lists, which get the room they need.
 
 Lengths are pixels at Blender's usual size.
 """

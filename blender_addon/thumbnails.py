@@ -15,7 +15,7 @@ _is_tried = False
 
 
 def icon_of(kind: str, template: str) -> int:
-    """Returns Blender's number of the picture of a template (`hinge`, `rail`, `handle`, and its id); 0: there is none."""
+    """Returns Blender's number of the picture of a template (`hinge`, `rail`, `handle`; its id); 0: there is none."""
     key = f"{kind}-{template}"
     return _pictures[key].icon_id if _pictures is not None and key in _pictures else 0
 
@@ -51,7 +51,7 @@ def take(folder: Path) -> None:
 
 def entries_in(folder: Path) -> list:
     """Returns what such a process states of each template: `key`, `kind`, `id`, `title`, `about`."""
-    return json.loads((folder / "templates.json").read_text(encoding="utf-8"))
+    return json.loads((folder / "templates.json").read_text(encoding="utf-8"))["templates"]
 
 
 def _look():

@@ -20,7 +20,9 @@ _OF_SCIPY = (
     *("stats", "io", "interpolate", "integrate", "signal", "fft", "fftpack", "cluster", "odr", "misc", "datasets"),
     *("differentiate", "optimize"),
 )
+_OF_GRAFU = ("training", "network", "synth", "data", "evaluation", "metrics", "editor")
 LEFT_OUT_OF = {
+    "grafu": tuple(f"grafu/{name}/*" for name in _OF_GRAFU),  # what learns and measures
     "scipy": (
         *(f"scipy/{name}/*" for name in _OF_SCIPY),
         *("scipy/special/cython_special.*", "scipy/linalg/_decomp_interpolative.*"),  # for what is left out above

@@ -1,4 +1,4 @@
-"""Handles of a joint dragged in a real Blender window, and pictures in its dialogs; writes what it saw. Asserts nothing."""
+"""Handles of a joint dragged in a real Blender window, pictures in its dialogs; writes what it saw. Asserts nothing."""
 
 import json
 from pathlib import Path
@@ -145,7 +145,7 @@ def pictures(hand):
     """The pictures in the dialogs; they are drawn behind the window as soon as there is a result."""
     yield from hand.wait_while(lambda: not thumbnails.how_many())
     icons = [item[3] for item in addition_operators.handle_items(None, bpy.context)]
-    FACTS["icons"] = [len(icons), len({icon for icon in icons if icon})]
+    FACTS["icons"] = [len(icons), len({icon for icon in icons if isinstance(icon, int)})]
     for name in ("set_handle", "set_joint"):
         hand.call(getattr(bpy.ops.grafu, name), part=PART)
         yield 0.8

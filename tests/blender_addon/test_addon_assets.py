@@ -72,7 +72,7 @@ def test_pictures_for_the_dialogs_stay_when_their_files_are_gone(facts):
     drawn = facts["pictures"]
     assert drawn["before"] == 0
     assert drawn["gone"]
-    assert drawn["sizes"] == dict.fromkeys(facts["marked"]["assets"], [256, 256])
+    assert drawn["sizes"] == {key: [256, 256] for key in facts["marked"]["assets"]}
 
 
 def test_what_is_dropped_is_built_on_the_nearest_part_and_taken_away(changes, facts):

@@ -1,8 +1,8 @@
 """Thumbnails of all templates, and what each is made of, for programs that offer them: `... thumbnails FOLDER`.
 
 Run as `python -m grafu.render.thumbnails FOLDER`: there go, for each template, `KIND-ID.png` and `KIND-ID.packed`
-(`grafu.export.blend.process`), and at the end `templates.json`, a list of `key` (`KIND-ID`), `kind` (`hinge`, `rail`,
-`handle`), `id`, `title` and `about`.
+(`grafu.export.blend.process`), and at the end `templates.json`, whose `templates` have `key` (`KIND-ID`), `kind`
+(`hinge`, `rail`, `handle`), `id`, `title` and `about`.
 """
 
 import sys
@@ -58,7 +58,7 @@ def write_thumbnails(folder: Path) -> None:
         _write(encode_png(picture), folder / f"{entry.key}.png")
         _write(packed(made), folder / f"{entry.key}.packed")
         entries.append({"key": entry.key, **asdict(entry)})
-    _write(dump_json(entries).encode(), folder / "templates.json")
+    _write(dump_json({"templates": entries}).encode(), folder / "templates.json")
 
 
 def _entry_of(model: Model) -> TemplateEntry:

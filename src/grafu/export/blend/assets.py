@@ -5,14 +5,13 @@ closes; a handle is one mesh whose back is at z = 0, so that it is dropped onto 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, final
 from uuid import NAMESPACE_URL, uuid5
 
 import bpy
 import numpy as np
-from mathutils import Matrix
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.export.blend.layout import ID, KIND
@@ -66,12 +65,12 @@ def save_assets(assets: Sequence[TemplateAsset], folder: Path) -> Path:
     Raises:
         RuntimeError: if Blender cannot write the file.
     """
-    made, path = [], folder / FILE_NAME
+    made: list[tuple[Any, Any]] = []
+    path = folder / FILE_NAME
     with names_set_aside():
         scene = bpy.data.scenes.new("templates")
         try:
-            for asset in assets:
-                made.append(_built(asset, scene))
+            made.extend(_built(asset, scene) for asset in assets)
             with whole_file(path) as fresh:
                 bpy.data.libraries.write(str(fresh), {one for one, _ in made}, fake_user=True, compress=True)
         finally:
@@ -84,8 +83,11 @@ def save_assets(assets: Sequence[TemplateAsset], folder: Path) -> Path:
 
 def _built(asset: TemplateAsset, scene: Any) -> tuple[Any, Any]:
     """Returns what is marked as the asset, and the collection that was built for it."""
-    built = build_object(asset.made, scene, animate=False)
-    shown = _upright(built) if asset.kind == "handle" else built.collection
+    is_handle = asset.kind == "handle"
+    built = build_object(_upright(asset.made) if is_handle else asset.made, scene, animate=False)
+    (shown,) = built.visuals.values() if is_handle else (built.collection,)
+    if is_handle:
+        shown.parent = None  # it is offered alone, without its link
     shown.name = asset.title
     shown[KIND], shown[ID], shown[KIND_OF_TEMPLATE] = TEMPLATE, asset.id, asset.kind
     shown.asset_mark()
@@ -97,13 +99,12 @@ def _built(asset: TemplateAsset, scene: Any) -> tuple[Any, Any]:
     return shown, built.collection
 
 
-def _upright(built: Any) -> Any:
-    """Returns the mesh of a handle, free of its link, turned so that it stands out upwards and not to the front."""
-    (mesh,) = built.visuals.values()
-    mesh.parent = None
+def _upright(handle: ArticulatedObject) -> ArticulatedObject:
+    """Returns a handle, an object of one visual, turned so that it stands out upwards and not to the front."""
     T = rotation_about(np.zeros(3), vec3(1.0, 0.0, 0.0), -np.pi / 2)
-    mesh.data.transform(Matrix(T.tolist()))
-    return mesh
+    (link,) = handle.links
+    visuals = (replace(one, surfaces=tuple(s.transformed(T) for s in one.surfaces)) for one in link.visuals)
+    return replace(handle, links=(replace(link, visuals=tuple(visuals)),))
 
 
 def _show(shown: Any, picture: np.ndarray) -> None:
