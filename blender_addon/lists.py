@@ -2,7 +2,7 @@
 
 import bpy
 
-from .texts import share_of_names
+from .texts import fitted, share_of_names
 
 LEVEL_ICONS = {"ok": "CHECKMARK", "warning": "ERROR", "error": "CANCEL"}
 ICON = 20.0  # pixels that the icon before a name takes
@@ -17,7 +17,7 @@ class GRAFU_UL_joints(bpy.types.UIList):
         """Draws level, part (with a star if the user chose something) and mechanism."""
         names = (_starred(one) for one in data.joints)
         row = layout.split(factor=share_of_names(context, names, ICON), align=True)
-        row.label(text=_starred(item), icon=LEVEL_ICONS[item.level])
+        row.label(text=fitted(context, _starred(item), ICON), icon=LEVEL_ICONS[item.level])
         row.label(text=item.mechanism or "no joint")
 
 
@@ -32,7 +32,7 @@ class GRAFU_UL_additions(bpy.types.UIList):
         added = (one.part for one in data.additions)
         names = row.split(factor=share_of_names(context, added, ICON), align=True)
         names.active = item.accepted
-        names.label(text=item.part)
+        names.label(text=fitted(context, item.part, ICON))
         names.label(text=item.about.split(": ")[-1])  # the part's name states what it is
 
 
@@ -44,7 +44,7 @@ class GRAFU_UL_parts(bpy.types.UIList):
         names = [one.part for one in data.parts]
         row = layout.split(factor=share_of_names(context, names, rest=BUTTONS), align=True)
         has_word = share_of_names(context, names) == share_of_names(context, names, rest=BUTTONS + _WORD)
-        row.label(text=item.part)
+        row.label(text=fitted(context, item.part, rest=BUTTONS))
         row = row.row(align=True)
         word = {"text": item.category} if has_word else {"text": "", "icon": "GREASEPENCIL"}
         button = row.operator("grafu.set_label", **word)

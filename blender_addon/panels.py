@@ -91,7 +91,13 @@ def _draw_joint(context, box, joint):
     row.operator("grafu.pick_joint", text="", icon="EYEDROPPER")
     empty = joint_empties(session_of(context)).get(joint.part)
     moves = empty is not None and "open" in empty
-    lines = [joint.part if cut else "", joint.mechanism, joint.why, *joint.figures.splitlines(), _limits(empty) if moves else ""]
+    lines = [
+        joint.part if cut else "",
+        joint.mechanism,
+        joint.why,
+        *joint.figures.splitlines(),
+        _limits(empty) if moves else "",
+    ]
     draw_text(context, box, "\n".join(line for line in lines if line), _BOX)
     if moves:
         box.prop(empty, '["open"]', text="Open", slider=True)

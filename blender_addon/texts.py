@@ -52,6 +52,20 @@ def is_cut(context, name: str, icons: float = 0.0, rest: float = 0.0) -> bool:
     return length_of(name) + _NAME_BORDER > max(room - rest, _LEAST_NAMES * room)
 
 
+def fitted(context, name: str, icons: float = 0.0, rest: float = 0.0) -> str:
+    """Returns a name as a list shows it: where it has too little room, without letters of its middle.
+
+    Names often differ at their ends, which Blender itself cuts off.
+    """
+    room = max(_width(context) - _AROUND - icons, 1.0)
+    room = max(room - rest, _LEAST_NAMES * room) - _NAME_BORDER
+    shown, half = name, len(name) // 2
+    while length_of(shown) > room and half > 1:
+        half -= 1
+        shown = f"{name[:half]}\N{HORIZONTAL ELLIPSIS}{name[-half:]}"
+    return shown
+
+
 @lru_cache(maxsize=4096)
 def length_of(text: str) -> float:
     """Returns how long a text is in the sidebar's font."""

@@ -48,6 +48,16 @@ def test_what_stands_beside_names_keeps_its_room(texts):
     assert (1.0 - share) * (WIDE - 58.0 - 26.0) == pytest.approx(116.0)
 
 
+@given(st.text(alphabet="abcdefgh_", min_size=1, max_size=60))
+def test_a_name_without_room_keeps_both_its_ends(texts, name):
+    shown = texts.fitted(sidebar(WIDE), name, 20.0)
+    room = WIDE - 58.0 - 26.0 - 20.0 - 14.0
+    assert texts.length_of(shown) <= room
+    assert (shown == name) == (texts.length_of(name) <= room)
+    assert shown[0] == name[0]
+    assert shown[-8:] == name[-8:]
+
+
 @pytest.mark.parametrize("scale", [1.0, 2.0])
 def test_a_name_is_cut_exactly_where_it_gets_less_than_it_needs(texts, scale):
     room = WIDE - 58.0 - 26.0 - 14.0
