@@ -2,7 +2,7 @@
 
 import bpy
 
-from .texts import fitted, share_of_names
+from .texts import fitted, factor_for_names
 
 LEVEL_ICONS = {"ok": "CHECKMARK", "warning": "ERROR", "error": "CANCEL"}
 ICON = 20.0  # pixels that the icon before a name takes
@@ -16,7 +16,7 @@ class GRAFU_UL_joints(bpy.types.UIList):
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
         """Draws level, part (with a star if the user chose something) and mechanism."""
         names = (_starred(one) for one in data.joints)
-        row = layout.split(factor=share_of_names(context, names, ICON), align=True)
+        row = layout.split(factor=factor_for_names(context, names, ICON), align=True)
         row.label(text=fitted(context, _starred(item), ICON), icon=LEVEL_ICONS[item.level])
         row.label(text=item.mechanism or "no joint")
 
@@ -30,7 +30,7 @@ class GRAFU_UL_additions(bpy.types.UIList):
         button = row.operator("grafu.set_addition", text="", icon="CHECKBOX_HLT" if item.accepted else "CHECKBOX_DEHLT")
         button.part, button.accepted = item.part, not item.accepted
         added = (one.part for one in data.additions)
-        names = row.split(factor=share_of_names(context, added, ICON), align=True)
+        names = row.split(factor=factor_for_names(context, added, ICON), align=True)
         names.active = item.accepted
         names.label(text=fitted(context, item.part, ICON))
         names.label(text=item.about.split(": ")[-1])  # the part's name states what it is
@@ -42,8 +42,8 @@ class GRAFU_UL_parts(bpy.types.UIList):
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
         """Draws the part and its category, which a click corrects."""
         names = [one.part for one in data.parts]
-        row = layout.split(factor=share_of_names(context, names, rest=BUTTONS), align=True)
-        has_word = share_of_names(context, names) == share_of_names(context, names, rest=BUTTONS + _WORD)
+        row = layout.split(factor=factor_for_names(context, names, rest=BUTTONS), align=True)
+        has_word = factor_for_names(context, names) == factor_for_names(context, names, rest=BUTTONS + _WORD)
         row.label(text=fitted(context, item.part, rest=BUTTONS))
         row = row.row(align=True)
         word = {"text": item.category} if has_word else {"text": "", "icon": "GREASEPENCIL"}

@@ -36,7 +36,7 @@ def wrapped(text: str, width: int) -> list:
     return [line for line in lines if line]
 
 
-def share_of_names(context, names: Iterable[str], icons: float = 0.0, rest: float = 0.0) -> float:
+def factor_for_names(context, names: Iterable[str], icons: float = 0.0, rest: float = 0.0) -> float:
     """Returns the factor of a list's row that its longest name needs.
 
     `icons` is what stands beside the name takes, `rest` what must be left for the other column.

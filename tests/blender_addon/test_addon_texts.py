@@ -35,17 +35,17 @@ def test_no_letter_is_lost_and_no_line_too_long(texts, text, width):
 
 
 def test_the_longest_name_decides_how_much_names_get(texts):
-    short = texts.share_of_names(sidebar(WIDE), ["door_1"], 20.0)
-    long = texts.share_of_names(sidebar(WIDE), ["door_1", "cabinet_left_upper_door_1"], 20.0)
+    short = texts.factor_for_names(sidebar(WIDE), ["door_1"], 20.0)
+    long = texts.factor_for_names(sidebar(WIDE), ["door_1", "cabinet_left_upper_door_1"], 20.0)
     assert short < long < 1.0
     assert long * (WIDE - 58.0 - 26.0 - 20.0) >= 7.0 * len("cabinet_left_upper_door_1")
-    assert texts.share_of_names(sidebar(NARROW), ["cabinet_left_upper_door_1"], 20.0) == 1.0
-    assert texts.share_of_names(sidebar(WIDE), []) == pytest.approx(0.3)
+    assert texts.factor_for_names(sidebar(NARROW), ["cabinet_left_upper_door_1"], 20.0) == 1.0
+    assert texts.factor_for_names(sidebar(WIDE), []) == pytest.approx(0.3)
 
 
 def test_what_stands_beside_names_keeps_its_room(texts):
-    share = texts.share_of_names(sidebar(WIDE), ["name" * 30], rest=116.0)
-    assert (1.0 - share) * (WIDE - 58.0 - 26.0) == pytest.approx(116.0)
+    ratio = texts.factor_for_names(sidebar(WIDE), ["name" * 30], rest=116.0)
+    assert (1.0 - ratio) * (WIDE - 58.0 - 26.0) == pytest.approx(116.0)
 
 
 @given(st.text(alphabet="abcdefgh_", min_size=1, max_size=60))
