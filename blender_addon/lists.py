@@ -2,7 +2,7 @@
 
 import bpy
 
-from .texts import fitted, factor_for_names
+from .texts import factor_for_names, fitted
 
 LEVEL_ICONS = {"ok": "CHECKMARK", "warning": "ERROR", "error": "CANCEL"}
 ICON = 20.0  # pixels that the icon before a name takes

@@ -38,7 +38,7 @@ def add_asset_library(name: str, folder: Path):
         made = libraries[-1]
         made.name = name
     if hasattr(made, "import_method"):
-        made.import_method = "APPEND_REUSE"
+        made.import_method = "APPEND"
     bpy.context.preferences.is_dirty = True
     return made
 
