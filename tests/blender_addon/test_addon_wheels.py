@@ -174,7 +174,7 @@ def test_a_zip_unpacks_to_what_its_manifest_names(path, tmp_path):
     assert set(manifest["wheels"]) == there
     tags = [name.removesuffix(".whl").split("-")[-3:] for name in there]
     assert all(re.fullmatch(TAGS[platform], part) or part == "any" for tag in tags for part in tag[2].split("."))
-    assert all(set(tag[0].split(".")) & {"cp311", "py3", "cp310", "cp39"} for tag in tags)
+    assert all(set(tag[0].split(".")) & {"cp311", "py3"} or tag[1] == "abi3" for tag in tags)
     names = {wheel.name.split("-")[0] for wheel in (tmp_path / "wheels").iterdir()}
     assert {"grafu", "scipy", "onnxruntime", "embreex", "manifold3d"} <= names
     assert ("usd_core" in names) == path.stem.endswith("-usd")
