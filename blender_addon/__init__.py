@@ -25,6 +25,9 @@ _MODULES = (
     "output_operators",
     "lists",
     "model_operators",
+    "asset_operators",
+    "drag_operators",
+    "gizmos",
     "panels",
 )
 
@@ -33,22 +36,24 @@ def register():
     """Registers all classes, each module's in its order, and gives every scene its session."""
     import bpy
 
-    from . import overlay, state
+    from . import overlay, state, thumbnails
 
     for one in _classes():
         bpy.utils.register_class(one)
     state.attach()
     overlay.attach()
+    thumbnails.attach()
 
 
 def unregister():
     """Stops what goes on, and takes everything back in the opposite order."""
     import bpy
 
-    from . import overlay, run_operators, state, work
+    from . import overlay, run_operators, state, thumbnails, work
 
     run_operators.stop()
     work.end()
+    thumbnails.detach()
     overlay.detach()
     state.detach()
     for one in reversed(_classes()):

@@ -5,7 +5,8 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
-from .questions import ask, chosen_or, draw_number, draw_part, fill, own_switch, split
+from . import thumbnails
+from .questions import ask, chosen_or, draw_number, draw_part, draw_template, fill, own_switch, split
 from .run_operators import Applies
 from .state import session_of, settings_of
 
@@ -18,16 +19,18 @@ _items: dict = {}
 
 def handle_items(_, __):
     """Returns all handles and grips for a menu; Blender wants the texts kept."""
-    if "handles" not in _items:
+    key = "handles", thumbnails.how_many()
+    if key not in _items:
         from grafu.templates.handles import HANDLES
 
-        _items["handles"] = [
-            (SAME, "Like the others", "The style of the model's other handles"),
-            *((h.id, h.title, h.family) for h in HANDLES),
-            *((name, title, "carved into the front") for name, title in GRIPS),
-            (NOTHING, "Nothing", "No handle and no grip"),
+        rows = [
+            (SAME, "Like the others", "The style of the model's other handles", "LINKED"),
+            *((h.id, h.title, h.family, thumbnails.icon_of("handle", h.id)) for h in HANDLES),
+            *((name, title, "carved into the front", "MOD_BOOLEAN") for name, title in GRIPS),
+            (NOTHING, "Nothing", "No handle and no grip", "X"),
         ]
-    return _items["handles"]
+        _items[key] = [(*row, number) for number, row in enumerate(rows)]
+    return _items[key]
 
 
 class Adds(Applies):
@@ -82,7 +85,7 @@ class GRAFU_OT_set_handle(Adds, bpy.types.Operator):
         """Draws what matters for such a handle."""
         layout = split(self)
         draw_part(layout, self.part)
-        layout.prop(self, "style")
+        draw_template(layout, self, "style")
         if self.style not in (NOTHING, *dict(GRIPS)):  # what is carved takes its size from the front
             draw_number(layout, self, "count", "Handles")
             draw_number(layout, self, "length", "Length")

@@ -5,7 +5,8 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from .questions import ask, chosen_or, draw_number, draw_part, fill, own_switch, split
+from . import thumbnails
+from .questions import ask, chosen_or, draw_number, draw_part, draw_template, fill, own_switch, split
 from .run_operators import Applies
 from .state import report_of, session_of, settings_of
 
@@ -18,7 +19,7 @@ SUPPORTS = [
     ("none", "None", "Rails stand only where they touch walls and drawer"),
 ]
 _WIDEST = "The widest opening"
-_LIMITED = "Whether you choose the widest opening; off: as far as it goes"
+_LIMITED = "Your own widest opening; where it is not ticked, it opens as far as it goes"
 _items: dict = {}
 
 
@@ -38,16 +39,19 @@ def _fitting(what, make, operator, context):
     if operator is not None and operator.asked and context is not None:
         slides = _slides(context, operator.part)
     only = operator.mechanism if what == "templates" and slides is not None else AUTO
-    if (what, slides, only) not in _items:
-        usual = (AUTO, "Automatic", "What fits best", 0)
+    now = _template_now(context, operator.part) if what == "templates" and slides is not None else ""
+    key = what, slides, only, now, thumbnails.how_many()
+    if key not in _items:
+        icon = thumbnails.icon_of("rail" if slides else "hinge", now)  # the picture of what it has
+        usual = (AUTO, "Automatic", "What fits best", icon, 0)
         rows = [(row, number + 1) for number, row in enumerate(make())]
         kept = [
-            (*texts, number)
+            (*texts, thumbnails.icon_of("rail" if rail else "hinge", texts[0]), number)
             for (rail, mechanism, *texts), number in rows
             if slides in (None, rail) and only in (AUTO, mechanism)
         ]
-        _items[what, slides, only] = [usual, *kept]
-    return _items[what, slides, only]
+        _items[key] = [usual, *kept]
+    return _items[key]
 
 
 def _classes() -> list:
@@ -78,6 +82,12 @@ def _slides(context, part: str):
     return motion_kind(JointType(row.type)).slides if row is not None and row.type else None
 
 
+def _template_now(context, part: str) -> str:
+    """Returns the id of the template that a joint has; empty: none."""
+    row = session_of(context).joints.get(part)
+    return row.template if row is not None else ""
+
+
 def _class_chosen(operator, _):
     if not operator.template:  # it is of another class
         operator.template = AUTO
@@ -106,7 +116,7 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
         min=0.0,
         options={"HIDDEN", "SKIP_SAVE"},
     )
-    limited: BoolProperty(name="Chosen", description=_LIMITED, options={"HIDDEN", "SKIP_SAVE"})
+    limited: BoolProperty(name="Custom", description=_LIMITED, options={"HIDDEN", "SKIP_SAVE"})
     angle: FloatProperty(name="Opens by", description=_WIDEST, min=0.0, subtype="ANGLE", options={"SKIP_SAVE"})
     travel: FloatProperty(name="Opens by", description=_WIDEST, min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"})
     mount: StringProperty(
@@ -137,14 +147,14 @@ class GRAFU_OT_set_joint(Applies, bpy.types.Operator):
         layout, slides = split(self), _slides(context, self.part)
         draw_part(layout, self.part)
         layout.prop(self, "mechanism")
-        layout.prop(self, "template")
+        draw_template(layout, self, "template")
         if slides is not True:
             layout.prop(self, "scale")
             draw_number(layout, self, "count", "Hinges")
             layout.prop(self, "flipped")
         if slides is not False:
             layout.prop(self, "supports")
-        draw_number(layout, self, "travel" if slides else "angle", "Opens by", "limited", "as far as it goes")
+        draw_number(layout, self, "travel" if slides else "angle", "Opens by", "limited")
         layout.prop_search(self, "mount", session_of(context), "parts", text="Carried by")
 
     def unfit(self, before, after):

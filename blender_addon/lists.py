@@ -2,10 +2,12 @@
 
 import bpy
 
+from .texts import factor_for_names, fitted
+
 LEVEL_ICONS = {"ok": "CHECKMARK", "warning": "ERROR", "error": "CANCEL"}
-_NAMES = 0.62  # of a row
-_LONG_NAMES = 0.6
-_HALF = 0.5
+ICON = 20.0  # pixels that the icon before a name takes
+BUTTONS = 46.0  # pixels that the two buttons beside a part need, without words
+_WORD = 50.0  # pixels from which on a category is readable on its button
 
 
 class GRAFU_UL_joints(bpy.types.UIList):
@@ -13,8 +15,9 @@ class GRAFU_UL_joints(bpy.types.UIList):
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
         """Draws level, part (with a star if the user chose something) and mechanism."""
-        row = layout.split(factor=_NAMES, align=True)
-        row.label(text=item.part + (" *" if item.changed else ""), icon=LEVEL_ICONS[item.level])
+        names = (_starred(one) for one in data.joints)
+        row = layout.split(factor=factor_for_names(context, names, ICON), align=True)
+        row.label(text=fitted(context, _starred(item), ICON), icon=LEVEL_ICONS[item.level])
         row.label(text=item.mechanism or "no joint")
 
 
@@ -26,9 +29,10 @@ class GRAFU_UL_additions(bpy.types.UIList):
         row = layout.row(align=True)
         button = row.operator("grafu.set_addition", text="", icon="CHECKBOX_HLT" if item.accepted else "CHECKBOX_DEHLT")
         button.part, button.accepted = item.part, not item.accepted
-        names = row.split(factor=_LONG_NAMES, align=True)
+        added = (one.part for one in data.additions)
+        names = row.split(factor=factor_for_names(context, added, ICON), align=True)
         names.active = item.accepted
-        names.label(text=item.part)
+        names.label(text=fitted(context, item.part, ICON))
         names.label(text=item.about.split(": ")[-1])  # the part's name states what it is
 
 
@@ -37,12 +41,19 @@ class GRAFU_UL_parts(bpy.types.UIList):
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
         """Draws the part and its category, which a click corrects."""
-        row = layout.split(factor=_HALF, align=True)
-        row.label(text=item.part)
+        names = [one.part for one in data.parts]
+        row = layout.split(factor=factor_for_names(context, names, rest=BUTTONS), align=True)
+        has_word = factor_for_names(context, names) == factor_for_names(context, names, rest=BUTTONS + _WORD)
+        row.label(text=fitted(context, item.part, rest=BUTTONS))
         row = row.row(align=True)
-        button = row.operator("grafu.set_label", text=item.category)
+        word = {"text": item.category} if has_word else {"text": "", "icon": "GREASEPENCIL"}
+        button = row.operator("grafu.set_label", **word)
         button.part, button.label = item.part, item.category
         row.operator("grafu.set_motion", text="", icon="CON_ROTLIMIT").part = item.part
+
+
+def _starred(joint) -> str:
+    return joint.part + (" *" if joint.changed else "")
 
 
 CLASSES = (GRAFU_UL_joints, GRAFU_UL_additions, GRAFU_UL_parts)

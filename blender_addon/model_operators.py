@@ -6,7 +6,7 @@ import bpy
 import mathutils
 from bpy.props import BoolProperty, IntProperty, StringProperty
 
-from . import objects
+from . import objects, thumbnails
 from .boxes import remove_boxes
 from .run_operators import active_run
 from .state import clear_slot, fill_slot, free_slot, session_of, shown_slot, slots_in, store
@@ -51,6 +51,7 @@ class GRAFU_OT_open_result(bpy.types.Operator):
         message = found.fixed or f"{len(found.report.joints)} joints, read from {self.directory}"
         session.status = visible(message)
         self.report({"INFO"}, session.status)
+        thumbnails.begin()
         return {"FINISHED"}
 
 

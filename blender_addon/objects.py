@@ -201,6 +201,18 @@ def joint_part_of(session, thing) -> str:
     return max((p for p in joint_empties(session) if named.startswith(f"{p}_")), key=len, default="")
 
 
+def nearest_part(session, point) -> str:
+    """Returns the id of the door or drawer whose surface is nearest to a point of the world; empty: there is none."""
+    found = {row.part: visual(session, row.part) for row in session.joints}
+    distances = {part: _distance(thing, point) for part, thing in found.items() if thing is not None}
+    return min(distances, key=distances.get, default="")
+
+
+def _distance(thing, point) -> float:
+    found, nearest, _, _ = thing.closest_point_on_mesh(thing.matrix_world.inverted() @ point)
+    return (thing.matrix_world @ nearest - point).length if found else float("inf")
+
+
 def moving_part_of(thing) -> str:
     """Returns the id of the moving part whose joint carries an object of the result; empty: it is static."""
     while thing is not None:

@@ -10,7 +10,15 @@ from .versions import line_shader
 COLOURS = {"ok": (0.25, 0.85, 0.35, 0.9), "warning": (1.0, 0.7, 0.1, 0.95), "error": (1.0, 0.2, 0.15, 1.0)}
 _NOW = (1.0, 1.0, 1.0, 0.95)
 _THIN, _BOLD = 1.5, 4.0  # pixels
+_DRAGGED = (0.35, 0.7, 1.0, 1.0)
 _handle = None
+_dragged: tuple = ()  # ends of the line that is dragged to, in the world
+
+
+def show_dragged(ends) -> None:
+    """Shows a line while something is dragged: its ends in the world; none: no longer."""
+    global _dragged
+    _dragged = tuple(ends)
 
 
 def strokes(context) -> list:
@@ -29,7 +37,7 @@ def strokes(context) -> list:
             colour = COLOURS[levels.get(part, "ok")]
             parts = [(colour, width, (*marks.axis, *marks.range)), (_NOW, width, marks.now)]
             found += [(paint, wide, _in_world(empty, pairs)) for paint, wide, pairs in parts]
-    return found
+    return [*found, (_DRAGGED, _BOLD, [tuple(end) for end in _dragged])] if _dragged else found
 
 
 def _in_world(empty, pairs) -> list:

@@ -2,14 +2,14 @@
 
 import bpy
 
-from .lists import LEVEL_ICONS
+from .asset_operators import library
+from .lists import BUTTONS, ICON, LEVEL_ICONS
 from .objects import joint_empties
 from .run_operators import active_run
 from .state import session_of, shown_slot, slots_in
+from .texts import draw_text, is_cut
 from .versions import draw_progress
 
-_LETTER = 5.6  # pixels of a letter in the sidebar's font, at Blender's usual size
-_MARGIN = 58.0  # pixels of the sidebar beside a panel's text: tabs and borders
 _BOX = 18.0  # pixels that a box takes
 
 
@@ -86,12 +86,18 @@ class GRAFU_PT_joints(_ResultPanel, bpy.types.Panel):
 
 
 def _draw_joint(context, box, joint):
-    row = box.row()
-    row.label(text=joint.part, icon=LEVEL_ICONS[joint.level])
+    row, cut = box.row(), is_cut(context, joint.part, ICON + _BOX, ICON)
+    row.label(text=joint.level if cut else joint.part, icon=LEVEL_ICONS[joint.level])
     row.operator("grafu.pick_joint", text="", icon="EYEDROPPER")
     empty = joint_empties(session_of(context)).get(joint.part)
     moves = empty is not None and "open" in empty
-    lines = [joint.why, *joint.figures.splitlines(), _limits(empty) if moves else ""]
+    lines = [
+        joint.part if cut else "",
+        joint.mechanism,
+        joint.why,
+        *joint.figures.splitlines(),
+        _limits(empty) if moves else "",
+    ]
     draw_text(context, box, "\n".join(line for line in lines if line), _BOX)
     if moves:
         box.prop(empty, '["open"]', text="Open", slider=True)
@@ -153,6 +159,9 @@ class GRAFU_PT_additions(_ResultPanel, bpy.types.Panel):
         layout, session = self.layout, session_of(context)
         if session.additions:
             layout.template_list("GRAFU_UL_additions", "", session, "additions", session, "addition_index", rows=3)
+            if 0 <= session.addition_index < len(session.additions):
+                row = session.additions[session.addition_index]
+                _draw_whole(context, layout, session.additions, row.part, row.about.split(": ")[-1], ICON)
         else:
             layout.label(text="Nothing was added")
         if session.left_out:
@@ -184,8 +193,33 @@ class GRAFU_PT_parts(_ResultPanel, bpy.types.Panel):
 
     def draw(self, context):
         """Draws it."""
-        session = session_of(context)
-        self.layout.template_list("GRAFU_UL_parts", "", session, "parts", session, "part_index", rows=5)
+        layout, session = self.layout, session_of(context)
+        layout.template_list("GRAFU_UL_parts", "", session, "parts", session, "part_index", rows=5)
+        if 0 <= session.part_index < len(session.parts):
+            row = session.parts[session.part_index]
+            _draw_whole(context, layout, session.parts, row.part, row.category, BUTTONS)
+
+
+def _draw_whole(context, layout, rows, name, about, taken):
+    """Draws the chosen row once more, whole, where the list has too little room for it; `taken`: pixels of icons."""
+    longest = max((row.part for row in rows), key=len)
+    if is_cut(context, f"{longest}  {about}", taken):
+        draw_text(context, layout, f"{name}: {about}")
+
+
+class GRAFU_PT_assets(_Panel, bpy.types.Panel):
+    """Templates in the asset browser."""
+
+    bl_label = "Templates"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        """Draws it."""
+        column, there = self.layout.column(align=True), library() is not None
+        column.operator("grafu.use_asset", icon="PIVOT_ACTIVE")
+        text = "Write the asset library anew" if there else "Add the asset library"
+        column.operator("grafu.add_assets", text=text, icon="ASSET_MANAGER")
+        column.operator("grafu.remove_assets", icon="TRASH")
 
 
 class GRAFU_PT_output(_ResultPanel, bpy.types.Panel):
@@ -198,30 +232,6 @@ class GRAFU_PT_output(_ResultPanel, bpy.types.Panel):
         self.layout.operator("grafu.finalize", text="Finalize ...", icon="EXPORT")
 
 
-def draw_text(context, layout, text: str, taken: float = 0.0) -> None:
-    """Draws lines of words, broken where the sidebar ends; `taken`: pixels that what is around them takes."""
-    scale = context.preferences.system.ui_scale
-    width = (context.region.width / scale if context.region else 300.0) - _MARGIN - taken
-    column = layout.column(align=True)
-    column.scale_y = 0.8
-    for line in text.splitlines():
-        for part in wrapped(line, max(int(width / _LETTER), 12)):
-            column.label(text=part)
-
-
-def wrapped(text: str, width: int) -> list:
-    """Returns the lines of a text, none longer than `width` letters; a word that is too long is cut."""
-    lines = [""]
-    for word in text.split():
-        while len(word) > width:
-            lines += [word[:width]]
-            word = word[width:]
-        if lines[-1] and len(lines[-1]) + 1 + len(word) > width:
-            lines.append("")
-        lines[-1] = f"{lines[-1]} {word}".strip()
-    return [line for line in lines if line]
-
-
 CLASSES = (
     GRAFU_PT_main,
     GRAFU_PT_joints,
@@ -229,5 +239,6 @@ CLASSES = (
     GRAFU_PT_additions,
     GRAFU_PT_interior,
     GRAFU_PT_parts,
+    GRAFU_PT_assets,
     GRAFU_PT_output,
 )

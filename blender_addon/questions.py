@@ -1,13 +1,17 @@
-"""How questions are drawn: a number that may be left to the package stands behind a switch, in words while it is."""
+"""How questions are drawn: a number that the package computes has a box `Custom`, and stands beside it once ticked."""
 
 from bpy.props import BoolProperty
+
+from . import thumbnails
+
+_ACROSS = 5.0  # of a picture, in rows of a dialog
 
 
 def own_switch():
     """Returns the property that states whether a number is chosen; it is where the user was not asked."""
     return BoolProperty(
-        name="Chosen",
-        description="Whether you choose it; off: automatic",
+        name="Custom",
+        description="Your own number; where it is not ticked, it is computed",
         default=True,
         options={"HIDDEN", "SKIP_SAVE"},
     )
@@ -24,15 +28,13 @@ def fill(operator, name: str, chosen, usual) -> None:
     setattr(operator, name, chosen or usual)
 
 
-def draw_number(layout, operator, name: str, text: str, switch: str = "", usual: str = "automatic") -> None:
-    """Draws a number behind the switch `own_NAME`, or `switch`; where it is off, the word for what is `usual`."""
+def draw_number(layout, operator, name: str, text: str, switch: str = "") -> None:
+    """Draws the box `Custom`, `own_NAME` or `switch`, and beside it the number where it is ticked."""
     switch = switch or f"own_{name}"
     row = layout.row(heading=text, align=True)
-    row.prop(operator, switch, text="")
+    row.prop(operator, switch, text="Custom")
     if getattr(operator, switch):
         row.prop(operator, name, text="")
-    else:
-        row.label(text=usual)
 
 
 def draw_part(layout, part: str) -> None:
@@ -40,8 +42,16 @@ def draw_part(layout, part: str) -> None:
     layout.label(text=part or "no part is chosen", icon="OBJECT_DATA")
 
 
+def draw_template(layout, operator, name: str) -> None:
+    """Draws a choice of templates: their names and, as soon as they are drawn, their pictures; a click shows all."""
+    layout.prop(operator, name)
+    if thumbnails.how_many():
+        layout.template_icon_view(operator, name, show_labels=True, scale=_ACROSS, scale_popup=_ACROSS)
+
+
 def ask(operator, context):
     """Opens the dialog."""
+    thumbnails.begin()
     return context.window_manager.invoke_props_dialog(operator)
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty
 
-from . import objects, work
+from . import objects, thumbnails, work
 from .boxes import draw_boxes, remove_boxes
 from .state import fill_slot, free_slot, report_of, session_of, settings_of, shown_slot, slot_of, store
 
@@ -35,6 +35,7 @@ class Applies:
 
     bl_options = {"REGISTER", "UNDO"}
     _run = None
+    _is_modal = False  # whether the window passes it events already
     wait: BoolProperty(name="Wait", description="Let the window wait for the result", options={"HIDDEN", "SKIP_SAVE"})
 
     @classmethod
@@ -96,7 +97,9 @@ class Applies:
             return self._finish(context)
         _active = self._run
         self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
-        context.window_manager.modal_handler_add(self)
+        if not self._is_modal:  # a second time, and Blender would free it twice
+            context.window_manager.modal_handler_add(self)
+            self._is_modal = True
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
@@ -148,6 +151,7 @@ class Applies:
             draw_boxes(session)
         session.status = f"{len(after.joints)} joints, {len(after.added)} parts added, {len(after.skipped)} left out"
         self.report({"INFO"}, session.status)
+        thumbnails.begin()
         return {"FINISHED"}
 
     def _refused(self, context, why):

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from math import degrees
 
+from build_blender_addon import LARGEST
 from judge_additions_table import COVERED
 
 from grafu.additions.carcass.config import CarcassConfig
@@ -175,6 +176,7 @@ def joints() -> Iterator[Sentence]:
     yield "exports.md", "friction takes no more than {:g} % of it", (per_cent(MOVES.braking_ratio),)
     yield "exports.md", "damped more, down to {:g} ms", (mm(MOVES.quickest),)
     yield from standing()
+    yield from extension()
     yield "exports.md", "Nothing moves under less than {:g} N at its", (MOVES.touch,)
     yield (
         "exports.md",
@@ -221,3 +223,8 @@ def standing() -> Iterator[Sentence]:
     yield page, "opens to {:g} % of its range, closes below {:g} %", (per_cent(CHECK.opened), per_cent(CHECK.closed))
     yield page, "no other joint moves by {:g} %", (per_cent(CHECK.closed),)
     yield page, "must carry a {:g} cm cube", (100 * CHECK.cube,)
+
+
+def extension() -> Iterator[Sentence]:
+    """Yields what docs/blender.md repeats of how the extension is built."""
+    yield "blender.md", "without OpenUSD is larger than {:g} MB", (LARGEST / 1e6,)

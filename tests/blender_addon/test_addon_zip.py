@@ -6,6 +6,7 @@ It needs the zip that `make blender` builds, in dist/, and a `bpy`; it skips wit
 import json
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,10 @@ from grafu.errors import ExportError
 from grafu.export.blend.exporter import find_interpreter
 
 ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from build_blender_addon import own_platform  # noqa: E402
+
 ASK = """
 import json, sys
 from importlib.util import find_spec
@@ -33,7 +38,8 @@ def bare_python(interpreter: str, folder: Path) -> tuple[str, str]:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    built = max((ROOT / "dist").glob("grafu-blender-*.zip"), key=lambda path: path.stat().st_mtime, default=None)
+    found = (ROOT / "dist").glob(f"grafu-blender-*-{own_platform()}*.zip")
+    built = max(found, key=lambda path: path.stat().st_mtime, default=None)
     if built is None:
         pytest.skip("no extension is built: `make blender`")
     try:
@@ -54,6 +60,7 @@ def folder(tmp_path_factory):
     )
     assert done.returncode == 0, (done.stdout + done.stderr)[-3000:]
     (made / "profile").write_text(str(profile))
+    (made / "built").write_text(built.stem)
     return made
 
 
@@ -79,4 +86,11 @@ def test_it_writes_every_file(facts, folder):
     assert facts["finalized"] == ["FINISHED"], facts["said"]
     written = {path.name for path in (folder / "final").iterdir()}
     assert written >= {"report.json", "settings.json", "source.glb", "graph.json"}
-    assert written >= {f"model.{form}" for form in ("glb", "urdf", "xml", "usdc", "usdz", "blend")}
+    assert written >= {f"model.{form}" for form in ("glb", "urdf", "xml", "blend")}
+
+
+def test_usd_is_written_where_openusd_is_in_the_zip_and_refused_in_a_line_elsewhere(facts, folder):
+    has_usd = (folder / "built").read_text().endswith("-usd")
+    assert facts["with usd"] == ["FINISHED" if has_usd else "CANCELLED"]
+    assert has_usd or "need OpenUSD's Python package" in facts["of usd"]
+    assert "\n" not in facts["of usd"]

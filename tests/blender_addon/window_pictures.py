@@ -13,11 +13,13 @@ from mathutils import Euler
 from window_hand import ARGUMENTS, FOLDER, Hand, play
 
 import blender_addon
-from blender_addon import lists, panels, run_operators
+from blender_addon import lists, objects, panels, run_operators, thumbnails
 
 SOURCE, *LEFT_OUT = ARGUMENTS
 _VIEW = Euler((1.2, 0.0, 0.5))  # from the front, a little from the right and from above
 _AMID = 0.3  # of a run
+_AJAR = 0.4
+_TO_PICTURE = (0, -130)  # pixels from the pointer to the picture in a dialog that opens below it
 _OPEN = 1.25  # how much more room it takes when it is open
 _only: set = set()  # names of the panels that are drawn; empty: all
 
@@ -87,6 +89,7 @@ def run(hand):
     yield 0.2
     keep(hand, "running", hand.region("UI"), whole=True)
     yield from hand.wait_while(running)
+    yield from hand.wait_while(lambda: not thumbnails.how_many())
     yield 0.6
 
 
@@ -107,6 +110,13 @@ def look(hand):
     deselect()
     yield 0.5
     keep(hand, "overlay", hand.area)
+    session = panels.session_of(bpy.context)
+    hand.call(bpy.ops.grafu.preview, "EXEC_DEFAULT", what="solo", ratio=_AJAR)
+    objects.select_part(bpy.context, session, session.active_joint.part)
+    hand.event("MOUSEMOVE", at=(5, 5))
+    yield 0.7
+    keep(hand, "handles", hand.area)
+    deselect()
 
 
 def refine(hand):
@@ -122,6 +132,7 @@ def refine(hand):
     yield from question(hand, "rails", bpy.ops.grafu.set_joint, part=sliding)
     yield from question(hand, "handle", bpy.ops.grafu.set_handle, part=part)
     yield from question(hand, "motion", bpy.ops.grafu.set_motion, part=part)
+    yield from all_templates(hand, part)
 
 
 def add(hand):
@@ -207,6 +218,21 @@ def question(hand, name, operator, **arguments):
     hand.call(operator, **arguments)
     yield 0.6
     keep(hand, name, None)
+    yield from hand.press("ESC", at)
+
+
+def all_templates(hand, part):
+    """All handles, as a click on the picture in the dialog shows them."""
+    at = hand.area.x + hand.area.width // 2, hand.area.y + hand.area.height // 2
+    hand.event("MOUSEMOVE", at=at)
+    yield 0.2
+    keep(hand, "templates_before", hand.area)
+    hand.call(bpy.ops.grafu.set_handle, part=part)
+    yield 0.6
+    yield from hand.press("LEFTMOUSE", tuple(a + b for a, b in zip(at, _TO_PICTURE, strict=True)))
+    yield 0.6
+    keep(hand, "templates", None)
+    yield from hand.press("ESC", at)
     yield from hand.press("ESC", at)
 
 

@@ -25,7 +25,7 @@ DIALOGS = ("set_joint", "set_handle", "set_top", "furnish", "set_label", "set_mo
 
 
 def script():
-    panels.GRAFU_PT_parts.bl_options = set()  # open, so that it is drawn
+    panels.GRAFU_PT_parts.bl_options = panels.GRAFU_PT_assets.bl_options = set()  # open, so that they are drawn
     hand = Hand()
     hand.watch(panels.CLASSES, lists.CLASSES)
     for module in (joint_operators, motion_operators, addition_operators, interior_operators):

@@ -25,7 +25,10 @@ def main():
     FACTS["ran"] = list(bpy.ops.grafu.functionalize())
     session = bpy.context.scene.grafu
     FACTS["status"], FACTS["joints"] = session.status, [row.level for row in session.joints]
-    final = {"directory": out, "name": "final", "formats": {"glb", "urdf", "mjcf", "usd", "usdz", "blend"}}
+    final = {"directory": out, "name": "final", "formats": {"glb", "urdf", "mjcf", "blend"}}
+    FACTS["with usd"] = list(bpy.ops.grafu.finalize("EXEC_DEFAULT", **{**final, "formats": {"usd", "usdz"}}))
+    FACTS["of usd"] = session.status
+    final["overwrite"] = True
     FACTS["finalized"] = list(bpy.ops.grafu.finalize("EXEC_DEFAULT", **final))
     FACTS["said"] = session.status
     import grafu

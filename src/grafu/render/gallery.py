@@ -137,7 +137,7 @@ def handle_files(handles: Sequence[HandleTemplate], finish: Material = STEEL) ->
     """Returns `handle_<id>.glb` for each handle at its natural size, and the sheet `handles.png`."""
     contents: dict[str, bytes] = {}
     for template in handles:
-        exported = export_glb(_shown(template, template.natural.length, finish))
+        exported = export_glb(handle_object(template, finish))
         contents[f"handle_{template.id}.glb"] = next(
             d for name, d in exported.contents.items() if name.endswith(".glb")
         )
@@ -158,6 +158,11 @@ def handle_picture(template: HandleTemplate, finish: Material = STEEL, size: tup
     visuals = posed_visuals(_shown(template, min(template.natural.length, _SHOWN_LENGTH), finish))
     camera = three_quarter_view(box_of(visuals), size[0] / size[1], radians(-35), radians(25))
     return render(visuals, camera, size)
+
+
+def handle_object(template: HandleTemplate, finish: Material = STEEL) -> ArticulatedObject:
+    """Returns a handle at its natural size as an object of one link."""
+    return _shown(template, template.natural.length, finish)
 
 
 def _shown(template: HandleTemplate, length: float, finish: Material) -> ArticulatedObject:
@@ -196,13 +201,27 @@ def _class_words(model: Model) -> str:
     return "concealed" if isinstance(model, ConcealedModel) else model.mechanism.in_words
 
 
+def template_picture(model: Model, size: tuple[int, int] = (300, 260)) -> Picture:
+    """Returns a picture of a hinge or rail, opened; `size` is width and height in pixels."""
+    shown, azimuth, ratio = _as_shown(model)
+    visuals = posed_visuals(shown, opened_values(shown, ratio))
+    return render(visuals, three_quarter_view(box_of(visuals), size[0] / size[1], azimuth), size)
+
+
 def _closed_and_opened(model: Model, size: tuple[int, int]) -> Picture:
-    """Returns a template closed and opened; rails are seen from the drawer's side, concealed hinges from within."""
-    if isinstance(model, ConcealedModel):
-        shown, azimuth, ratio = concealed_as_articulated(model), radians(-140), 0.8
-    else:
-        shown, is_hinge = as_articulated(shown_template(model)), isinstance(model, HingeModel)
-        azimuth, ratio = radians(-32 if is_hinge else 62), _SHOWN_OPENING if is_hinge else 1.0
+    shown, azimuth, ratio = _as_shown(model)
     poses = [posed_visuals(shown), posed_visuals(shown, opened_values(shown, ratio))]
     camera = three_quarter_view(box_of([v for pose in poses for v in pose]), size[0] / size[1], azimuth)
     return np.concatenate([render(pose, camera, size) for pose in poses], axis=1)
+
+
+def _as_shown(model: Model) -> tuple[ArticulatedObject, float, float]:
+    """Returns a template, from where it is seen (azimuth, radians) and how far it is opened (0..1).
+
+    Rails are seen from the drawer's side, concealed hinges from within.
+    """
+    if isinstance(model, ConcealedModel):
+        return concealed_as_articulated(model), radians(-140), 0.8
+    is_hinge = isinstance(model, HingeModel)
+    azimuth, ratio = radians(-32 if is_hinge else 62), _SHOWN_OPENING if is_hinge else 1.0
+    return as_articulated(shown_template(model)), azimuth, ratio

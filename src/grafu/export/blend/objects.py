@@ -95,7 +95,7 @@ def save_object(articulated: ArticulatedObject, path: Path) -> None:
         ArticulationError: if joints wait for one another.
         RuntimeError: if Blender cannot write the file.
     """
-    with _names_set_aside():
+    with names_set_aside():
         scene = bpy.data.scenes.new(fitted_name(articulated.name, 4))
         built = build_object(articulated, scene)
         try:
@@ -107,7 +107,7 @@ def save_object(articulated: ArticulatedObject, path: Path) -> None:
 
 
 @contextmanager
-def _names_set_aside() -> Iterator[None]:
+def names_set_aside() -> Iterator[None]:
     """Lets whatever Blender holds go by other names for a while, but for what it has from other files.
 
     Full names of such things name the file, too.
