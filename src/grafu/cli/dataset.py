@@ -2,7 +2,9 @@
 
 import argparse
 import re
+from collections import Counter
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,6 +28,7 @@ examples:
   grafu dataset results/* --only green --split 90/5/5 --out furniture
   grafu dataset results --format folder --license cc-by-4.0 --out furniture --overwrite
 """
+_LEFT_OUT = "left out"
 _UNITS = {"": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KIB": 2**10, "MIB": 2**20, "GIB": 2**30}
 
 
@@ -99,24 +102,17 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if none can be used, or the set cannot be written.
     """
-    from grafu.cli.terminal import with_progress
     from grafu.dataset.index import writes_parquet
     from grafu.export.whole_file import clear_remains
 
     clear_remains(options.out.absolute().parent)  # of a run that was killed
-    failed = 0
-    counts: dict[str, dict[str, int]] = {}
-    silent = options.quiet or options.json_lines
-    for outcome in with_progress(_outcomes(options), _most_models(options.results), "models", not silent):
-        failed += bool(outcome.error)
+    failed, counts = 0, Counter[tuple[str, str]]()
+    for outcome in _outcomes(options):
         if outcome.error:
+            failed += 1
             complain(outcome.error)
-        elif outcome.row is not None:
-            split = counts.setdefault(outcome.row["split"], {})
-            split[outcome.verdict] = split.get(outcome.verdict, 0) + 1
         else:
-            left_out = counts.setdefault("left out", {})
-            left_out[outcome.verdict] = left_out.get(outcome.verdict, 0) + 1
+            counts[outcome.row["split"] if outcome.row else _LEFT_OUT, outcome.verdict] += 1
         if options.json_lines:
             print_json(outcome_line(outcome))
     _print_counts(counts, options.out)
@@ -126,17 +122,14 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _outcomes(options: argparse.Namespace) -> "Iterator[ModelOutcome]":
+    from grafu.cli.terminal import with_progress
     from grafu.dataset.write import ResultSetPlan, write_result_set
 
     plan = ResultSetPlan(
         options.format, options.shard_size, options.split, options.seed, options.only, options.license, options.jobs
     )
-    return write_result_set(options.results, options.out, plan, options.overwrite)
-
-
-def _most_models(given: list[Path]) -> int:
-    """Returns how many results there are at most."""
-    return sum(max(1, sum(1 for _ in path.iterdir())) if path.is_dir() else 1 for path in given)
+    watch = partial(with_progress, shown=not (options.quiet or options.json_lines))
+    return write_result_set(options.results, options.out, plan, options.overwrite, watch)
 
 
 def outcome_line(outcome: "ModelOutcome") -> dict[str, object]:
@@ -152,14 +145,15 @@ def outcome_line(outcome: "ModelOutcome") -> dict[str, object]:
     }
 
 
-def _print_counts(counts: dict[str, dict[str, int]], out: Path) -> None:
+def _print_counts(counts: Counter[tuple[str, str]], out: Path) -> None:
     from grafu.cli.terminal import plain_table, wide_console
+    from grafu.dataset.layout import SPLITS
     from grafu.pipeline.words import Colour
 
     table = plain_table("split", "models", *Colour)
-    for split in ("train", "validation", "test", "left out"):
-        if split in counts:
-            held = counts[split]
-            table.add_row(split, str(sum(held.values())), *(str(held.get(colour, 0)) for colour in Colour))
+    for split in (*SPLITS, _LEFT_OUT):
+        held = [counts[split, colour] for colour in Colour]
+        if any(held):
+            table.add_row(split, str(sum(held)), *map(str, held))
     wide_console().print(table)
     say(f"written to {out}")

@@ -101,33 +101,35 @@ def _typed(name: str, kind: ColumnKind, indent: str) -> Iterator[str]:
         yield f"{indent}  list: {_TYPES[kind.removesuffix('s')]}"
 
 
-def _body(
-    title: str, tallies: Mapping[str, SplitTally], is_tar: bool, license_name: str, seed: int
-) -> Iterator[str]:
-    yield from (f"# {title}", "")
-    yield f"Furniture whose doors, drawers and lids move: results of `grafu functionalize`, written by grafu {__version__}."
+def _body(title: str, tallies: Mapping[str, SplitTally], is_tar: bool, license_name: str, seed: int) -> Iterator[str]:
+    yield from (f"# {title}", "", "Furniture whose doors, drawers and lids move: results of `grafu functionalize`.")
     yield from ("", *_table(tallies), "", "## Splits", "")
-    yield "Near-duplicates (moved, scaled, mirrored in X, cut into other triangles) are in one `group`, and a group lies in"
-    yield f"one split. The split follows from the geometric hash and the seed {seed}."
+    yield "Near-duplicates (moved, scaled, mirrored in X, cut into other triangles) are one `group`, and lie in one split."
+    yield f"The split follows from the geometric hash and the seed {seed}."
     yield from ("", "## What is in it", "")
     yield f"`{INDEX}` has a row for each model (`index.parquet` has the same rows, where it is there):"
     yield from ("", "| figure | what it is |", "|---|---|", *(f"| `{c.name}` | {c.meaning} |" for c in COLUMNS), "")
     yield from _layout(is_tar)
     yield from ("", "## Where it comes from, and its licence", "")
-    yield "Shapes and textures are those of the models that were read; hinges, rails, handles, joints and masses were added."
-    yield "The rights in a model are those of its source, and grafu grants none. `report.json` names each source as it was given."
-    known = "No licence was stated." if license_name == UNKNOWN_LICENSE else f"The licence as stated: `{license_name}`."
-    yield known
+    yield f"Made with grafu {__version__}. Shapes and textures are those of the models that were read; hinges, rails, handles,"
+    yield "joints and masses were added. The rights in a model are those of its source, and grafu grants none."
+    yield "`report.json` names each source as it was given."
+    is_known = license_name != UNKNOWN_LICENSE
+    yield f"The licence as stated: `{license_name}`." if is_known else "No licence was stated."
 
 
 def _layout(is_tar: bool) -> Iterator[str]:
     if is_tar:
-        yield "A shard (WebDataset) holds `KEY.json`, the row, and the files of the result as `KEY.model.glb` and so on;"
+        yield "A shard (WebDataset) holds `KEY.json`, the row, and the files of the result, as `KEY.model.glb`;"
         yield f"`KEY.{BUNDLE}` holds those that find each other by their paths (model.urdf and its meshes)."
     else:
         yield f"Each folder `SPLIT/KEY` holds the files of a result; `SPLIT/{METADATA}` has the rows of the split."
     yield from ("", "```python", "from grafu.dataset import load_dataset", "")
-    yield from ('for sample in load_dataset("DIR", split="train"):', '    sample.figures, sample.files["model.glb"]', "```")
+    yield from (
+        'for sample in load_dataset("DIR", split="train"):',
+        '    sample.figures, sample.files["model.glb"]',
+        "```",
+    )
 
 
 def _table(tallies: Mapping[str, SplitTally]) -> Iterator[str]:

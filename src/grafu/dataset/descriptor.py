@@ -86,7 +86,7 @@ def _halved(triangles: Triangles, edge: np.ndarray) -> Triangles:
 
 
 def _add_areas(cells: Grid, triangles: Triangles, cell: Float[np.ndarray, "3"]) -> None:
-    """Adds to each cell the area near its middle, by how squarely it faces along X, Y and Z; shares it with the next."""
+    """Adds to each cell the area near its middle, by how squarely it faces along each axis; cells blend linearly."""
     if not len(triangles):
         return
     normals = np.cross((triangles[:, 1] - triangles[:, 0]) * cell, (triangles[:, 2] - triangles[:, 0]) * cell) / 2

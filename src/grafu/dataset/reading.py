@@ -1,7 +1,7 @@
 """Reads a set that `grafu dataset` wrote, model by model, whatever its size. It needs the standard library alone.
 
-    for sample in load_dataset("DIR", split="train"):
-        sample.name, sample.report, sample.files["model.glb"]
+for sample in load_dataset("DIR", split="train"):
+    sample.name, sample.report, sample.files["model.glb"]
 """
 
 import json
@@ -49,7 +49,9 @@ class ModelSample:
         try:
             return dict(json.loads(self.files["report.json"]))
         except (KeyError, ValueError, TypeError):
-            raise UnreadableAsset(f"the report of {self.name} in the set is missing or damaged: make it again") from None
+            raise UnreadableAsset(
+                f"the report of {self.name} in the set is missing or damaged: make it again"
+            ) from None
 
     def save(self, folder: str | Path, overwrite: bool = False) -> None:
         """Writes the files into a folder, whole or not at all: then it is a result again, which simulators load.
@@ -111,7 +113,7 @@ def _members(shard: tarfile.TarFile) -> Iterator[tuple[str, bytes]]:
         content = shard.extractfile(member) if member.isreg() else None
         if content is not None:
             yield member.name, content.read()
-        shard.members = []  # else each of a large shard is kept
+        shard.members = []  # type: ignore[attr-defined]  # else it remembers each of a large shard
 
 
 def _samples_of_folder(folder: Path) -> Iterator[ModelSample]:

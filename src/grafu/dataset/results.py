@@ -10,8 +10,9 @@ from typing import Final, final
 from grafu.articulation.articulated_object import VisualRole
 from grafu.asset.json_files import read_own
 from grafu.asset.regular_files import MARKER
+from grafu.asset.resources import reason_of
 from grafu.dataset.descriptor import Descriptor, describe
-from grafu.errors import AssetError, ExportError, UnreadableAsset
+from grafu.errors import ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.files import ExportFiles
 from grafu.export.glb_object import read_glb_object
 from grafu.export.marker import read_marker
@@ -57,8 +58,14 @@ def results_in(given: Iterable[Path]) -> Iterator[Path | UnreadableAsset]:
         if not path.is_dir():
             yield UnreadableAsset(f"{path}: a result is a folder that `grafu functionalize` wrote; there is none")
             continue
-        inside = [path] if _is_result(path) else sorted(p for p in path.iterdir() if p.is_dir() and _is_result(p))
-        yield from inside or [UnreadableAsset(f"{path}: it holds no result that `grafu functionalize` wrote")]
+        try:
+            inside = [path] if _is_result(path) else sorted(p for p in path.iterdir() if p.is_dir() and _is_result(p))
+        except OSError as error:
+            yield UnreadableAsset(why_unusable(error, path))
+            continue
+        yield from inside
+        if not inside:
+            yield UnreadableAsset(f"{path}: it holds no result that `grafu functionalize` wrote")
 
 
 def _is_result(folder: Path) -> bool:
@@ -113,9 +120,7 @@ def key_of(name: str) -> str:
     return plain if plain == name else f"{plain}~{digest}"
 
 
-def why_unusable(error: AssetError | ExportError, folder: Path) -> str:
+def why_unusable(error: FunctionalizationError | OSError, folder: Path) -> str:
     """Returns the line that names the folder and states why it is left out."""
-    text = str(error)
+    text = f"it cannot be read ({reason_of(error)})" if isinstance(error, OSError) else str(error)
     return text if str(folder) in text else f"{folder}: {text}"
-
-

@@ -11,7 +11,6 @@ from typing import Final, final
 from grafu.dataset.layout import SPLITS
 from grafu.errors import OptionError
 
-
 _RANGE: Final = 2**64
 
 

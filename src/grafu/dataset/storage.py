@@ -18,6 +18,9 @@ from grafu.dataset.layout import BUNDLE, FIGURES, METADATA, json_line
 from grafu.export.marker import Marker
 
 _MODE: Final = 0o644
+_MOST_AROUND: Final = (
+    8 * tarfile.BLOCKSIZE
+)  # of a file: its head, a second one for a long name, padding, its name in the row
 
 
 @final
@@ -38,6 +41,11 @@ class ModelContent:
         """The bytes of all files."""
         return sum(len(data) for files in (self.apart, self.bundled) for data in files.values())
 
+    @property
+    def most_stored(self) -> int:
+        """The most bytes that a shard needs for it, with its row, heads and padding."""
+        return self.size + _MOST_AROUND * (1 + len(self.apart) + len(self.bundled)) + 2 * tarfile.RECORDSIZE
+
 
 class ModelStorage(Protocol):
     """Takes models one after another: first it states where one will be, then it is given the model with its row."""
@@ -57,7 +65,7 @@ class ModelStorage(Protocol):
 
 @final
 class TarShards:
-    """Shards `SPLIT-000000.tar` of at most so many bytes each; a larger model has one for itself."""
+    """Shards `SPLIT-000000.tar` of at most so many bytes each; a model that needs more has one for itself."""
 
     def __init__(self, folder: Path, most_bytes: int) -> None:
         self._folder, self._most = folder, most_bytes
@@ -74,7 +82,7 @@ class TarShards:
 
     def place(self, split: str, content: ModelContent) -> str:
         """Returns the shard that the model will be in: the one that is open, or a new one where that is full."""
-        if split in self._open and self._open[split].offset + content.size > self._most:
+        if split in self._open and self._open[split].offset + content.most_stored > self._most:
             self._open.pop(split).close()
             self._number[split] += 1
         name = f"{split}-{self._number.setdefault(split, 0):06d}.tar"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
 from pathlib import Path
-from typing import Final, Literal, final
+from typing import Final, Literal, Protocol, TypeVar, final
 
 import numpy as np
 
@@ -22,21 +22,35 @@ from grafu.dataset.card import UNKNOWN_LICENSE, SplitTally, card, require_licens
 from grafu.dataset.descriptor import Descriptor, geometric_hash
 from grafu.dataset.figures import Row, figures_of, in_order
 from grafu.dataset.index import IndexWriter
-from grafu.dataset.layout import CARD
+from grafu.dataset.layout import CARD, INDEX
 from grafu.dataset.near_duplicates import group_names, near_duplicates
 from grafu.dataset.results import key_of, open_result, results_in, shape_of, why_unusable
 from grafu.dataset.splits import SplitRatio, splits_of
 from grafu.dataset.storage import ModelContent, ModelFolders, TarShards
-from grafu.errors import AssetError, ExportError, UnreadableAsset
+from grafu.errors import ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.files import require_free, whole_folder
+from grafu.export.marker import read_marker
 from grafu.export.output_names import same_place, why_not_apart
 from grafu.pipeline.verdict import verdict_of
 from grafu.pipeline.words import Colour
 
 SetFormat = Literal["tar", "folder"]
 LEAST_COLOUR: Final = {"green": (Colour.GREEN,), "yellow": (Colour.GREEN, Colour.YELLOW), "all": tuple(Colour)}
-_CHUNK: Final = 64
+_CHUNK: Final = 1000  # results that a process gets at once, at most
 _CHUNKS_OF_EACH: Final = 4
+T = TypeVar("T")
+
+
+class Watch(Protocol):
+    """Shows how far the work is: yields the items as they come, `total` of what `word` names."""
+
+    def __call__(self, items: Iterable[T], total: int, word: str, /) -> Iterable[T]:
+        """Returns the items."""
+
+
+def unwatched(items: Iterable[T], *_: object) -> Iterable[T]:
+    """Shows nothing."""
+    return items
 
 
 @final
@@ -97,24 +111,23 @@ class _Assigned:
 
 
 def write_result_set(
-    given: Sequence[Path], out: Path, plan: ResultSetPlan, overwrite: bool = False
+    given: Sequence[Path], out: Path, plan: ResultSetPlan, overwrite: bool = False, watch: Watch = unwatched
 ) -> Iterator[ModelOutcome]:
     """Writes the set of all results that are given, or lie in folders that are given; yields what becomes of each.
 
     What cannot be used is left out. Stopping the iterator leaves nothing behind.
 
     Raises:
-        ExportError: if the set cannot be written, or would replace one of the results.
+        ExportError: if the set cannot be written, or would replace one of the results, or something else than a set.
         UnreadableAsset: if there is no result that can be used.
     """
     require_free(out, overwrite)
-    if why := why_not_apart(out, given):
-        raise ExportError(why)
     found = list(results_in(given))
     folders = list(dict.fromkeys(one for one in found if isinstance(one, Path)))
+    _require_place(out, (*given, *folders))
     yield from (ModelOutcome(Path(), error=str(one)) for one in found if not isinstance(one, Path))
     described: list[DescribedResult] = []
-    for one in _apart(_described(folders, plan.jobs)):
+    for one in watch(_apart(_described(folders, plan.jobs)), len(folders), "looked through"):
         if isinstance(one, ModelOutcome):
             yield one
         elif one.verdict in LEAST_COLOUR[plan.only]:
@@ -122,8 +135,18 @@ def write_result_set(
         else:
             yield ModelOutcome(one.folder, verdict=one.verdict)
     if not described:
-        raise UnreadableAsset(f"none of the {len(found)} inputs can come into a set: see above, or choose another --only")
-    yield from _store(_assigned(described, plan), out, plan, overwrite)
+        raise UnreadableAsset(f"no result of {len(found)} can come into the set: mend what is wrong, or change --only")
+    with whole_folder(out, overwrite) as fresh:
+        yield from _store(watch(_assigned(described, plan), len(described), "stored"), fresh, out.resolve().name, plan)
+
+
+def _require_place(out: Path, results: Iterable[Path]) -> None:
+    """Makes sure that the set replaces no result and nothing but an earlier set."""
+    if why := why_not_apart(out, results):
+        raise ExportError(why)
+    marker = read_marker(out)
+    if marker is not None and marker.files and INDEX not in marker.files:
+        raise ExportError(f"`{out}` holds another output of grafu than a set of results: choose another --out")
 
 
 def _described(folders: list[Path], jobs: int) -> Iterator[DescribedResult | ModelOutcome]:
@@ -137,7 +160,7 @@ def _describe(folders: list[Path], index: int) -> DescribedResult | ModelOutcome
     try:
         result = open_result(folder)
         return DescribedResult(folder, verdict_of(result.report).colour, shape_of(result))
-    except (AssetError, ExportError) as error:
+    except (FunctionalizationError, OSError) as error:
         return ModelOutcome(folder, error=why_unusable(error, folder))
 
 
@@ -171,25 +194,23 @@ def _shuffled(folder: Path, seed: int) -> bytes:
     return blake2b(f"{seed}:{folder.resolve().name}".encode("utf-8", "surrogatepass"), digest_size=16).digest()
 
 
-def _store(results: Sequence[_Assigned], out: Path, plan: ResultSetPlan, overwrite: bool) -> Iterator[ModelOutcome]:
+def _store(results: Iterable[_Assigned], folder: Path, title: str, plan: ResultSetPlan) -> Iterator[ModelOutcome]:
     tallies: dict[str, SplitTally] = {}
-    with whole_folder(out, overwrite) as fresh:
-        storage = TarShards(fresh, plan.shard_bytes) if plan.format == "tar" else ModelFolders(fresh)
-        with storage, IndexWriter(fresh) as index:
-            for one in results:
-                try:
-                    content, figures = _content(one)
-                except (AssetError, ExportError) as error:
-                    yield ModelOutcome(one.folder, error=why_unusable(error, one.folder))
-                    continue
-                row = in_order({**figures, "split": one.split, "shard": storage.place(one.split, content)})
-                storage.add(one.split, content, row)
-                index.add(row)
-                tallies.setdefault(one.split, SplitTally()).add(row)
-                yield ModelOutcome(one.folder, row, verdict=row["verdict"])
-        title = out.resolve().name
-        text = card(title, tallies, plan.format == "tar", plan.license, plan.seed)
-        (fresh / CARD).write_text(text, encoding="utf-8")
+    storage = TarShards(folder, plan.shard_bytes) if plan.format == "tar" else ModelFolders(folder)
+    with storage, IndexWriter(folder) as index:
+        for one in results:
+            try:
+                content, figures = _content(one)
+            except (FunctionalizationError, OSError) as error:  # it was changed meanwhile
+                yield ModelOutcome(one.folder, error=why_unusable(error, one.folder))
+                continue
+            row = in_order({**figures, "split": one.split, "shard": storage.place(one.split, content)})
+            storage.add(one.split, content, row)
+            index.add(row)
+            tallies.setdefault(one.split, SplitTally()).add(row)
+            yield ModelOutcome(one.folder, row, verdict=row["verdict"])
+    text = card(title, tallies, plan.format == "tar", plan.license, plan.seed)
+    (folder / CARD).write_text(text, encoding="utf-8")
 
 
 def _content(one: _Assigned) -> tuple[ModelContent, Row]:

@@ -105,7 +105,7 @@ def write_files(files: ExportFiles, folder: Path, overwrite: bool = False) -> No
 
 @contextmanager
 def whole_folder(folder: Path, overwrite: bool = False) -> Iterator[Path]:
-    """Yields an empty folder to fill with more than memory holds; then it is put at `folder` with a marker of its files.
+    """Yields an empty folder to fill with more than memory holds; then it is put at `folder`, with a marker.
 
     Folders in it that have a marker of their own are listed by that. If the body fails, nothing of it is left.
 
