@@ -18,7 +18,7 @@ from grafu.version import __version__
 ROOT = Path(__file__).parent.parent
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 LEARNING = ("network", "training")  # the folders that the product does without
-# What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, the USD export, the editor, Parquet.
+# What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, USD, the editor, Parquet.
 OPTIONAL = {"collada", "DracoPy", "mujoco", "bpy", "pxr", "zstandard", "starlette", "uvicorn", "pyarrow"}
 SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
 # Spelled in pieces, so that this file does not hold what it forbids.

@@ -104,15 +104,15 @@ def _typed(name: str, kind: ColumnKind, indent: str) -> Iterator[str]:
 def _body(title: str, tallies: Mapping[str, SplitTally], is_tar: bool, license_name: str, seed: int) -> Iterator[str]:
     yield from (f"# {title}", "", "Furniture whose doors, drawers and lids move: results of `grafu functionalize`.")
     yield from ("", *_table(tallies), "", "## Splits", "")
-    yield "Near-duplicates (moved, scaled, mirrored in X, cut into other triangles) are one `group`, and lie in one split."
+    yield "Near-duplicates (moved, scaled, mirrored, cut into other triangles) are one `group`, and lie in one split."
     yield f"The split follows from the geometric hash and the seed {seed}."
     yield from ("", "## What is in it", "")
     yield f"`{INDEX}` has a row for each model (`index.parquet` has the same rows, where it is there):"
     yield from ("", "| figure | what it is |", "|---|---|", *(f"| `{c.name}` | {c.meaning} |" for c in COLUMNS), "")
     yield from _layout(is_tar)
     yield from ("", "## Where it comes from, and its licence", "")
-    yield f"Made with grafu {__version__}. Shapes and textures are those of the models that were read; hinges, rails, handles,"
-    yield "joints and masses were added. The rights in a model are those of its source, and grafu grants none."
+    yield f"Made with grafu {__version__}. Shapes and textures are those of the models that were read; hinges, rails,"
+    yield "handles, joints and masses were added. The rights in a model are those of its source, and grafu grants none."
     yield "`report.json` names each source as it was given."
     is_known = license_name != UNKNOWN_LICENSE
     yield f"The licence as stated: `{license_name}`." if is_known else "No licence was stated."

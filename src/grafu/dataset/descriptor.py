@@ -11,7 +11,7 @@ from itertools import product
 from typing import Final, TypeAlias
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from grafu.dataset.config import DescriptorConfig
 from grafu.geometry.mesh import TriangleMesh
@@ -77,7 +77,7 @@ def _in_small_pieces(triangles: Triangles, config: DescriptorConfig) -> Iterator
             some = _halved(some[~is_small], edges[~is_small].argmax(axis=1))
 
 
-def _halved(triangles: Triangles, edge: np.ndarray) -> Triangles:
+def _halved(triangles: Triangles, edge: Int[np.ndarray, " n"]) -> Float[np.ndarray, "twice_n 3 3"]:
     """Returns two triangles for each, parted in the middle of the edge that begins at the corner of this number."""
     rows = np.arange(len(triangles))
     first, second, third = (triangles[rows, (edge + k) % 3] for k in range(3))

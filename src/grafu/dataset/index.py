@@ -2,7 +2,7 @@
 
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any, Final, Self, final
+from typing import Any, Final, final
 
 from grafu.dataset.figures import COLUMNS, MOTION_FIELDS, ColumnKind, Row
 from grafu.dataset.layout import INDEX, PARQUET, json_line
@@ -28,7 +28,7 @@ class IndexWriter:
         self._lines = self._closing.enter_context((folder / INDEX).open("wb"))
         self._table = self._closing.enter_context(_ParquetTable(folder / PARQUET)) if writes_parquet() else None
 
-    def __enter__(self) -> Self:
+    def __enter__(self) -> "IndexWriter":
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -50,7 +50,7 @@ class _ParquetTable:
         self._writer = ParquetWriter(path, self._schema)
         self._held: list[Row] = []
 
-    def __enter__(self) -> Self:
+    def __enter__(self) -> "_ParquetTable":
         return self
 
     def __exit__(self, *_: object) -> None:

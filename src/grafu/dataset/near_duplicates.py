@@ -58,7 +58,7 @@ def _connected(points: Descriptors, config: DescriptorConfig) -> Int[np.ndarray,
     return groups
 
 
-def _shortened(points: Descriptors, axes: int) -> Descriptors:
+def _shortened(points: Descriptors, axes: int) -> Float32[np.ndarray, "models axes"]:
     """Returns the points along the axes on which they spread most: no distance grows, so no neighbour is lost."""
     centred = points - points.mean(axis=0)
     _, directions = np.linalg.eigh(centred.T.astype(np.float64) @ centred)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from io import BytesIO
 from itertools import groupby
-from pathlib import Path
+from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any, final
 
@@ -121,7 +121,7 @@ def _samples_of_folder(folder: Path) -> Iterator[ModelSample]:
         for number, line in enumerate(rows, 1):
             try:
                 row = json.loads(line)
-                files = FilesOfModel(folder / str(row["key"]), tuple(map(str, row["files"])))
+                files = FilesOfModel(folder / PurePath(row["key"]).name, tuple(map(str, row["files"])))
             except (KeyError, ValueError, TypeError):
                 raise UnreadableAsset(f"{folder / METADATA} is damaged in line {number}: write the set again") from None
             yield ModelSample(row, files)
@@ -137,6 +137,8 @@ class FilesOfModel(Mapping[str, bytes]):
     def __getitem__(self, name: str) -> bytes:
         if name not in self._names:
             raise KeyError(name)
+        if PurePath(name).is_absolute() or ".." in PurePath(name).parts:
+            raise UnreadableAsset(f"{self._folder} cannot hold a file {name!r}: write the set again")
         try:
             return (self._folder / name).read_bytes()
         except OSError as error:

@@ -9,8 +9,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from types import TracebackType
-from typing import Final, Protocol, Self, final
+from typing import Final, final
 
 from grafu.asset.regular_files import MARKER
 from grafu.dataset.figures import Row
@@ -47,22 +46,6 @@ class ModelContent:
         return self.size + _MOST_AROUND * (1 + len(self.apart) + len(self.bundled)) + 2 * tarfile.RECORDSIZE
 
 
-class ModelStorage(Protocol):
-    """Takes models one after another: first it states where one will be, then it is given the model with its row."""
-
-    def place(self, split: str, content: ModelContent) -> str:
-        """Returns the shard that the model will be in, relative to the set."""
-
-    def add(self, split: str, content: ModelContent, row: Row) -> None:
-        """Writes the model."""
-
-    def __enter__(self) -> Self: ...
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None: ...
-
-
 @final
 class TarShards:
     """Shards `SPLIT-000000.tar` of at most so many bytes each; a model that needs more has one for itself."""
@@ -72,7 +55,7 @@ class TarShards:
         self._open: dict[str, tarfile.TarFile] = {}
         self._number: dict[str, int] = {}
 
-    def __enter__(self) -> Self:
+    def __enter__(self) -> "TarShards":
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -106,7 +89,7 @@ class ModelFolders:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
-    def __enter__(self) -> Self:
+    def __enter__(self) -> "ModelFolders":
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
 from pathlib import Path
-from typing import Final, Literal, Protocol, TypeVar, final
+from typing import Final, Literal, Protocol, TypeVar, final, runtime_checkable
 
 import numpy as np
 
@@ -41,6 +41,7 @@ _CHUNKS_OF_EACH: Final = 4
 T = TypeVar("T")
 
 
+@runtime_checkable
 class Watch(Protocol):
     """Shows how far the work is: yields the items as they come, `total` of what `word` names."""
 
