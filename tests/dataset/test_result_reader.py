@@ -1,6 +1,7 @@
 """Sets are read back, streamed, with the standard library alone; what is damaged is one line."""
 
 import json
+import re
 import subprocess
 import sys
 import tarfile
@@ -10,6 +11,7 @@ import pytest
 
 from folders import contents
 from grafu.dataset import load_dataset
+from grafu.dataset.splits import SplitRatio
 from grafu.dataset.write import ResultSetPlan, write_result_set
 from grafu.errors import FunctionalizationError, OptionError, UnreadableAsset
 
@@ -118,3 +120,22 @@ def test_the_package_webdataset_reads_the_same(results: Path, tmp_path: Path) ->
     found = {one["__key__"]: one for one in webdataset.WebDataset(shards, shardshuffle=False)}
     assert found.keys() == {"cabinet", "chest", "larger", "mirrored"}
     assert found["chest"]["model.glb"] == (results / "chest" / "model.glb").read_bytes()
+
+
+@pytest.mark.parametrize(("page", "out"), [("research.md", "results/furniture"), ("datasets.md", "furniture")])
+def test_the_lines_of_the_pages_read_a_set(
+    page: str,
+    out: str,
+    results: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    text = (Path(__file__).parent.parent.parent / "docs" / page).read_text()
+    code = next(code for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "grafu.dataset" in code)
+    monkeypatch.chdir(tmp_path)
+    list(write_result_set([results / "cabinet"], Path(out), ResultSetPlan(ratio=SplitRatio((100.0, 0.0, 0.0)))))
+
+    exec(compile(code, page, "exec"), {})
+    assert capsys.readouterr().out.startswith("cabinet ")
+    assert len([line for line in code.splitlines() if line]) <= 5

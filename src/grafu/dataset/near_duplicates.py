@@ -61,5 +61,5 @@ def _connected(points: Descriptors, config: DescriptorConfig) -> Int[np.ndarray,
 def _shortened(points: Descriptors, axes: int) -> Float32[np.ndarray, "models axes"]:
     """Returns the points along the axes on which they spread most: no distance grows, so no neighbour is lost."""
     centred = points - points.mean(axis=0)
-    _, directions = np.linalg.eigh(centred.T.astype(np.float64) @ centred)
+    _, directions = np.linalg.eigh((centred.T @ centred).astype(np.float64))
     return np.asarray(centred @ directions[:, -axes:], dtype=np.float32)
