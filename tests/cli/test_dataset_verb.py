@@ -2,6 +2,8 @@
 
 import json
 import shutil
+from collections.abc import Iterator
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import pytest
@@ -110,3 +112,18 @@ def test_a_license_that_would_break_the_card_is_refused(
 
 def test_sizes_take_units() -> None:
     assert [byte_count(text) for text in ("1000", "500MB", "2 GiB", "1.5kb")] == [1000, 500_000_000, 2**31, 1500]
+
+
+def test_a_process_that_dies_is_one_line(
+    results: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("grafu.dataset.write.ordered_map", died)
+
+    assert main(["dataset", str(results), "--out", str(tmp_path / "set"), "--jobs", "2"]) == 1
+    assert "try fewer --jobs" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def died(*_: object) -> Iterator[None]:
+    yield from ()
+    raise BrokenProcessPool

@@ -1,6 +1,7 @@
 """A set from results: what is in it, that it is whole or not there, and that its splits hold when it grows."""
 
 import json
+import os
 import shutil
 import tarfile
 from itertools import pairwise
@@ -196,6 +197,18 @@ def test_two_of_one_name_are_told_apart_or_refused(copied: Path, results: Path, 
     assert rows.keys() == {"chest", "old.v1 chest"}
     assert "." not in rows["old.v1 chest"]["key"]
     assert {sample.name for sample in load_dataset(tmp_path / "again")} == rows.keys()
+
+
+def test_a_name_that_is_no_unicode_is_written_as_an_escape(results: Path, tmp_path: Path) -> None:
+    folder = tmp_path / os.fsdecode(b"caf\xe9")
+    try:
+        shutil.copytree(results / "chest", folder)
+    except OSError:
+        pytest.skip("the disk takes no such name")
+
+    rows = written([folder], tmp_path / "set")
+    assert rows.keys() == {"caf\\udce9"}
+    assert [sample.name for sample in load_dataset(tmp_path / "set")] == ["caf\\udce9"]
 
 
 def test_verdicts_that_are_not_wanted_are_left_out(copied: Path, tmp_path: Path) -> None:

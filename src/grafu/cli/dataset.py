@@ -12,6 +12,7 @@ from grafu.cli.input_options import positive_count
 from grafu.cli.synth import whole_number
 from grafu.cli.telling import add_telling_options, print_json
 from grafu.cli.verb import EXIT_DONE, EXIT_FAILED, complain, say
+from grafu.processes.lifetime import END_REQUESTS
 
 if TYPE_CHECKING:
     from grafu.dataset.splits import SplitRatio
@@ -102,6 +103,20 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if none can be used, or the set cannot be written.
     """
+    from concurrent.futures.process import BrokenProcessPool
+
+    try:
+        return _written(options)
+    except BrokenProcessPool:
+        if END_REQUESTS.are_made:  # the same request ended the workers
+            raise KeyboardInterrupt from None
+        complain(
+            "a process died (out of memory, or a crash in a native library): try fewer --jobs; nothing was written"
+        )
+        return EXIT_FAILED
+
+
+def _written(options: argparse.Namespace) -> int:
     from grafu.dataset.index import writes_parquet
     from grafu.export.whole_file import clear_remains
 

@@ -113,11 +113,15 @@ def shape_of(result: StoredResult) -> Descriptor:
     return describe([visual.mesh for visual in visuals if visual.role is VisualRole.PART and visual.surfaces])
 
 
+def name_of(folder: Path) -> str:
+    """Returns the name of a result: its folder's, where bytes that are no UTF-8 are written as escapes."""
+    return folder.resolve().name.encode("utf-8", "backslashreplace").decode()
+
+
 def key_of(name: str) -> str:
     """Returns the name of a model's files before the first dot; one with dots is mended, and stays unlike others."""
     plain = re.sub(r"[./\\]", "_", name)
-    digest = blake2b(name.encode("utf-8", "surrogatepass"), digest_size=4).hexdigest()
-    return plain if plain == name else f"{plain}~{digest}"
+    return plain if plain == name else f"{plain}~{blake2b(name.encode(), digest_size=4).hexdigest()}"
 
 
 def why_unusable(error: FunctionalizationError | OSError, folder: Path) -> str:

@@ -24,7 +24,7 @@ from grafu.dataset.figures import Row, figures_of, in_order
 from grafu.dataset.index import IndexWriter
 from grafu.dataset.layout import CARD, INDEX
 from grafu.dataset.near_duplicates import group_names, near_duplicates
-from grafu.dataset.results import key_of, open_result, results_in, shape_of, why_unusable
+from grafu.dataset.results import key_of, name_of, open_result, results_in, shape_of, why_unusable
 from grafu.dataset.splits import SplitRatio, splits_of
 from grafu.dataset.storage import ModelContent, ModelFolders, TarShards
 from grafu.errors import ExportError, FunctionalizationError, UnreadableAsset
@@ -172,7 +172,7 @@ def _apart(results: Iterable[DescribedResult | ModelOutcome]) -> Iterator[Descri
         if isinstance(one, ModelOutcome):
             yield one
             continue
-        first = named.setdefault(same_place(key_of(one.folder.resolve().name)), one.folder)
+        first = named.setdefault(same_place(key_of(name_of(one.folder))), one.folder)
         why = f"{one.folder}: {first} has the same name, by which models are known in a set: rename one of the folders"
         yield one if first == one.folder else ModelOutcome(one.folder, error=why)
 
@@ -192,7 +192,7 @@ def _assigned(results: Sequence[DescribedResult], plan: ResultSetPlan) -> list[_
 
 
 def _shuffled(folder: Path, seed: int) -> bytes:
-    return blake2b(f"{seed}:{folder.resolve().name}".encode("utf-8", "surrogatepass"), digest_size=16).digest()
+    return blake2b(f"{seed}:{name_of(folder)}".encode(), digest_size=16).digest()
 
 
 def _store(results: Iterable[_Assigned], folder: Path, title: str, plan: ResultSetPlan) -> Iterator[ModelOutcome]:
@@ -219,7 +219,7 @@ def _content(one: _Assigned) -> tuple[ModelContent, Row]:
     result = open_result(one.folder)
     bundled = set(result.bundled)
     files = {name: result.read(name) for name in result.files}
-    name = one.folder.resolve().name
+    name = name_of(one.folder)
     content = ModelContent(
         key_of(name),
         {name: data for name, data in files.items() if name not in bundled},
