@@ -56,9 +56,18 @@ def test_what_cannot_be_read_is_one_line(tmp_path: Path, capsys: pytest.CaptureF
     assert main(["dataset", str(tmp_path / "gone"), "--out", str(tmp_path / "set")]) == 2
     said = capsys.readouterr().err
 
-    assert "gone: a result is a folder" in said
-    assert "Traceback" not in said
+    assert said.startswith(f"grafu: {tmp_path / 'gone'}: a result is a folder")
+    assert said.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def test_of_several_that_cannot_be_read_each_has_a_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    given = [str(tmp_path / name) for name in ("gone", "lost")]
+    assert main(["dataset", *given, "--out", str(tmp_path / "set"), "--quiet"]) == 2
+
+    lines = capsys.readouterr().err.splitlines()
+    assert [("gone" in line, "lost" in line) for line in lines] == [(True, False), (False, True), (False, False)]
+    assert "no result of 2" in lines[2]
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])

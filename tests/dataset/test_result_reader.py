@@ -5,7 +5,9 @@ import re
 import subprocess
 import sys
 import tarfile
+from contextlib import suppress
 from pathlib import Path
+from random import Random
 
 import pytest
 
@@ -122,7 +124,7 @@ def test_the_package_webdataset_reads_the_same(results: Path, tmp_path: Path) ->
     assert found["chest"]["model.glb"] == (results / "chest" / "model.glb").read_bytes()
 
 
-@pytest.mark.parametrize(("page", "out"), [("research.md", "results/furniture"), ("datasets.md", "furniture")])
+@pytest.mark.parametrize(("page", "out"), [("research.md", "results/set"), ("datasets.md", "furniture")])
 def test_the_lines_of_the_pages_read_a_set(
     page: str,
     out: str,
@@ -139,3 +141,18 @@ def test_the_lines_of_the_pages_read_a_set(
     exec(compile(code, page, "exec"), {})
     assert capsys.readouterr().out.startswith("cabinet ")
     assert len([line for line in code.splitlines() if line]) <= 5
+
+
+def test_any_damage_to_a_shard_is_read_or_refused(results: Path, tmp_path: Path) -> None:
+    list(write_result_set([results / "cabinet"], tmp_path / "set", ResultSetPlan()))
+    (shard,) = (tmp_path / "set").glob("*.tar")
+    whole, random = shard.read_bytes(), Random(0)
+    heads = [k for k in range(0, len(whole), 512) if whole[k + 257 : k + 262] == b"ustar"]
+
+    for _ in range(300):
+        data = bytearray(whole)
+        for _ in range(random.randint(1, 3)):
+            data[random.choice(heads) + random.randrange(512)] = random.randrange(256)
+        shard.write_bytes(data[: random.choice((len(data), random.randrange(len(data))))])
+        with suppress(FunctionalizationError):
+            assert all(len(sample.files) <= len(heads) for sample in load_dataset(tmp_path / "set"))

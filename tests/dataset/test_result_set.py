@@ -231,6 +231,19 @@ def test_nothing_that_can_be_used_is_an_error_and_writes_nothing(tmp_path: Path)
     assert [path.name for path in tmp_path.iterdir()] == ["empty"]
 
 
+def test_results_that_vanish_while_a_set_is_written_leave_no_set(copied: Path, tmp_path: Path) -> None:
+    def watch(items, total, word):
+        if word == "stored":
+            shutil.rmtree(copied)
+        return items
+
+    outcomes = write_result_set([copied / "chest"], tmp_path / "set", PLAN, watch=watch)
+    assert "by which grafu knows" in next(outcomes).error
+    with pytest.raises(UnreadableAsset, match="while the set was written"):
+        next(outcomes)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_an_iterator_that_is_stopped_leaves_nothing(results: Path, tmp_path: Path) -> None:
     outcomes = write_result_set([results], tmp_path / "set", PLAN)
     next(outcomes)

@@ -121,19 +121,31 @@ def _written(options: argparse.Namespace) -> int:
     from grafu.export.whole_file import clear_remains
 
     clear_remains(options.out.absolute().parent)  # of a run that was killed
-    failed, counts = 0, Counter[tuple[str, str]]()
-    for outcome in _outcomes(options):
-        if outcome.error:
-            failed += 1
-            complain(outcome.error)
-        else:
+    counts, errors = Counter[tuple[str, str]](), 0
+    for outcome in _complained_of(_outcomes(options)):
+        errors += bool(outcome.error)
+        if not outcome.error:
             counts[outcome.row["split"] if outcome.row else _LEFT_OUT, outcome.verdict] += 1
         if options.json_lines:
             print_json(outcome_line(outcome))
     _print_counts(counts, options.out)
     if not writes_parquet():
         say("index.parquet was left out: pip install 'grafu[dataset]' (index.jsonl holds the same)")
-    return EXIT_FAILED if failed else EXIT_DONE
+    return EXIT_FAILED if errors else EXIT_DONE
+
+
+def _complained_of(outcomes: "Iterator[ModelOutcome]") -> "Iterator[ModelOutcome]":
+    """Yields the outcomes, and states each error when the next comes: that of a single result is raised again."""
+    waiting, count = "", 0
+    try:
+        for outcome in outcomes:
+            if waiting:
+                complain(waiting)
+            waiting, count = outcome.error, count + 1
+            yield outcome
+    finally:
+        if waiting and count > 1:
+            complain(waiting)
 
 
 def _outcomes(options: argparse.Namespace) -> "Iterator[ModelOutcome]":

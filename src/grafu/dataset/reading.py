@@ -5,6 +5,7 @@ for sample in load_dataset("DIR", split="train"):
 """
 
 import json
+import os
 import tarfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -13,10 +14,13 @@ from io import BytesIO
 from itertools import groupby
 from pathlib import Path, PurePath
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any, Final, final
 
+from grafu.asset.regular_files import TooManyBytes, is_within, read_regular
 from grafu.dataset.layout import BUNDLE, FIGURES, INDEX, METADATA, SPLITS
 from grafu.errors import OptionError, UnreadableAsset, did_you_mean
+
+_MOST_BYTES: Final = 2**32  # of one file
 
 
 @final
@@ -46,12 +50,7 @@ class ModelSample:
         Raises:
             UnreadableAsset: if it is missing or damaged.
         """
-        try:
-            return dict(json.loads(self.files["report.json"]))
-        except (KeyError, ValueError, TypeError):
-            raise UnreadableAsset(
-                f"the report of {self.name} in the set is missing or damaged: make it again"
-            ) from None
+        return _object(self.files.get("report.json", b""), f"the report of {self.name}")
 
     def save(self, folder: str | Path, overwrite: bool = False) -> None:
         """Writes the files into a folder, whole or not at all: then it is a result again, which simulators load.
@@ -91,13 +90,15 @@ def _samples(folder: Path, splits: tuple[str, ...]) -> Iterator[ModelSample]:
 
 def _samples_of_shard(path: Path) -> Iterator[ModelSample]:
     try:
+        if not path.is_file():
+            raise tarfile.ReadError("it is no regular file")
         with tarfile.open(path, "r|") as shard:
             for key, members in groupby(_members(shard), lambda member: member[0].partition(".")[0]):
                 held = {name[len(key) + 1 :]: data for name, data in members}
-                bundle = held.pop(BUNDLE, None)
-                figures = json.loads(held.pop(FIGURES))
-                yield ModelSample(figures, MappingProxyType({**held, **(_unpacked(bundle) if bundle else {})}))
-    except (tarfile.TarError, EOFError, OSError, KeyError, ValueError) as error:
+                bundle, figures = held.pop(BUNDLE, b""), held.pop(FIGURES, b"")
+                files = {**held, **(_unpacked(bundle) if bundle else {})}
+                yield ModelSample(_figures(figures, f"the row of {key} in {path}"), MappingProxyType(files))
+    except (tarfile.TarError, EOFError, OSError, ValueError) as error:
         why = " ".join(str(error).split()) or type(error).__name__
         raise UnreadableAsset(f"{path} is damaged or no shard of a set ({why}): write the set again") from None
 
@@ -110,6 +111,8 @@ def _unpacked(bundle: bytes) -> dict[str, bytes]:
 def _members(shard: tarfile.TarFile) -> Iterator[tuple[str, bytes]]:
     """Yields the names and contents of the regular files in a tar, in order."""
     for member in shard:
+        if member.issparse() or member.size > _MOST_BYTES:
+            raise tarfile.ReadError(f"{member.name} has more than 4 GiB, or holes")
         content = shard.extractfile(member) if member.isreg() else None
         if content is not None:
             yield member.name, content.read()
@@ -119,12 +122,29 @@ def _members(shard: tarfile.TarFile) -> Iterator[tuple[str, bytes]]:
 def _samples_of_folder(folder: Path) -> Iterator[ModelSample]:
     with (folder / METADATA).open("rb") as rows:
         for number, line in enumerate(rows, 1):
-            try:
-                row = json.loads(line)
-                files = FilesOfModel(folder / PurePath(row["key"]).name, tuple(map(str, row["files"])))
-            except (KeyError, ValueError, TypeError):
-                raise UnreadableAsset(f"{folder / METADATA} is damaged in line {number}: write the set again") from None
-            yield ModelSample(row, files)
+            figures = _figures(line, f"line {number} of {folder / METADATA}")
+            yield ModelSample(figures, FilesOfModel(folder / PurePath(figures["key"]).name, tuple(figures["files"])))
+
+
+def _figures(data: bytes, where: str) -> Mapping[str, Any]:
+    """Returns a row of the index, in which at least the names are what they should be."""
+    row = _object(data, where)
+    names = row.get("files")
+    is_list = isinstance(names, list) and all(isinstance(name, str) for name in names)
+    is_named = all(isinstance(row.get(name), str) for name in ("name", "key")) and row["key"] not in ("", ".", "..")
+    if not is_list or not is_named:
+        raise UnreadableAsset(f"{where} is damaged, for it names no model or no files: write the set again")
+    return row
+
+
+def _object(data: bytes, where: str) -> Mapping[str, Any]:
+    try:
+        found = json.loads(data)
+    except (ValueError, RecursionError):
+        found = None
+    if not isinstance(found, dict):
+        raise UnreadableAsset(f"{where} is missing or damaged, for it is no JSON object: write the set again")
+    return found
 
 
 @final
@@ -137,12 +157,15 @@ class FilesOfModel(Mapping[str, bytes]):
     def __getitem__(self, name: str) -> bytes:
         if name not in self._names:
             raise KeyError(name)
-        if PurePath(name).is_absolute() or ".." in PurePath(name).parts:
-            raise UnreadableAsset(f"{self._folder} cannot hold a file {name!r}: write the set again")
+        path = Path(os.path.realpath(self._folder / name))
+        if not is_within(path, self._folder.parent):
+            raise UnreadableAsset(f"{self._folder / name} leads out of the set: write the set again")
         try:
-            return (self._folder / name).read_bytes()
-        except OSError as error:
-            why = error.strerror or type(error).__name__
+            return read_regular(path, _MOST_BYTES, Path(os.path.realpath(self._folder.parent)))
+        except TooManyBytes:
+            raise UnreadableAsset(f"{self._folder / name} has more than 4 GiB: write the set again") from None
+        except (OSError, ValueError) as error:
+            why = getattr(error, "strerror", None) or type(error).__name__
             raise UnreadableAsset(f"{self._folder / name} cannot be read ({why}): write the set again") from None
 
     def __iter__(self) -> Iterator[str]:

@@ -12,6 +12,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
+from itertools import chain
 from pathlib import Path
 from typing import Final, Literal, Protocol, TypeVar, final, runtime_checkable
 
@@ -120,23 +121,27 @@ def write_result_set(
 
     Raises:
         ExportError: if the set cannot be written, or would replace one of the results, or something else than a set.
-        UnreadableAsset: if there is no result that can be used.
+        UnreadableAsset: if there is no result that can be used; of a single one, with the error that was yielded.
     """
     require_free(out, overwrite)
     found = list(results_in(given))
     folders = list(dict.fromkeys(one for one in found if isinstance(one, Path)))
     _require_place(out, (*given, *folders))
-    yield from (ModelOutcome(Path(), error=str(one)) for one in found if not isinstance(one, Path))
     described: list[DescribedResult] = []
-    for one in watch(_apart(_described(folders, plan.jobs)), len(folders), "looked through"):
+    error = ""
+    unreadable = (ModelOutcome(Path(), error=str(one)) for one in found if not isinstance(one, Path))
+    looked = watch(_apart(_described(folders, plan.jobs)), len(folders), "looked through")
+    for one in chain(unreadable, looked):
         if isinstance(one, ModelOutcome):
+            error = one.error
             yield one
         elif one.verdict in LEAST_COLOUR[plan.only]:
             described.append(one)
         else:
             yield ModelOutcome(one.folder, verdict=one.verdict)
     if not described:
-        raise UnreadableAsset(f"no result of {len(found)} can come into the set: mend what is wrong, or change --only")
+        none = f"no result of {len(found)} can come into the set: mend what is wrong, or change --only"
+        raise UnreadableAsset(error if error and len(found) == 1 else none)
     with whole_folder(out, overwrite) as fresh:
         yield from _store(watch(_assigned(described, plan), len(described), "stored"), fresh, out.resolve().name, plan)
 
@@ -210,6 +215,8 @@ def _store(results: Iterable[_Assigned], folder: Path, title: str, plan: ResultS
             index.add(row)
             tallies.setdefault(one.split, SplitTally()).add(row)
             yield ModelOutcome(one.folder, row, verdict=row["verdict"])
+    if not tallies:
+        raise UnreadableAsset("every result was changed while the set was written: run again when they are finished")
     text = card(title, tallies, plan.format == "tar", plan.license, plan.seed)
     (folder / CARD).write_text(text, encoding="utf-8")
 
