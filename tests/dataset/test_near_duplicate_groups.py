@@ -86,3 +86,12 @@ def test_more_groups_move_no_model(hash_of_group) -> None:
 def test_percentages_that_do_not_add_up_are_refused(percents) -> None:
     with pytest.raises(OptionError, match="add up to 100"):
         SplitRatio(percents)
+
+
+def test_what_was_in_a_split_before_stays_there_with_its_group() -> None:
+    groups, hashes = ["a", "b", "a", "c", "c", "c"], ["7", "3", "1", "9", "8", "7"]
+    earlier = ["", "test", "validation", "train", "test", "test"]
+
+    for seed in range(10):
+        found = splits_of(groups, hashes, SplitRatio(), seed, earlier)
+        assert found == ["validation", "test", "validation", "test", "test", "test"]

@@ -17,6 +17,7 @@ from grafu.dataset.write import ResultSetPlan, write_result_set
 from grafu.errors import ExportError, OptionError, UnreadableAsset
 
 PLAN = ResultSetPlan()
+TRAIN = SplitRatio((100.0, 0.0, 0.0))
 
 
 def written(given: list[Path], out: Path, plan: ResultSetPlan = PLAN, overwrite: bool = False) -> dict[str, dict]:
@@ -103,13 +104,34 @@ def test_more_results_move_no_model(results: Path, tmp_path: Path) -> None:
         assert all_rows["chest"]["split"] == few["chest"]["split"]
 
 
+def test_an_earlier_set_states_the_splits(results: Path, tmp_path: Path) -> None:
+    every = ResultSetPlan(ratio=SplitRatio((0.0, 0.0, 100.0)))
+    written([results / "cabinet"], tmp_path / "set", every)
+    rows = written([results], tmp_path / "set", ResultSetPlan(like=tmp_path / "set", ratio=TRAIN), overwrite=True)
+
+    assert {name: row["split"] for name, row in rows.items()} == {
+        **dict.fromkeys(("cabinet", "mirrored", "larger"), "test"),
+        "chest": "train",
+    }
+
+
+@pytest.mark.parametrize("data", [None, b"{", b"[]", b'{"name": "a", "split": "all"}', b'{"split": "test"}'])
+def test_what_is_no_earlier_set_is_refused(data: bytes | None, results: Path, tmp_path: Path) -> None:
+    (tmp_path / "earlier").mkdir()
+    if data is not None:
+        (tmp_path / "earlier" / "index.jsonl").write_bytes(data)
+
+    with pytest.raises(UnreadableAsset, match="the index of a set"):
+        list(write_result_set([results], tmp_path / "set", ResultSetPlan(like=tmp_path / "earlier")))
+    assert not (tmp_path / "set").exists()
+
+
 def test_shards_stay_below_their_size_unless_one_model_is_larger(results: Path, tmp_path: Path) -> None:
-    every = SplitRatio((100.0, 0.0, 0.0))
-    rows = written([results], tmp_path / "small", ResultSetPlan(ratio=every, shard_bytes=1))
+    rows = written([results], tmp_path / "small", ResultSetPlan(ratio=TRAIN, shard_bytes=1))
     assert sorted(row["shard"] for row in rows.values()) == [f"train-{k:06d}.tar" for k in range(4)]
 
     most = sum(row["bytes"] for row in rows.values()) // 2 + 200_000
-    rows = written([results], tmp_path / "two", ResultSetPlan(ratio=every, shard_bytes=most))
+    rows = written([results], tmp_path / "two", ResultSetPlan(ratio=TRAIN, shard_bytes=most))
     assert 1 < len({row["shard"] for row in rows.values()}) < 4
     assert all(path.stat().st_size <= most for path in (tmp_path / "two").glob("*.tar"))
 

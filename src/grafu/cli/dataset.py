@@ -60,6 +60,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )
     parser.add_argument("--seed", type=whole_number, default=0, metavar="N", help="which splits (default: 0)")
     parser.add_argument(
+        "--like", type=Path, metavar="SET", help="an earlier set: its models, by name, stay in their splits"
+    )
+    parser.add_argument(
         "--only",
         choices=("green", "yellow", "all"),
         default="all",
@@ -153,7 +156,14 @@ def _outcomes(options: argparse.Namespace) -> "Iterator[ModelOutcome]":
     from grafu.dataset.write import ResultSetPlan, write_result_set
 
     plan = ResultSetPlan(
-        options.format, options.shard_size, options.split, options.seed, options.only, options.license, options.jobs
+        options.format,
+        options.shard_size,
+        options.split,
+        options.seed,
+        options.only,
+        options.license,
+        options.jobs,
+        options.like,
     )
     watch = partial(with_progress, shown=not (options.quiet or options.json_lines))
     return write_result_set(options.results, options.out, plan, options.overwrite, watch)

@@ -1,17 +1,22 @@
 """Which split a model belongs to: decided by its geometric hash and the seed alone, so that a set can grow.
 
-All near-duplicates of a group lie in one split: that of the least hash in the group.
+All near-duplicates of a group lie in one split: that of the least hash in the group, or that of an earlier set.
 """
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
 from itertools import accumulate
+from pathlib import Path
 from typing import Final, final
 
-from grafu.dataset.layout import SPLITS
-from grafu.errors import OptionError
+from grafu.asset.json_files import parse_json, read_own
+from grafu.dataset.layout import INDEX, SPLITS
+from grafu.errors import OptionError, UnreadableAsset
 
 _RANGE: Final = 2**64
+_MOST_BYTES: Final = 2**32  # of an index
 
 
 @final
@@ -39,9 +44,36 @@ class SplitRatio:
         return next((name for name, bound in bounds if drawn < bound), SPLITS[-1])
 
 
-def splits_of(groups: list[str], hashes: list[str], ratio: SplitRatio, seed: int) -> list[str]:
-    """Returns the split of each model, from the name of its group and its geometric hash."""
+def splits_of(
+    groups: list[str], hashes: list[str], ratio: SplitRatio, seed: int, earlier: Sequence[str] = ()
+) -> list[str]:
+    """Returns the split of each model, from the name of its group and its geometric hash.
+
+    `earlier` states in which split each was before, empty where it was in none: its group stays there; where two splits
+    are stated in a group, it goes to the one of more of its models.
+    """
     least: dict[str, str] = {}
-    for group, one in zip(groups, hashes, strict=True):
+    stated: dict[str, Counter[str]] = {}
+    for group, one, before in zip(groups, hashes, earlier or [""] * len(groups), strict=True):
         least[group] = min(least.get(group, one), one)
-    return [ratio.split_of(least[group], seed) for group in groups]
+        if before:
+            stated.setdefault(group, Counter())[before] += 1
+    drawn = {group: ratio.split_of(one, seed) for group, one in least.items()}
+    kept = {group: max(SPLITS, key=lambda split: counts[split]) for group, counts in stated.items()}
+    return [kept.get(group, drawn[group]) for group in groups]
+
+
+def splits_in(folder: Path) -> dict[str, str]:
+    """Returns the split of each model, by name, in an earlier set.
+
+    Raises:
+        UnreadableAsset: if the folder holds no index of a set.
+    """
+    expected = "the index of a set that `grafu dataset` wrote"
+    found: dict[str, str] = {}
+    for line in read_own(folder / INDEX, expected, _MOST_BYTES).splitlines():
+        row = parse_json(line, folder / INDEX, expected)
+        if not isinstance(row, dict) or not isinstance(row.get("name"), str) or row.get("split") not in SPLITS:
+            raise UnreadableAsset(f"{folder / INDEX} is damaged: expected {expected}")
+        found[row["name"]] = row["split"]
+    return found

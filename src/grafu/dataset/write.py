@@ -7,7 +7,7 @@
 First each result is looked through and described; then all are grouped, given their splits, and stored.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
@@ -26,7 +26,7 @@ from grafu.dataset.index import IndexWriter
 from grafu.dataset.layout import CARD, INDEX
 from grafu.dataset.near_duplicates import group_names, near_duplicates
 from grafu.dataset.results import key_of, name_of, open_result, results_in, shape_of, why_unusable
-from grafu.dataset.splits import SplitRatio, splits_of
+from grafu.dataset.splits import SplitRatio, splits_in, splits_of
 from grafu.dataset.storage import ModelContent, ModelFolders, TarShards
 from grafu.errors import ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.files import require_free, whole_folder
@@ -60,6 +60,8 @@ def unwatched(items: Iterable[T], *_: object) -> Iterable[T]:
 class ResultSetPlan:
     """How a set is written: `only` is the worst verdict that comes in (`all`: any), `shard_bytes` the most of a shard.
 
+    Models of the set in the folder `like` stay in their splits.
+
     Raises:
         OptionError: if the license is not spelled as on Hugging Face.
     """
@@ -71,6 +73,7 @@ class ResultSetPlan:
     only: Literal["green", "yellow", "all"] = "all"
     license: str = UNKNOWN_LICENSE
     jobs: int = 1
+    like: Path | None = None
 
     def __post_init__(self) -> None:
         require_license(self.license)
@@ -121,12 +124,14 @@ def write_result_set(
 
     Raises:
         ExportError: if the set cannot be written, or would replace one of the results, or something else than a set.
-        UnreadableAsset: if there is no result that can be used; of a single one, with the error that was yielded.
+        UnreadableAsset: if `like` is no set, or there is no result that can be used (of a single one: the error that
+            was yielded).
     """
     require_free(out, overwrite)
     found = list(results_in(given))
     folders = list(dict.fromkeys(one for one in found if isinstance(one, Path)))
     _require_place(out, (*given, *folders))
+    earlier = splits_in(plan.like) if plan.like else {}
     described: list[DescribedResult] = []
     error = ""
     unreadable = (ModelOutcome(Path(), error=str(one)) for one in found if not isinstance(one, Path))
@@ -143,7 +148,9 @@ def write_result_set(
         none = f"no result of {len(found)} can come into the set: mend what is wrong, or change --only"
         raise UnreadableAsset(error if error and len(found) == 1 else none)
     with whole_folder(out, overwrite) as fresh:
-        yield from _store(watch(_assigned(described, plan), len(described), "stored"), fresh, out.resolve().name, plan)
+        yield from _store(
+            watch(_assigned(described, plan, earlier), len(described), "stored"), fresh, out.resolve().name, plan
+        )
 
 
 def _require_place(out: Path, results: Iterable[Path]) -> None:
@@ -182,13 +189,14 @@ def _apart(results: Iterable[DescribedResult | ModelOutcome]) -> Iterator[Descri
         yield one if first == one.folder else ModelOutcome(one.folder, error=why)
 
 
-def _assigned(results: Sequence[DescribedResult], plan: ResultSetPlan) -> list[_Assigned]:
+def _assigned(results: Sequence[DescribedResult], plan: ResultSetPlan, earlier: Mapping[str, str]) -> list[_Assigned]:
     """Returns where each goes, in the order in which they are stored: by a digest of the name, as if shuffled."""
     descriptors = np.stack([one.descriptor for one in results])
     groups = group_names(descriptors, near_duplicates(descriptors))
     sizes = dict(zip(*np.unique(groups, return_counts=True), strict=True))
     hashes = [geometric_hash(one) for one in descriptors]
-    splits = splits_of(groups, hashes, plan.ratio, plan.seed)
+    before = [earlier.get(name_of(one.folder), "") for one in results]
+    splits = splits_of(groups, hashes, plan.ratio, plan.seed, before)
     made = [
         _Assigned(one.folder, split, word, group, int(sizes[group]))
         for one, split, word, group in zip(results, splits, hashes, groups, strict=True)
