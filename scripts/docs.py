@@ -28,6 +28,7 @@ from stated.store import load_store
 
 from grafu import errors
 from grafu.asset import options
+from grafu.dataset.figures import COLUMNS
 from grafu.export.formats import FORMATS
 from grafu.pipeline import inspection, report_schema
 from grafu.refusal import Reason
@@ -128,6 +129,7 @@ def drawn_pages() -> dict[str, str]:
         ("inputs.md", "limits"): limits_table(),
         ("exports.md", "formats"): formats_table(),
         ("dataset.md", "strategies"): strategies_table(),
+        ("datasets.md", "columns"): columns_table(),
         ("training.md", "configurations"): training_configs(),
         ("training.md", "loss choices"): loss_choices(),
         ("training.md", "departures"): paper_departures(),
@@ -173,6 +175,12 @@ def limits_table() -> str:
         f"| `{options.limit_name(f.name)}` | {f.default:,} | {f.metadata['counts']} |" for f in fields(options.Limits)
     ]
     return "\n".join(["| `--limit` | at most | of |", "|---|---|---|", *rows])
+
+
+def columns_table() -> str:
+    """Returns the table of the figures in the index of a set of results."""
+    rows = [f"| `{column.name}` | {column.kind} | {column.meaning} |" for column in COLUMNS]
+    return "\n".join(["| figure | type | what it is |", "|---|---|---|", *rows])
 
 
 def report_page() -> str:

@@ -32,6 +32,7 @@ from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceC
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.decode_config import FactConfig
 from grafu.completion.ways_out import WayOutConfig
+from grafu.dataset.config import DescriptorConfig
 from grafu.metrics.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
 from grafu.segmentation.config import (
@@ -199,7 +200,7 @@ IN_FUNCTIONS = {
 CONFIGS = (
     AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
     DrawnGripConfig,
-    DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
+    DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
     LooseConfig,
     MassConfig, MatchConfig,

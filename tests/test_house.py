@@ -18,9 +18,9 @@ from grafu.version import __version__
 ROOT = Path(__file__).parent.parent
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 LEARNING = ("network", "training")  # the folders that the product does without
-# What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, the USD export, the editor,
-# baselines that ask a language model.
-OPTIONAL = {"collada", "DracoPy", "mujoco", "bpy", "pxr", "zstandard", "starlette", "uvicorn", "openai"}
+# What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, USD, the editor, baselines that ask
+# a language model, Parquet.
+OPTIONAL = {"collada", "DracoPy", "mujoco", "bpy", "pxr", "zstandard", "starlette", "uvicorn", "openai", "pyarrow"}
 SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
 # Spelled in pieces, so that this file does not hold what it forbids.
 ONE_MACHINE = re.compile(r"(?<![\w.])/(" + "|".join(["wo" + "rk", "t" + "mp", "ho" + "me", "ro" + "ot"]) + r")/\w")

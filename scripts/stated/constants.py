@@ -15,6 +15,8 @@ from grafu.completion.session import SHIPPED_WEIGHTS
 from grafu.data.corruption.config import PAPER as CORRUPTION
 from grafu.data.furfun import folder
 from grafu.data.shards_arrays import STEPS
+from grafu.dataset.config import DescriptorConfig
+from grafu.dataset.write import ResultSetPlan
 from grafu.evaluation import bootstrap, distribution, measures, methods, moving_parts, plausible, twins
 from grafu.evaluation.llm.config import LlmConfig
 from grafu.evaluation.programs.config import ProgramConfig
@@ -31,7 +33,7 @@ from stated.constants_built import Sentence, additions, joints, per_cent
 
 _MATCH = matching.MatchConfig()
 
-SEEN, VERDICT = FeatureConfig(), VerdictConfig()
+SEEN, VERDICT, SHAPE = FeatureConfig(), VerdictConfig(), DescriptorConfig()
 
 
 def millions(config: GraFuConfig) -> float:
@@ -151,6 +153,9 @@ def others() -> Iterator[Sentence]:
     yield "limits.md", "goes more than {:g} GB beyond", (round(limits._SPARE / 1e9),)
     yield "limits.md", "after {} times as long it is stopped", (PATIENCE,)
     yield "limits.md", "| `--memory SIZE` | {} (of", (limit_options.MEMORY,)
+    yield "datasets.md", "{} x {} x {} cells", (SHAPE.cells_across, SHAPE.cells_deep, SHAPE.cells_up)
+    yield "datasets.md", "at most {:g} apart", (SHAPE.radius,)
+    yield "datasets.md", "shards of {:g} MB", (ResultSetPlan().shard_bytes / 1e6,)
     yield "predictions.md", "agree in it to {} of the size", (_MATCH.exact,)
     yield "predictions.md", "({} times the best and {} of the size)", (_MATCH.alike, _MATCH.alike_beyond)
 

@@ -21,6 +21,7 @@ VERBS = (
     "train",
     "ablate",
     "evaluate",
+    "dataset",
 )
 
 

@@ -47,7 +47,7 @@ def test_they_are_those_of_the_card_and_small_enough() -> None:
 
 
 def test_they_see_what_parts_are_sampled_for() -> None:
-    assert open_network().features == FeatureConfig(kinds="paper")
+    assert open_network().features == FeatureConfig()
 
 
 def test_doors_and_drawers_of_made_furniture_move_as_they_should(accuracies: dict[str, GraphAccuracy]) -> None:

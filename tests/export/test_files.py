@@ -7,7 +7,7 @@ import pytest
 from folders import contents
 from grafu.asset.regular_files import MARKER
 from grafu.errors import ExportError
-from grafu.export.files import ExportFiles, add_files, write_files
+from grafu.export.files import ExportFiles, add_files, whole_folder, write_files
 from grafu.export.marker import Marker, read_marker
 
 FILES = ExportFiles({"model.urdf": b"<robot/>", "meshes/door.obj": b"v 0 0 0\n"})
@@ -280,3 +280,60 @@ def test_what_is_not_ours_is_kept_and_links_stay_links(tmp_path, monkeypatch, ha
     write_files(FILES, tmp_path / "out", overwrite=True)
     assert (tmp_path / "out" / "link").readlink().name == "notes.txt"
     assert contents(tmp_path / "out") == {**FILES.contents, "notes.txt": b"mine", "link": b"mine"}
+
+
+def test_a_folder_filled_piece_by_piece_appears_whole(tmp_path):
+    with whole_folder(tmp_path / "a" / "set") as fresh:
+        (fresh / "sub").mkdir()
+        (fresh / "sub" / "one.tar").write_bytes(b"1")
+        assert not (tmp_path / "a" / "set").exists()
+
+    assert contents(tmp_path / "a" / "set") == {"sub/one.tar": b"1"}
+    assert read_marker(tmp_path / "a" / "set").files == (MARKER, "sub/one.tar")
+    assert os.listdir(tmp_path / "a") == ["set"]
+
+
+def test_a_folder_whose_filling_fails_leaves_the_earlier_one(tmp_path):
+    write_files(FILES, tmp_path / "set")
+
+    def fill(error):
+        with whole_folder(tmp_path / "set", overwrite=True) as fresh:
+            (fresh / "half.tar").write_bytes(b"1")
+            raise error
+
+    with pytest.raises(ZeroDivisionError):
+        fill(ZeroDivisionError())
+    with pytest.raises(ExportError, match="No space left"):
+        fill(OSError(errno.ENOSPC, "No space left on device"))
+    assert contents(tmp_path / "set") == dict(FILES.contents)
+    assert os.listdir(tmp_path) == ["set"]
+
+
+def fill_with_results(folder, *names, overwrite=False):
+    with whole_folder(folder, overwrite) as fresh:
+        for name in names:
+            write_files(FILES, fresh / name)
+
+
+def test_folders_with_markers_of_their_own_are_replaced_with_the_whole(tmp_path):
+    fill_with_results(tmp_path / "set", "cabinet", "chest")
+    (tmp_path / "set" / "chest" / "notes.txt").write_text("mine")
+    assert read_marker(tmp_path / "set").files == (MARKER, f"cabinet/{MARKER}", f"chest/{MARKER}")
+
+    fill_with_results(tmp_path / "set", "desk", overwrite=True)
+
+    found = contents(tmp_path / "set")
+    assert found == {"chest/notes.txt": b"mine"} | {f"desk/{name}": data for name, data in FILES.contents.items()}
+
+
+def test_a_result_that_a_user_put_into_a_folder_of_results_stays(tmp_path):
+    fill_with_results(tmp_path / "set", "cabinet")
+    write_files(FILES, tmp_path / "set" / "mine")
+
+    fill_with_results(tmp_path / "set", "cabinet", overwrite=True)
+    assert (tmp_path / "set" / "mine" / "model.urdf").is_file()
+
+    (tmp_path / "set" / "cabinet" / "extra.txt").write_text("mine")
+    with pytest.raises(ExportError, match=r"extra\.txt"), whole_folder(tmp_path / "set", overwrite=True) as fresh:
+        write_files(ExportFiles({"extra.txt": b"grafu's"}), fresh / "cabinet")
+    assert (tmp_path / "set" / "cabinet" / "extra.txt").read_text() == "mine"

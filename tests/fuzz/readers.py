@@ -108,6 +108,18 @@ def resume_result(entry: Path, out: Path, rng: Random) -> list[str]:
     return ["functionalize", str(entry.parent / "cabinet.obj"), "--out", str(out), "--no-page", "--resume", *_TIME]
 
 
+def read_result_set(entry: Path, rng: Random) -> Any:
+    from grafu.dataset import load_dataset
+
+    samples = list(load_dataset(entry, rng.choice((None, "train"))))
+    return [(sample.name, sample.report, dict(sample.files)) for sample in samples]
+
+
+def set_of_results(entry: Path, out: Path, rng: Random) -> list[str]:
+    """The command puts results that were changed into a set."""
+    return ["dataset", str(entry / "train"), "--out", str(out / "set"), "--format", rng.choice(("tar", "folder"))]
+
+
 def _no_plain_file(folder: str, names: list[str]) -> list[str]:
     return [n for n in names if not os.path.isfile(os.path.join(folder, n)) or os.path.islink(os.path.join(folder, n))]
 
@@ -125,6 +137,7 @@ _OTHER: dict[str, Reader] = {
     "release": Reader(read_release),
     "shards": Reader(read_shards),
     "result": Reader(read_result, resume_result),
+    "set of results": Reader(read_result_set, set_of_results),
 }
 
 

@@ -1,6 +1,7 @@
 """Files of every other kind that is read: predictions, settings, templates, graphs, releases, shards, results."""
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -133,6 +134,20 @@ def result(folder: Path) -> str:
     return "result"
 
 
+def result_set(folder: Path) -> str:
+    """A set of one result in folders: each of its files, and the result in it, is read again."""
+    from grafu.dataset.splits import SplitRatio
+    from grafu.dataset.write import ResultSetPlan, write_result_set
+
+    made = folder / result(folder)
+    out = folder / "set"
+    plan = ResultSetPlan(format="folder", ratio=SplitRatio((100.0, 0.0, 0.0)))
+    assert all(outcome.row for outcome in write_result_set([made], out, plan))
+    shutil.rmtree(made)
+    (out / "index.parquet").unlink()  # it states no content that is read
+    return "set"
+
+
 OTHERS: dict[str, Maker] = {
     "prediction of singapo": _beside_cabinet(_singapo),
     "prediction of particulate": _beside_cabinet(_particulate),
@@ -144,6 +159,7 @@ OTHERS: dict[str, Maker] = {
     "release": release,
     "shards": shards,
     "result": result,
+    "set of results": result_set,
 }
 
 STARTS: dict[str, Maker] = {**MODELS, **OTHERS}

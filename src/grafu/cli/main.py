@@ -14,6 +14,7 @@ from grafu.cli import (
     ablate,
     check,
     completion,
+    dataset,
     doctor,
     edit,
     evaluate,
@@ -45,6 +46,7 @@ _VERBS = (
     train,
     ablate,
     evaluate,
+    dataset,
 )
 _EPILOG = """\
 examples:
@@ -60,6 +62,7 @@ examples:
   grafu train --out runs/base
   grafu ablate losses --out runs/losses
   grafu evaluate --data models --out results
+  grafu dataset results --out furniture
 
 exit codes: 0 done; 1 some of several inputs failed, or an error of our own; 2 bad input or arguments;
 130 after Ctrl-C, 143 after SIGTERM
@@ -149,6 +152,7 @@ def build_parser() -> _Parser:
         train,
         ablate,
         evaluate,
+        dataset,
     ):
         subparser = verb.add_parser(verbs)
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter

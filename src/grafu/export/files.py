@@ -91,7 +91,7 @@ def write_files(files: ExportFiles, folder: Path, overwrite: bool = False) -> No
     folder = Path(os.path.abspath(folder)).resolve()
     require_free(folder, overwrite)
     kept = _kept(folder)
-    _require_room(kept, files, folder)
+    _require_room(kept, files.names, folder)
     fresh, old = hidden_name(folder, "new"), hidden_name(folder, "old")
     with _said_plainly(folder), _parents_made(folder.parent):
         try:
@@ -101,6 +101,42 @@ def write_files(files: ExportFiles, folder: Path, overwrite: bool = False) -> No
         finally:
             shutil.rmtree(fresh, ignore_errors=True)
             shutil.rmtree(old, ignore_errors=True)
+
+
+@contextmanager
+def whole_folder(folder: Path, overwrite: bool = False) -> Iterator[Path]:
+    """Yields an empty folder to fill with more than memory holds; then it is put at `folder`, with a marker.
+
+    Folders in it that have a marker of their own are listed by that. If the body fails, nothing of it is left.
+
+    Raises:
+        ExportError: as by `write_files`.
+    """
+    folder = Path(os.path.abspath(folder)).resolve()
+    require_free(folder, overwrite)
+    fresh, old = hidden_name(folder, "new"), hidden_name(folder, "old")
+    with _said_plainly(folder), _parents_made(folder.parent):
+        try:
+            fresh.mkdir()
+            yield fresh
+            names, kept = tuple(_names_below(fresh)), _kept(folder)
+            _require_room(kept, (*names, *(name for name in kept if (fresh / name).is_file())), folder)
+            (fresh / MARKER).write_bytes(Marker(names).to_bytes())
+            _carry(kept, folder, fresh)
+            _swap(fresh, folder, old)
+        finally:
+            shutil.rmtree(fresh, ignore_errors=True)
+            shutil.rmtree(old, ignore_errors=True)
+
+
+def _names_below(folder: Path) -> Iterator[str]:
+    """Yields the relative names of all files; of a folder in it that has a marker, that of the marker."""
+    for place, folders, names in os.walk(folder):
+        inside = Path(place).relative_to(folder)
+        if MARKER in names and place != str(folder):
+            folders.clear()
+            names = [MARKER]
+        yield from ((inside / name).as_posix() for name in names)
 
 
 def require_free(folder: Path, overwrite: bool = False) -> None:
@@ -137,7 +173,7 @@ def add_files(folder: Path, added: Mapping[str, Path], formats: Mapping[str, tup
     marker = read_marker(folder)
     if marker is None:
         raise ExportError(f"`{folder}` holds no `{MARKER}`: files go only to a folder that grafu wrote")
-    _require_room(_kept(folder), ExportFiles(dict.fromkeys(added, b"")), folder)
+    _require_room(_kept(folder), ExportFiles(dict.fromkeys(added, b"")).names, folder)
     with whole_file(folder / MARKER) as fresh:
         fresh.write_bytes(marker.with_files(formats or {}, *added).to_bytes())
     for name, source in added.items():
@@ -155,6 +191,8 @@ def _require_relative(name: str) -> None:
 def _kept(folder: Path) -> list[str]:
     """Returns what in a folder of ours is not ours: relative names of files, links, and folders that hold none of ours.
 
+    Where the marker lists that of a folder within, this one states what is ours in it.
+
     Raises:
         ExportError: if the folder cannot be read.
     """
@@ -167,6 +205,10 @@ def _kept(folder: Path) -> list[str]:
         for place, folders, names in os.walk(folder, onerror=_raised):
             inside = Path(place).relative_to(folder)
             links = {name for name in folders if (Path(place) / name).is_symlink()}
+            listed = {name for name in folders if (inside / name / MARKER).as_posix() in ours}
+            marked = [name for name in listed - links if read_marker(folder / inside / name)]
+            found += [(inside / name / one).as_posix() for name in marked for one in _kept(folder / inside / name)]
+            folders[:] = [name for name in folders if name not in marked]
             held = ((inside / name).as_posix() for name in (*folders, *names))
             linked = {(inside / name).as_posix() for name in links}
             found += [name for name in held if name in linked or name not in ours]
@@ -177,9 +219,9 @@ def _raised(error: OSError) -> None:
     raise error
 
 
-def _require_room(kept: Iterable[str], files: ExportFiles, folder: Path) -> None:
+def _require_room(kept: Iterable[str], names: Iterable[str], folder: Path) -> None:
     """Refuses to replace what is not ours: where it has the name of a file or folder of ours, nothing is written."""
-    places = {same_place(name) for name in (*files.names, MARKER)}
+    places = {same_place(name) for name in (*names, MARKER)}
     above = {str(parent) for place in places for parent in PurePosixPath(place).parents}
     for name in kept:
         is_folder = (folder / name).is_dir() and not (folder / name).is_symlink()
