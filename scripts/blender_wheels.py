@@ -20,7 +20,7 @@ _OF_SCIPY = (
     *("stats", "io", "interpolate", "integrate", "signal", "fft", "fftpack", "cluster", "odr", "misc", "datasets"),
     *("differentiate", "optimize"),
 )
-_OF_GRAFU = ("training", "network", "synth", "data", "evaluation", "metrics", "editor")
+_OF_GRAFU = ("training", "network", "synth", "data", "evaluation", "metrics", "editor", "dataset", "cluster")
 LEFT_OUT_OF = {
     "grafu": tuple(f"grafu/{name}/*" for name in _OF_GRAFU),  # what learns and measures
     "scipy": (

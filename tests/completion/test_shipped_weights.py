@@ -51,19 +51,18 @@ def test_they_see_what_parts_are_sampled_for() -> None:
 
 
 def test_doors_and_drawers_of_made_furniture_move_as_they_should(accuracies: dict[str, GraphAccuracy]) -> None:
-    # trained before names were wrong, foreign and short: on the furniture of then 0.85 and 0.78
-    assert accuracies["natural"].joint.value >= 0.8
-    assert accuracies["natural"].slide.value >= 0.93
-    assert accuracies["masked"].joint.value >= 0.75
-    assert accuracies["masked"].slide.value >= 0.88
+    assert accuracies["natural"].joint.value >= 0.86
+    assert accuracies["natural"].slide.value >= 0.97
+    assert accuracies["masked"].joint.value >= 0.8
+    assert accuracies["masked"].slide.value >= 0.93
 
 
 def test_hidden_labels_are_found_again(accuracies: dict[str, GraphAccuracy]) -> None:
-    assert accuracies["masked"].category.value >= 0.85
+    assert accuracies["masked"].category.value >= 0.9
 
 
 def test_missing_parts_are_added(accuracies: dict[str, GraphAccuracy]) -> None:
-    assert accuracies["lacking"].added.value >= 0.45
+    assert accuracies["lacking"].added.value >= 0.5
     assert accuracies["natural"].existence.value >= 0.97
 
 
