@@ -26,8 +26,13 @@ LEFT_OUT = (
     "numpy",  # every Blender brings it
     "cython",  # python-fcl names it, and needs it only where it is compiled
     *("rich", "pygments", "markdown_it_py", "mdurl", "shtab"),  # the command's tables; the add-on calls no command
-    *("sympy", "mpmath", "coloredlogs", "humanfriendly"),  # ONNX Runtime names them, and needs them to make networks ...
-    *("protobuf", "flatbuffers"),  # ... or to read them in Python
+    *(
+        "sympy",
+        "mpmath",
+        "coloredlogs",
+        "humanfriendly",
+    ),  # ONNX Runtime names them, and needs them to make networks ...
+    *("protobuf", "flatbuffers"),  # ... or reads them in Python
 )
 OLDEST = ("numpy==1.24.3", "scipy<1.16", "shapely<2.1")
 """numpy of Blender 4.2 and 4.3 (4.4 to 5.0 have 1.26.4), and the last of those that go with it: pip need not search."""
