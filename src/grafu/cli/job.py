@@ -67,11 +67,12 @@ class JobOptions:
 @final
 @dataclass(frozen=True)
 class Job:
-    """One input and the name of its results."""
+    """One input and the name of its results; `stated` is what the report names as its path, if not the input itself."""
 
     input: Path
     name: str
     options: JobOptions
+    stated: str = ""
 
     @property
     def folder(self) -> Path:
@@ -220,6 +221,7 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     listener.on_stage("load")
     started = perf_counter()
     asset = load_asset(job.input, options.settings.reading)
+    asset = replace(asset, path=job.stated) if job.stated else asset
     timings = {"load": perf_counter() - started}
     config, source = _config(options), _motions(job)
     made = functionalize(asset, source, open_gallery(options.templates), config, listener.on_stage, budget=budget)
