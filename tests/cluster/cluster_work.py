@@ -1,4 +1,4 @@
-"""Work for tasks of a test cluster: each try leaves a file that states its node, and some end their process."""
+"""Work for tasks of a test cluster: each try leaves a file that states its process, and some end their process."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ Named = tuple[str, str]
 def work(item: Named) -> str:
     """Returns the item's name, or never returns, as the name states."""
     folder, name = Path(item[0]), item[1]
-    (folder / f"{name}.{uuid4().hex}.try").write_text(os.environ.get("RAY_NODE_ID", ""))
+    (folder / f"{name}.{os.getpid()}.{uuid4().hex}.try").touch()
     if name == "crashes":
         os._exit(3)
     if name == "kills":
@@ -23,6 +23,6 @@ def work(item: Named) -> str:
     return name
 
 
-def tries(folder: Path, name: str) -> list[str]:
-    """Returns the nodes on which an item was tried."""
-    return [path.read_text() for path in folder.glob(f"{name}.*.try")]
+def tries(folder: Path, name: str) -> list[int]:
+    """Returns the processes in which an item was tried."""
+    return [int(path.name.split(".")[1]) for path in folder.glob(f"{name}.*.try")]

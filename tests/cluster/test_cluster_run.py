@@ -2,11 +2,13 @@
 
 import json
 import os
+import signal
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from threading import Thread
+from threading import Event, Thread
 from time import monotonic, sleep
 from typing import Any
 
@@ -54,6 +56,20 @@ def wait_until(is_so: Callable[[], object]) -> None:
         sleep(0.05)
 
 
+def raylet_of(node: Any) -> int:
+    """Returns the process of a node, from which all of its tasks descend."""
+    return int(node.all_processes["raylet"][0].process.pid)
+
+
+def lose(cluster: Any, node: Any) -> None:
+    """Ends a node as a power cut does: all of its processes, also those that would outlive it for a moment."""
+    processes = descendants(raylet_of(node))
+    cluster.remove_node(node, allow_graceful=False)
+    for process in processes:
+        with suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
+
+
 def beside(do: Callable[[], None]) -> Thread:
     thread = Thread(target=do, daemon=True)
     thread.start()
@@ -69,9 +85,11 @@ def test_what_was_on_a_killed_node_is_done_elsewhere(cluster: Any, tmp_path: Pat
     victim = add_node(cluster)
 
     def kill_victim() -> None:
-        wait_until(lambda: victim.node_id in tries(tmp_path, "waits"))
-        cluster.remove_node(victim, allow_graceful=False)
-        (tmp_path / "go").touch()
+        try:
+            wait_until(lambda: {*tries(tmp_path, "waits")} & {*descendants(raylet_of(victim))})
+            lose(cluster, victim)
+        finally:
+            (tmp_path / "go").touch()
 
     killing = beside(kill_victim)
     ended = outcomes(cluster, [(str(tmp_path), "waits")] * 4 + [(str(tmp_path), f"item_{k}") for k in range(6)])
@@ -105,10 +123,6 @@ def test_no_more_than_the_stated_number_is_given_to_the_cluster(cluster: Any, tm
     assert most <= cpus
 
 
-def refuse(_: object) -> None:
-    raise ValueError("of the node itself")
-
-
 def test_nodes_that_cannot_do_the_work_end_the_run_with_one_line(
     cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -124,28 +138,32 @@ def test_models_of_a_bucket_are_made_though_a_node_is_killed(
     for k in range(5):
         storage.put(str(sources[k % 2]), f"bucket/models/piece_{k}.glb")
     storage.pipe("bucket/models/damaged.glb", b"glTF")
-    victim = cluster.worker_nodes and sorted(cluster.worker_nodes, key=lambda node: node.node_id)[0]
-    raylet = victim.all_processes["raylet"][0].process.pid
+    victim = sorted(cluster.worker_nodes, key=lambda node: node.node_id)[0]
+    raylet = raylet_of(victim)
 
     def at_work() -> bool:
         found = [Path(f"/proc/{one}/cmdline") for one in descendants(raylet)]
         return any(b"spawn_main" in path.read_bytes() for path in found if path.exists())
 
+    ended = Event()
+
     def kill_victim() -> None:
-        wait_until(at_work)
-        cluster.remove_node(victim, allow_graceful=False)
+        wait_until(lambda: ended.is_set() or at_work())
+        lose(cluster, victim)
 
     killing = beside(kill_victim)
     log = tmp_path / "log"
     words = ["functionalize", "s3://bucket/models/*", "--out", "s3://bucket/results", "--cluster", cluster.address]
     words += ["--formats", "mjcf", "--no-page", "--json", "--log", str(log)]
     code = main(words)
+    ended.set()
     killing.join()
-    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    printed = capsys.readouterr()
+    lines = [json.loads(line) for line in printed.out.splitlines()]
 
-    assert code == 1  # of the damaged one
+    assert code == 1, printed.err  # of the damaged one
     names = [*(f"piece_{k}" for k in range(5)), "damaged"]
-    assert sorted(line["name"] for line in lines) == sorted(names)
+    assert sorted(line["name"] for line in lines) == sorted(names), printed.err
     assert [line["name"] for line in lines if line["error"]] == ["damaged"]
     for line in lines:
         if not line["error"]:

@@ -179,7 +179,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     if options.move:
         settings = with_moves(settings, options.move, alone and is_whole, prediction)
     return JobOptions(
-        out=options.out,
+        out=options.out if isinstance(options.out, Path) else Path(),  # at a URL each machine has a folder of its own
         settings=settings,
         prediction=prediction,
         formats=formats,

@@ -67,6 +67,7 @@ def cluster_at(address: str, cpus: int, config: ClusterConfig = ClusterConfig())
     handler = signal.getsignal(signal.SIGTERM)
     try:
         _connect(ray, address, cpus)
+        _silence()
         if started_by_main_thread():
             signal.signal(signal.SIGTERM, handler)  # Ray has put its own in its place
         yield ray
@@ -88,6 +89,14 @@ def _connect(ray: _Ray, address: str, cpus: int) -> None:
             ray.init(address=address, **quiet)
     except Exception as error:  # of another version, of another Python, not a cluster: Ray has no class for these
         raise OptionError(f"the cluster `{address}` cannot be used: {without_secrets(str(error))}") from None
+
+
+def _silence() -> None:
+    """Keeps Ray from printing what its nodes report: stdout is for results, and what failed is stated there."""
+    with suppress(ImportError, AttributeError, KeyError):
+        from ray._private.ray_logging import global_worker_stdstream_dispatcher as dispatcher
+
+        dispatcher.remove_handler("ray_print_logs")
 
 
 def _require_answer(address: str, seconds: float) -> None:
