@@ -1,0 +1,93 @@
+"""How many models a Ray cluster on this machine makes an hour, with one worker and with more, and a million models.
+
+It copies the samples, runs `grafu functionalize --cluster local` on them and on no cluster, and prints the measured table and the
+arithmetic of docs/cluster.md from it.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from bench_table import measured_table
+
+SAMPLES = Path(__file__).parent.parent / "samples"
+MILLION = 10**6
+FORMATS = "glb,urdf,mjcf"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run: with how many workers, its seconds in all, and for each model seconds, megabytes and files."""
+
+    workers: int
+    models: int
+    wall: float
+    seconds: float
+    megabytes: float
+    files: float
+
+    @property
+    def rate(self) -> float:
+        """Models an hour."""
+        return 3600.0 * self.models / self.wall
+
+
+def copies(count: int, folder: Path) -> list[str]:
+    """Returns so many models, the samples in turn."""
+    sources = sorted(SAMPLES.glob("*.glb"))
+    return [str(shutil.copy(sources[k % len(sources)], folder / f"model_{k}.glb")) for k in range(count)]
+
+
+def measured(models: list[str], workers: int, out: Path, cluster: bool) -> Run:
+    """Returns what one run takes."""
+    command = [sys.executable, "-m", "grafu.cli.main", "functionalize", *models, "--out", str(out), "--jobs", str(workers)]
+    command += ["--json", "--no-page", "--formats", FORMATS, *(["--cluster", "local"] if cluster else [])]
+    environment = {**os.environ, "RAY_worker_niceness": "0"}
+    began = time.perf_counter()
+    ran = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True, env=environment)
+    wall = time.perf_counter() - began
+    lines = [json.loads(line) for line in ran.stdout.splitlines()]
+    files = [path for path in out.rglob("*") if path.is_file()]
+    size = sum(path.stat().st_size for path in files) / 1e6
+    seconds, count = sum(line["seconds"] for line in lines), len(lines)
+    return Run(workers, count, wall, seconds / count, size / count, len(files) / count)
+
+
+def rows(local: Run, runs: list[Run]) -> list[tuple[str, str]]:
+    """Returns the rows of the table."""
+    first, best = runs[0], runs[-1]
+    found = [
+        ("without a cluster, 1 worker", f"{local.rate:.0f} models an hour"),
+        *((f"Ray, {run.workers} worker{'s' * (run.workers > 1)}", f"{run.rate:.0f} models an hour") for run in runs),
+        (f"gain of {best.workers} workers", f"{best.rate / first.rate:.2f} times"),
+        ("seconds of a core for a model", f"{first.seconds:.2f}"),
+        ("results of a model", f"{first.megabytes:.2f} MB in {first.files:.0f} files"),
+        ("a million models", f"{first.seconds * MILLION / 3600:.0f} core-hours"),
+        ("a million results", f"{first.megabytes * MILLION / 1e6:.2f} TB in {first.files:.0f} million files"),
+    ]
+    return found
+
+
+def main() -> None:
+    """Measures and prints."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--models", type=int, default=12, help="how many models")
+    parser.add_argument("--workers", type=int, nargs="+", default=[1, 2], help="workers of each run")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        models = copies(options.models, Path(folder))
+        local = measured(models, 1, Path(folder) / "local", cluster=False)
+        runs = [measured(models, count, Path(folder) / f"out_{count}", cluster=True) for count in options.workers]
+    states = f"{options.models} models ({FORMATS}), {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} meanwhile"
+    print(measured_table("Models on a cluster of this machine", states, rows(local, runs)))
+
+
+if __name__ == "__main__":
+    main()
