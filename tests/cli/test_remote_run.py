@@ -1,0 +1,103 @@
+"""`functionalize` with URLs and `--cluster`: what it refuses, in one line, and a run over a bucket without a cluster."""
+
+import json
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from obj_inputs import write_cabinet
+
+from grafu.cli.main import main
+
+CLUSTER = Path(__file__).parents[1] / "cluster"
+
+
+def said(capsys: pytest.CaptureFixture[str], *words: str, code: int = 2) -> str:
+    assert main(["functionalize", *words]) == code
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1, lines
+    return lines[0]
+
+
+def test_a_plain_run_imports_neither_ray_nor_fsspec(tmp_path: Path) -> None:
+    model = write_cabinet(tmp_path)
+    code = (
+        "import sys; from grafu.cli.main import main; "
+        f"main(['functionalize', {str(model)!r}, '--out', {str(tmp_path / 'out')!r}, '--no-page', '--formats', 'urdf']); "
+        "print(sorted({'ray', 'fsspec', 's3fs', 'grafu.cluster.storage', 'grafu.cluster.ray_tasks'} & set(sys.modules)))"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ran.stdout.splitlines()[-1] == "[]"
+
+
+def test_without_ray_the_extra_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "ray", None)
+    model = str(write_cabinet(tmp_path))
+    assert "pip install 'grafu[cluster]'" in said(capsys, model, "--cluster", "auto", "--out", str(tmp_path / "out"))
+
+
+@pytest.mark.parametrize("address", ["somewhere", "ray://host", "http://host:8265", "host:port"])
+def test_what_is_no_address_is_refused(address: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("ray")
+    model = str(write_cabinet(tmp_path))
+    line = said(capsys, model, "--cluster", address, "--out", str(tmp_path / "out"))
+    assert f"`--cluster` must be ray://HOST:10001, HOST:6379, auto or local: got `{address}`" in line
+
+
+def test_a_cluster_that_is_not_there_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("ray")
+    with socket.socket() as bound:  # and never listens
+        bound.bind(("127.0.0.1", 0))
+        address = f"ray://127.0.0.1:{bound.getsockname()[1]}"
+        line = said(capsys, str(write_cabinet(tmp_path)), "--cluster", address, "--out", str(tmp_path / "out"))
+    assert f"the cluster `{address}` cannot be reached" in line
+
+
+@pytest.mark.parametrize(("option", "words"), [("--check", "`grafu check`"), ("--pieces=split", "`--pieces split`")])
+def test_what_needs_files_of_this_machine_is_refused(
+    option: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if option == "--check":
+        pytest.importorskip("mujoco")
+    assert words in said(capsys, str(write_cabinet(tmp_path)), "--cluster", "local", option, "--out", str(tmp_path))
+
+
+def test_a_password_in_a_url_is_refused_and_not_repeated(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["functionalize", "s3://key:hidden@bucket/cab.glb", "--out", "out"])
+    printed = capsys.readouterr().err
+    assert "must not hold a name or a password" in printed
+    assert "hidden" not in printed
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")  # of sockets that s3fs leaves open
+def test_a_bucket_without_a_cluster(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("s3fs")
+    pytest.importorskip("moto")
+    monkeypatch.syspath_prepend(str(CLUSTER))
+    from local_s3 import local_s3
+
+    with local_s3() as storage:
+        for name in ("one", "two"):
+            storage.put(str(write_cabinet(tmp_path, name)), f"bucket/models/{name}/{name}.obj")
+        storage.pipe("bucket/out/two/notes.txt", b"mine")
+        words = ["functionalize", "s3://bucket/models/*", "--formats", "urdf", "--no-page", "--json"]
+        assert main([*words, "--out", "s3://bucket/out"]) == 1
+        lines = {line["name"]: line for line in map(json.loads, capsys.readouterr().out.splitlines())}
+        assert lines["one"]["error"] is None
+        assert "notes.txt" not in lines["two"]["error"]
+        assert "so it is kept" in lines["two"]["error"]
+        there = {name.partition("out/one/")[2] for name in storage.find("bucket/out/one")}
+        assert there == {*lines["one"]["files"], ".grafu.json"}
+        assert main([*words[:1], "s3://bucket/models/one", *words[2:], "--out", "s3://bucket/out", "--resume"]) == 0
+        assert json.loads(capsys.readouterr().out)["seconds"] is not None
+        assert "s3://bucket/out" in said(capsys, "s3://bucket/out/two", "--out", "s3://bucket/out", code=2).split(": ")[1]
+        for inputs, out in (("s3://none/*", "s3://bucket/out"), ("s3://bucket/models/*", "s3://none/out")):
+            assert "s3://none" in said(capsys, inputs, "--out", out)
