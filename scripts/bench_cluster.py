@@ -1,7 +1,7 @@
 """How many models a Ray cluster on this machine makes an hour, with one worker and with more, and a million models.
 
-It copies the samples, runs `grafu functionalize --cluster local` on them and on no cluster, and prints the measured table and the
-arithmetic of docs/cluster.md from it.
+It copies the samples, runs `grafu functionalize` on them with `--cluster local` and without, and prints the measured
+table, and from it the arithmetic of docs/cluster.md.
 """
 
 import argparse
@@ -24,19 +24,20 @@ FORMATS = "glb,urdf,mjcf"
 
 @dataclass(frozen=True)
 class Run:
-    """One run: with how many workers, its seconds in all, and for each model seconds, megabytes and files."""
+    """One run: with how many workers, when its first and last model were done, and means for a model."""
 
     workers: int
     models: int
-    wall: float
+    first: float  # seconds after the start of the command
+    last: float
     seconds: float
     megabytes: float
     files: float
 
     @property
     def rate(self) -> float:
-        """Models an hour."""
-        return 3600.0 * self.models / self.wall
+        """Models an hour, without the start."""
+        return 3600.0 * (self.models - 1) / (self.last - self.first)
 
 
 def copies(count: int, folder: Path) -> list[str]:
@@ -47,32 +48,44 @@ def copies(count: int, folder: Path) -> list[str]:
 
 def measured(models: list[str], workers: int, out: Path, cluster: bool) -> Run:
     """Returns what one run takes."""
-    command = [sys.executable, "-m", "grafu.cli.main", "functionalize", *models, "--out", str(out), "--jobs", str(workers)]
+    command = [
+        sys.executable,
+        "-m",
+        "grafu.cli.main",
+        "functionalize",
+        *models,
+        "--out",
+        str(out),
+        "--jobs",
+        str(workers),
+    ]
     command += ["--json", "--no-page", "--formats", FORMATS, *(["--cluster", "local"] if cluster else [])]
     environment = {**os.environ, "RAY_worker_niceness": "0"}
     began = time.perf_counter()
-    ran = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True, env=environment)
-    wall = time.perf_counter() - began
-    lines = [json.loads(line) for line in ran.stdout.splitlines()]
+    lines, times = [], []
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as running:
+        for line in running.stdout or ():
+            lines.append(json.loads(line))
+            times.append(time.perf_counter() - began)
     files = [path for path in out.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files) / 1e6
     seconds, count = sum(line["seconds"] for line in lines), len(lines)
-    return Run(workers, count, wall, seconds / count, size / count, len(files) / count)
+    return Run(workers, count, times[0], times[-1], seconds / count, size / count, len(files) / count)
 
 
 def rows(local: Run, runs: list[Run]) -> list[tuple[str, str]]:
     """Returns the rows of the table."""
     first, best = runs[0], runs[-1]
-    found = [
+    return [
         ("without a cluster, 1 worker", f"{local.rate:.0f} models an hour"),
         *((f"Ray, {run.workers} worker{'s' * (run.workers > 1)}", f"{run.rate:.0f} models an hour") for run in runs),
+        ("until the first model is done", f"{first.first:.0f} s"),
         (f"gain of {best.workers} workers", f"{best.rate / first.rate:.2f} times"),
         ("seconds of a core for a model", f"{first.seconds:.2f}"),
         ("results of a model", f"{first.megabytes:.2f} MB in {first.files:.0f} files"),
         ("a million models", f"{first.seconds * MILLION / 3600:.0f} core-hours"),
         ("a million results", f"{first.megabytes * MILLION / 1e6:.2f} TB in {first.files:.0f} million files"),
     ]
-    return found
 
 
 def main() -> None:

@@ -19,7 +19,7 @@ ROOT = Path(__file__).parent.parent
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 LEARNING = ("network", "training")  # the folders that the product does without
 # What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, the USD export, the editor.
-OPTIONAL = {"collada", "DracoPy", "mujoco", "bpy", "pxr", "zstandard", "starlette", "uvicorn"}
+OPTIONAL = {"collada", "DracoPy", "mujoco", "bpy", "pxr", "zstandard", "starlette", "uvicorn", "fsspec", "ray"}
 SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
 # Spelled in pieces, so that this file does not hold what it forbids.
 ONE_MACHINE = re.compile(r"(?<![\w.])/(" + "|".join(["wo" + "rk", "t" + "mp", "ho" + "me", "ro" + "ot"]) + r")/\w")

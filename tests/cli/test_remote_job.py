@@ -1,6 +1,5 @@
-"""One model at a URL: the results of the local run, at their place whole or not at all, and refusals in words of the user."""
+"""One model at a URL: the results of a local run, whole or not at all, and refusals that name the URL."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from uuid import uuid4
@@ -23,11 +22,11 @@ TIMES = "report.json"  # it holds seconds
 
 
 @pytest.fixture
-def job(tmp_path: Path) -> Iterator[RemoteJob]:
+def job(tmp_path: Path) -> RemoteJob:
     root = Url(f"memory://{uuid4().hex}")
     write(root / "models", {"cabinet.obj": write_cabinet(tmp_path).read_bytes()})
     options = JobOptions(Path(), formats=("urdf",), page=False)
-    yield RemoteJob(root / "models/cabinet.obj", "cabinet", root / "out", options)
+    return RemoteJob(root / "models/cabinet.obj", "cabinet", root / "out", options)
 
 
 def test_the_results_are_those_of_a_local_run(job: RemoteJob, tmp_path: Path) -> None:

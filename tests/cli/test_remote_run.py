@@ -1,4 +1,4 @@
-"""`functionalize` with URLs and `--cluster`: what it refuses, in one line, and a run over a bucket without a cluster."""
+"""`functionalize` with URLs and `--cluster`: what it refuses, in one line, and a bucket without a cluster."""
 
 import json
 import socket
@@ -23,11 +23,9 @@ def said(capsys: pytest.CaptureFixture[str], *words: str, code: int = 2) -> str:
 
 def test_a_plain_run_imports_neither_ray_nor_fsspec(tmp_path: Path) -> None:
     model = write_cabinet(tmp_path)
-    code = (
-        "import sys; from grafu.cli.main import main; "
-        f"main(['functionalize', {str(model)!r}, '--out', {str(tmp_path / 'out')!r}, '--no-page', '--formats', 'urdf']); "
-        "print(sorted({'ray', 'fsspec', 's3fs', 'grafu.cluster.storage', 'grafu.cluster.ray_tasks'} & set(sys.modules)))"
-    )
+    words = ["functionalize", str(model), "--out", str(tmp_path / "out"), "--no-page", "--formats", "urdf"]
+    unwanted = {"ray", "fsspec", "s3fs", "grafu.cluster.storage", "grafu.cluster.ray_tasks"}
+    code = f"import sys; from grafu.cli.main import main; main({words}); print(sorted({unwanted} & set(sys.modules)))"
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert ran.stdout.splitlines()[-1] == "[]"
 
@@ -98,6 +96,8 @@ def test_a_bucket_without_a_cluster(
         assert there == {*lines["one"]["files"], ".grafu.json"}
         assert main([*words[:1], "s3://bucket/models/one", *words[2:], "--out", "s3://bucket/out", "--resume"]) == 0
         assert json.loads(capsys.readouterr().out)["seconds"] is not None
-        assert "s3://bucket/out" in said(capsys, "s3://bucket/out/two", "--out", "s3://bucket/out", code=2).split(": ")[1]
+        assert (
+            "s3://bucket/out" in said(capsys, "s3://bucket/out/two", "--out", "s3://bucket/out", code=2).split(": ")[1]
+        )
         for inputs, out in (("s3://none/*", "s3://bucket/out"), ("s3://bucket/models/*", "s3://none/out")):
             assert "s3://none" in said(capsys, inputs, "--out", out)

@@ -17,7 +17,7 @@ SECRET = "not-to-be-written-anywhere"
 
 @contextmanager
 def local_s3() -> Iterator[Any]:
-    """Gives a file system of fsspec with the empty bucket `bucket`; the environment names the storage to all programs."""
+    """Gives a file system of fsspec with the empty bucket `bucket`; the environment names it to all programs."""
     with socket.socket() as found:
         found.bind(("127.0.0.1", 0))
         port = found.getsockname()[1]

@@ -1,4 +1,4 @@
-"""A Ray cluster of three nodes on this machine: a node is killed in the middle, a model kills its process; none is lost."""
+"""Three nodes of Ray on this machine: one is killed in the middle, a model kills its process; no model is lost."""
 
 import json
 import os

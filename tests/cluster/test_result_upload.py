@@ -1,4 +1,4 @@
-"""Results at URLs: complete with their marker, which is written last, so that no interrupted upload is taken for one."""
+"""Results at URLs: complete with their marker, which is written last; no interrupted upload is taken for one."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -43,7 +43,7 @@ def script(parser: argparse.ArgumentParser, shell: str) -> str:
 
     known = _known_values()
     for action in _actions(parser):
-        if action.type is Path:
+        if action.type in (Path, place_option):
             action.complete = shtab.FILE  # type: ignore[attr-defined]  # shtab reads it
         elif action.choices is None and action.dest in known:
             action.choices = list(known[action.dest])

@@ -18,6 +18,7 @@ from grafu.export.formats import DEFAULT_FORMATS
 from grafu.export.output_names import output_name, same_place, told_apart, why_not_apart, with_ending
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import ProcessLimits
+from grafu.processes.worker import ignore
 
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
@@ -109,17 +110,13 @@ class Failed:
 JobResult = Succeeded | Failed
 
 
-def _ignore(_: object) -> None:
-    """Hears of a stage or an object and does nothing."""
-
-
 @final
 @dataclass(frozen=True)
 class Listener:
     """What is called with each stage as it begins, and with the result before it is written."""
 
-    on_stage: Callable[[str], None] = _ignore
-    on_object: "Callable[[ArticulatedObject], None]" = _ignore
+    on_stage: Callable[[str], None] = ignore
+    on_object: "Callable[[ArticulatedObject], None]" = ignore
 
 
 SILENT = Listener()

@@ -1,8 +1,9 @@
-"""`functionalize` for models or results at URLs, or with the processes of a cluster: jobs out, one line for each back."""
+"""`functionalize` for models or results at URLs, or on the machines of a cluster: jobs out, a line for each back."""
 
 import argparse
 import os
 from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from contextlib import closing, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +18,7 @@ from grafu.cli.verb import complain
 from grafu.cluster.storage import matches, names_in, require_writable
 from grafu.cluster.urls import Place, Url
 from grafu.errors import AssetError, FunctionalizationError, OptionError
-from grafu.export.output_names import name_that_is_safe, output_name, same_place, told_apart, why_not_apart
+from grafu.export.output_names import name_that_is_safe, output_name, same_place, told_apart
 from grafu.processes.limits import Ending
 
 
@@ -48,7 +49,9 @@ def run_remote(options: argparse.Namespace, shared: JobOptions) -> int:
 
 def _require_possible(options: argparse.Namespace, shared: JobOptions) -> None:
     if options.check:
-        raise OptionError("`--check` is for results of this machine: leave it out, and run `grafu check` where they are")
+        raise OptionError(
+            "`--check` is for results of this machine: leave it out, and run `grafu check` where they are"
+        )
     if shared.settings.reading.pieces == "split":
         raise OptionError("`--pieces split` is for models on this machine: leave out `--cluster` and URLs")
 
@@ -81,8 +84,9 @@ def _jobs(sources: Sequence[Place], out: Place, shared: JobOptions) -> tuple[lis
     jobs = [replace(job, name=name, present=name in there) for job, name in zip(jobs, names, strict=True)]
     _require_places_apart(jobs)
     kept: list[RemoteJob] = []
+    held = {place for source in sources for place in _places_of(source)}
     for job in jobs:
-        if why := _why_not_apart(job, sources):
+        if why := _why_not_apart(job, held):
             refused.append(failed_job(job, why, users_fault=True))
         else:
             kept.append(job)
@@ -118,12 +122,23 @@ def _require_places_apart(jobs: Sequence[RemoteJob]) -> None:
             )
 
 
-def _why_not_apart(job: RemoteJob, sources: Sequence[Place]) -> str:
-    if isinstance(job.place, Path):
-        return why_not_apart(job.place, [job.source] if isinstance(job.source, Path) else [])
-    if isinstance(job.source, Url) and job.place.holds(job.source):
-        return f"the results would go to `{job.place}`, and so replace the input `{job.source}`: choose another --out"
+def _why_not_apart(job: RemoteJob, held: AbstractSet[str]) -> str:
+    """Returns why results cannot go to their place, empty where it neither is nor holds an input."""
+    if next(_places_of(job.place)) in held:
+        return f"the results would go to `{job.place}`, and so replace an input or what holds one: choose another --out"
     return ""
+
+
+def _places_of(place: Place) -> Iterator[str]:
+    """Yields a place, with links followed, and all that is above it."""
+    if isinstance(place, Path):
+        real = Path(os.path.realpath(place))
+        yield from map(str, (real, *real.parents))
+        return
+    yield str(place)
+    while place != place.parent:
+        place = place.parent
+        yield str(place)
 
 
 Execute = Callable[[list[RemoteJob], Callable[[RemoteJob], None]], Generator[Ended, None, None]]
@@ -134,9 +149,7 @@ def _executor(options: argparse.Namespace) -> Iterator[Execute]:
     """Gives what runs jobs: processes of this machine, or those of a cluster."""
     workers = options.jobs or os.cpu_count() or 1
     if options.cluster is None:
-        yield lambda jobs, on_begin: run_all(
-            jobs, workers, run_remote_job, _stopped, jobs[0].options.limits, on_begin
-        )
+        yield lambda jobs, on_begin: run_all(jobs, workers, run_remote_job, _stopped, jobs[0].options.limits, on_begin)
         return
     from grafu.cluster.ray_tasks import Work, cluster_at, run_on_cluster
 
@@ -173,7 +186,11 @@ def _run_all(jobs: list[RemoteJob], execute: Execute, options: argparse.Namespac
 
 
 def _collect(
-    ended: list[Ended], begun: dict[str, RemoteJob], jobs: list[RemoteJob], execute: Execute, options: argparse.Namespace
+    ended: list[Ended],
+    begun: dict[str, RemoteJob],
+    jobs: list[RemoteJob],
+    execute: Execute,
+    options: argparse.Namespace,
 ) -> None:
     from grafu.cli.model_bar import model_bar
 

@@ -108,7 +108,7 @@ def _require_answer(address: str, seconds: float) -> None:
     except (OSError, OverflowError) as error:
         why = getattr(error, "strerror", None) or str(error) or "no answer"
         raise OptionError(
-            f"the cluster `{address}` cannot be reached within {seconds:g} s ({why}): is it running, and is the port open?"
+            f"the cluster `{address}` cannot be reached within {seconds:g} s ({why}): does it run, is the port open?"
         ) from None
 
 
@@ -159,10 +159,10 @@ def _submit(ray: _Ray, attempt: _Attempt[Item], work: Work[Item, Result], nodes:
 def _judged(
     ray: _Ray, reference: Any, attempt: _Attempt[Item], config: ClusterConfig
 ) -> "tuple[_Attempt[Item], Outcome[Result] | None]":
-    """Returns what a task returned; None, and the attempt with one more death or loss, where it is to be tried again."""
+    """Returns what a task returned; None, and the attempt with one more death or loss, where it is tried again."""
     errors = ray.exceptions
     try:
-        outcome = ray.get(reference)
+        outcome: Outcome[Result] = ray.get(reference)
         if outcome.ending is not Ending.DIED:
             return attempt, outcome
         attempt = replace(attempt, deaths=attempt.deaths + 1)
@@ -191,7 +191,7 @@ def _cancel(ray: _Ray, references: Sequence[Any], config: ClusterConfig) -> None
         for reference in references:
             with suppress(Exception):  # it has ended, or its node is gone
                 ray.cancel(reference, force=force)
-        ended, references = ray.wait(list(references), num_returns=len(references), timeout=config.cancel_seconds)
+        _, references = ray.wait(list(references), num_returns=len(references), timeout=config.cancel_seconds)
         if not references:
             return
 

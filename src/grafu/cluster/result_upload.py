@@ -1,7 +1,7 @@
 """A folder of results at a URL: complete when its marker is there, which is written last. It decides nothing.
 
-While files are written, `.grafu.partial` is there, with the content that the marker will have: what a killed run left is
-known by it.
+While files are written, `.grafu.partial` is there, with the content that the marker will have: by it is known what a
+killed run left.
 """
 
 import json
