@@ -131,9 +131,16 @@ def test_short_words_are_no_secrets(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_scheme_that_is_not_known_or_not_installed_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(OptionError, match="must begin with"):
         matches(Url("nowhere://bucket/x"))
-    monkeypatch.setitem(sys.modules, "s3fs", None)
-    with pytest.raises(OptionError, match=r"pip install 'grafu\[cluster\]'"):
-        matches(Url("s3://bucket/x"))
+    import fsspec.core
+
+    def missing(*_: object, **__: object) -> None:
+        raise ImportError("install it")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(fsspec.core, "url_to_fs", missing)
+        for url, package in (("s3://bucket/x", r"grafu\[cluster\]"), ("gs://bucket/x", "gcsfs")):
+            with pytest.raises(OptionError, match=f"pip install '{package}'"):
+                matches(Url(url))
     monkeypatch.setitem(sys.modules, "fsspec.core", None)
     with pytest.raises(OptionError, match=r"pip install 'grafu\[cluster\]'"):
         matches(Url("s3://bucket/x"))

@@ -4,6 +4,8 @@ import argparse
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from grafu.cli.cluster_option import place_option
+
 _DESCRIPTION = """\
 Prints a script for bash, zsh or fish, which then completes verbs, options, their values and file names.
 """

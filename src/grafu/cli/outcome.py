@@ -1,6 +1,6 @@
 """What is stated of one input as it ends: a line of JSON, a line for people, and its stages. It decides nothing."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, final
 
 from grafu.cli.job import Failed, JobResult, Succeeded
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 @final
 @dataclass(frozen=True)
 class Ended:
-    """All that is stated of an input that ended, without its report: of a million models it stays in memory.
+    """All that is stated of an input that ended, without its report.
 
     `why` is why it failed, empty where it did not; `users_fault` whether the input is at fault then.
     """
@@ -26,6 +26,10 @@ class Ended:
     row: "SummaryRow"
     why: str = ""
     users_fault: bool = False
+
+    def in_short(self) -> "Ended":
+        """Returns it without what was printed of it: of a million models it stays in memory."""
+        return replace(self, values={"input": self.values["input"]}, words="", stages=())
 
 
 def ended_of(result: JobResult, given: str, place: str) -> Ended:

@@ -203,7 +203,7 @@ def _collect(
         with closing(execute(jobs, begins)) as results:
             for one in results:
                 begun.pop(one.name, None)
-                ended.append(one)
+                ended.append(one.in_short())
                 for line in one.stages:
                     bar.say(line) if options.verbose else note(line)
                 bar.ends(one.name, one.words)

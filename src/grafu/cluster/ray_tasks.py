@@ -131,13 +131,14 @@ def run_on_cluster(
     waiting = deque(_Attempt(item) for item in items)
     flying: dict[Any, _Attempt[Item]] = {}
     nodes = _Nodes(ray, config)
+    task = ray.remote(_serve)  # once: each call would send the function to the cluster again
     try:
         while waiting or flying:
             while waiting and len(flying) < nodes.most:
                 attempt = waiting.popleft()
                 if not attempt.deaths and not attempt.losses:
                     on_begin(attempt.item)
-                flying[_submit(ray, attempt, work, nodes)] = attempt
+                flying[_submit(task, attempt, work, nodes)] = attempt
             ready, _ = ray.wait(list(flying), num_returns=1, timeout=config.poll_seconds)
             for reference in ready:
                 attempt, outcome = _judged(ray, reference, flying.pop(reference), config)
@@ -149,11 +150,11 @@ def run_on_cluster(
         _cancel(ray, list(flying), config)
 
 
-def _submit(ray: _Ray, attempt: _Attempt[Item], work: Work[Item, Result], nodes: "_Nodes") -> Any:
-    task = ray.remote(_serve).options(
+def _submit(task: _Ray, attempt: _Attempt[Item], work: Work[Item, Result], nodes: "_Nodes") -> Any:
+    reserved = task.options(
         num_cpus=1, max_retries=0, memory=nodes.memory_for(attempt.deaths, work.limits), scheduling_strategy="SPREAD"
     )
-    return task.remote(work, attempt.item, __version__)
+    return reserved.remote(work, attempt.item, __version__)
 
 
 def _judged(
