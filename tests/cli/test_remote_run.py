@@ -4,12 +4,17 @@ import json
 import socket
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
+from uuid import uuid4
 
 import pytest
 from obj_inputs import write_cabinet
 
 from grafu.cli.main import main
+from grafu.cli.outcome import Ended
+from grafu.cli.remote_job import RemoteJob
 
 CLUSTER = Path(__file__).parents[1] / "cluster"
 
@@ -70,6 +75,45 @@ def test_a_password_in_a_url_is_refused_and_not_repeated(capsys: pytest.CaptureF
     printed = capsys.readouterr().err
     assert "must not hold a name or a password" in printed
     assert "hidden" not in printed
+
+
+def test_an_interruption_takes_away_what_was_half_written(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("fsspec")
+    from grafu.cluster.result_upload import PARTIAL
+    from grafu.cluster.storage import files_below, write
+    from grafu.cluster.urls import Url
+
+    root = Url(f"memory://{uuid4().hex}")
+    write(root, {"models/cab.glb": b"g", "models/desk.glb": b"g"})
+
+    def interrupted(jobs: list[RemoteJob], *given: Any) -> Iterator[Ended]:
+        for job in jobs:
+            given[-1](job)
+        write(root / "out/cab", {PARTIAL: b'{"files": ["model.urdf"]}', "model.urdf": b"half", "notes.txt": b"mine"})
+        raise KeyboardInterrupt
+        yield
+
+    monkeypatch.setattr("grafu.cli.remote_run.run_all", interrupted)
+    assert main(["functionalize", f"{root}/models/*", "--out", f"{root}/out"]) == 130
+    assert "0 of 2 inputs were done; with --resume" in capsys.readouterr().err
+    assert files_below(root / "out") == ("cab/notes.txt",)
+
+
+def test_results_go_to_no_place_of_an_input(capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("fsspec")
+    from grafu.cluster.storage import files_below, write
+    from grafu.cluster.urls import Url
+
+    root = Url(f"memory://{uuid4().hex}")
+    write(root, {"cab/cab.glb": b"g", "other/cab.glb": b"g"})
+    for inputs in ("cab/cab.glb", "cab"):
+        assert "choose another --out" in said(capsys, f"{root}/{inputs}", "--out", str(root))
+    same = ["functionalize", f"{root}/cab/cab.glb", f"{root}/cab", "--out", f"{root}/out"]
+    assert main(same) == 2
+    assert "must have different names" in capsys.readouterr().err
+    assert files_below(root) == ("cab/cab.glb", "other/cab.glb")
 
 
 @pytest.mark.slow

@@ -43,7 +43,8 @@ def run_remote(options: argparse.Namespace, shared: JobOptions) -> int:
     order = {str(source): k for k, source in enumerate(sources)}
     ended.sort(key=lambda one: order[one.values["input"]])
     clear_line()
-    print_rows([one.row for one in ended])
+    if len(ended) > 1 or not ended[0].why:
+        print_rows([one.row for one in ended])
     return _exit_code(ended)
 
 

@@ -141,6 +141,7 @@ def run_on_cluster(
                 flying[_submit(task, attempt, work, nodes)] = attempt
             ready, _ = ray.wait(list(flying), num_returns=1, timeout=config.poll_seconds)
             for reference in ready:
+                outcome: Outcome[Result] | None
                 attempt, outcome = _judged(ray, reference, flying.pop(reference), config)
                 if outcome is None:
                     waiting.appendleft(replace(attempt, item=again(attempt.item)))
