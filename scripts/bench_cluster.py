@@ -20,6 +20,7 @@ from bench_table import measured_table
 SAMPLES = Path(__file__).parent.parent / "samples"
 MILLION = 10**6
 FORMATS = "glb,urdf,mjcf"
+CORE_HOUR, GIGABYTE_MONTH, MILLION_WRITES = 0.04, 0.023, 5.0  # dollars, of a large cloud; put yours here
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,7 @@ def measured(models: list[str], workers: int, out: Path, cluster: bool) -> Run:
 def rows(local: Run, runs: list[Run]) -> list[tuple[str, str]]:
     """Returns the rows of the table."""
     first, best = runs[0], runs[-1]
+    hours, terabytes = first.seconds * MILLION / 3600, first.megabytes * MILLION / 1e6
     return [
         ("without a cluster, 1 worker", f"{local.rate:.0f} models an hour"),
         *((f"Ray, {run.workers} worker{'s' * (run.workers > 1)}", f"{run.rate:.0f} models an hour") for run in runs),
@@ -83,8 +85,11 @@ def rows(local: Run, runs: list[Run]) -> list[tuple[str, str]]:
         (f"gain of {best.workers} workers", f"{best.rate / first.rate:.2f} times"),
         ("seconds of a core for a model", f"{first.seconds:.2f}"),
         ("results of a model", f"{first.megabytes:.2f} MB in {first.files:.0f} files"),
-        ("a million models", f"{first.seconds * MILLION / 3600:.0f} core-hours"),
-        ("a million results", f"{first.megabytes * MILLION / 1e6:.2f} TB in {first.files:.0f} million files"),
+        ("a million models", f"{hours:.0f} core-hours"),
+        ("a million results", f"{terabytes:.2f} TB in {first.files:.0f} million files"),
+        (f"core-hours at ${CORE_HOUR}", f"${hours * CORE_HOUR:.0f}"),
+        (f"a month of storage at ${GIGABYTE_MONTH} a GB", f"${1000 * terabytes * GIGABYTE_MONTH:.0f}"),
+        (f"writing the files at ${MILLION_WRITES:g} a million", f"${first.files * MILLION_WRITES:.0f}"),
     ]
 
 
