@@ -1,6 +1,7 @@
 """A Ray cluster of small nodes on this machine, for tests."""
 
 import os
+import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -25,10 +26,19 @@ def local_cluster(nodes: int) -> Iterator[Any]:
         patch.setenv("RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO", "0")
         from ray.cluster_utils import Cluster
 
+        with socket.socket() as found:
+            found.bind(("127.0.0.1", 0))
+            port = found.getsockname()[1]
         cluster = Cluster(
             initialize_head=True,
-            head_node_args={"num_cpus": 1, "include_dashboard": False, "object_store_memory": STORE},
+            head_node_args={
+                "num_cpus": 1,
+                "include_dashboard": False,
+                "object_store_memory": STORE,
+                "ray_client_server_port": port,
+            },
         )
+        cluster.client_address = f"ray://{cluster.address.partition(':')[0]}:{port}"
         try:
             for _ in range(nodes - 1):
                 add_node(cluster)

@@ -108,6 +108,13 @@ def test_what_kills_its_process_is_set_aside_after_two_tries(cluster: Any, tmp_p
     assert [len(tries(tmp_path, name)) for name in names] == [1, 2, 1, 2, 1]
 
 
+def test_a_cluster_elsewhere_is_used_by_its_client_port(cluster: Any, tmp_path: Path) -> None:
+    with cluster_at(cluster.client_address, 1) as ray:
+        items = [(str(tmp_path), name) for name in ("a", "crashes", "b")]
+        ended = {item[1]: outcome.ending for item, outcome in run_on_cluster(ray, items, Work(work))}
+    assert ended == {"a": Ending.DONE, "crashes": Ending.SET_ASIDE, "b": Ending.DONE}
+
+
 def test_no_more_than_the_stated_number_is_given_to_the_cluster(cluster: Any, tmp_path: Path) -> None:
     begun: list[Named] = []
     most = 0

@@ -3,6 +3,7 @@
 In each task a process of its own, with limits, works on the item, as in a local run; it is used again for the next.
 """
 
+import logging
 import signal
 import socket
 from collections import deque
@@ -85,6 +86,9 @@ def _connect(ray: _Ray, address: str, cpus: int) -> None:
                 return
         if address in (LOCAL, AUTO):
             ray.init(address=LOCAL, **local, **quiet)
+        elif address.startswith("ray://"):
+            logging.getLogger("ray.client_builder").setLevel(logging.ERROR)
+            ray.init(address=address, log_to_driver=False)  # it hands other options on to the cluster
         else:
             ray.init(address=address, **quiet)
     except Exception as error:  # of another version, of another Python, not a cluster: Ray has no class for these
