@@ -18,9 +18,10 @@ from grafu.version import __version__
 ROOT = Path(__file__).parent.parent
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 LEARNING = ("network", "training")  # the folders that the product does without
-# What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, USD, the editor, baselines that ask
-# a language model, Parquet.
+# What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, USD, the editor, Parquet, baselines
+# that ask a language model, storage at URLs, clusters.
 OPTIONAL = {"collada", "DracoPy", "mujoco", "bpy", "pxr", "zstandard", "starlette", "uvicorn", "openai", "pyarrow"}
+OPTIONAL |= {"fsspec", "ray"}
 SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
 # Spelled in pieces, so that this file does not hold what it forbids.
 ONE_MACHINE = re.compile(r"(?<![\w.])/(" + "|".join(["wo" + "rk", "t" + "mp", "ho" + "me", "ro" + "ot"]) + r")/\w")

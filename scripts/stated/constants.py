@@ -9,6 +9,7 @@ from math import degrees
 from grafu.asset import loose
 from grafu.asset.foreign import matching
 from grafu.cli import evaluate, limit_options
+from grafu.cluster.config import ClusterConfig, FetchConfig
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig
 from grafu.completion.session import SHIPPED_WEIGHTS
@@ -33,6 +34,7 @@ from stated.constants_built import Sentence, additions, joints, per_cent
 
 _MATCH = matching.MatchConfig()
 
+CLUSTER, FETCHED = ClusterConfig(), FetchConfig()
 SEEN, VERDICT, SHAPE = FeatureConfig(), VerdictConfig(), DescriptorConfig()
 
 
@@ -152,6 +154,13 @@ def others() -> Iterator[Sentence]:
     yield "limits.md", "{:g} s for a model (`evaluate`: {:g} s for a task)", (limit_options.SECONDS, evaluate._SECONDS)
     yield "limits.md", "goes more than {:g} GB beyond", (round(limits._SPARE / 1e9),)
     yield "limits.md", "after {} times as long it is stopped", (PATIENCE,)
+    yield "cluster.md", "At most {} files of {:g} GB in all", (FETCHED.files, FETCHED.bytes / 1e9)
+    yield "cluster.md", "cannot be reached within {:g} s does", (CLUSTER.reach_seconds,)
+    yield "cluster.md", "At most {:g} tasks for each CPU", (CLUSTER.in_flight_per_cpu,)
+    yield "cluster.md", "reserves {:g} GB of memory", (CLUSTER.reserved_memory / 1e9,)
+    yield "cluster.md", "tried again elsewhere, at most {} times", (CLUSTER.losses,)
+    yield "cluster.md", "After {} tries it is set aside", (CLUSTER.tries,)
+    yield "cluster.md", "stopped after {} times its `--timeout`", (PATIENCE,)
     yield "limits.md", "| `--memory SIZE` | {} (of", (limit_options.MEMORY,)
     yield "datasets.md", "{} x {} x {} cells", (SHAPE.cells_across, SHAPE.cells_deep, SHAPE.cells_up)
     yield "datasets.md", "at most {:g} apart", (SHAPE.radius,)

@@ -146,5 +146,13 @@ MEASURES = (
         ("synthetic.md",),
         2,
     ),
+    Measure(
+        "cluster",
+        "python scripts/bench_cluster.py --models 40",
+        "python scripts/bench_cluster.py --models 3 --workers 1",
+        "models an hour by Ray on one machine, and what a million models take",
+        ("cluster.md",),
+        3,
+    ),
 )
 BY_NAME = {measure.name: measure for measure in MEASURES}

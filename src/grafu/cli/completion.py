@@ -4,6 +4,8 @@ import argparse
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from grafu.cli.cluster_option import place_option
+
 _DESCRIPTION = """\
 Prints a script for bash, zsh or fish, which then completes verbs, options, their values and file names.
 """
@@ -43,7 +45,7 @@ def script(parser: argparse.ArgumentParser, shell: str) -> str:
 
     known = _known_values()
     for action in _actions(parser):
-        if action.type is Path:
+        if action.type in (Path, place_option):
             action.complete = shtab.FILE  # type: ignore[attr-defined]  # shtab reads it
         elif action.choices is None and action.dest in known:
             action.choices = list(known[action.dest])

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grafu.asset.regular_files import read_head
+from grafu.cli.cluster_option import add_cluster_option, is_remote, place_option
 from grafu.cli.format_option import add_formats_option
 from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
@@ -40,6 +41,7 @@ examples:
   grafu functionalize scan.obj --height 0.72 --front -Y --out results --overwrite
   grafu functionalize cabinet.obj --motion particulate:eval/pred.npz --out results
   grafu functionalize cabinet.glb --handle knob-round --interior shelves=2 --out results
+  grafu functionalize 's3://bucket/models/*' --cluster ray://HOST:10001 --out s3://bucket/results --resume
 """
 
 
@@ -48,8 +50,12 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser = verbs.add_parser(
         "functionalize", help="make furniture work: hinges, rails, limits", description=_DESCRIPTION, epilog=_EXAMPLES
     )
-    parser.add_argument("inputs", nargs="+", type=Path, metavar="INPUT", help="a model: file or folder")
-    parser.add_argument("--out", required=True, type=Path, metavar="DIR", help="where the results go: DIR/<name>/")
+    parser.add_argument(
+        "inputs", nargs="+", type=place_option, metavar="INPUT", help="a model: file or folder, or its URL (s3://...)"
+    )
+    parser.add_argument(
+        "--out", required=True, type=place_option, metavar="DIR", help="where the results go: DIR/<name>/; also a URL"
+    )
     parser.add_argument(
         "--motion",
         type=motion_choice,
@@ -62,6 +68,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument("--move", action="append", type=part_move, default=[], metavar="PART=HOW", help=MOVE_HELP)
     add_formats_option(parser)
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
+    add_cluster_option(parser)
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")
     parser.add_argument(
         "--weights", type=Path, metavar="FILE", help="the network that you trained: a file in ONNX form (`grafu train`)"
@@ -98,7 +105,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
 
 
 def _is_single(options: argparse.Namespace) -> bool:
-    return len(_distinct(options.inputs)) == 1 and not _may_split(options)
+    return not is_remote(options) and len(_distinct(options.inputs)) == 1 and not _may_split(options)
 
 
 def _may_split(options: argparse.Namespace) -> bool:
@@ -128,6 +135,10 @@ def run(options: argparse.Namespace) -> int:
     from grafu.cli.summary import print_place, print_results
     from grafu.export.whole_file import clear_remains
 
+    if is_remote(options):
+        from grafu.cli.remote_run import run_remote
+
+        return run_remote(options, _job_options(options, alone=len(options.inputs) == 1))
     if options.check:
         require_simulator(options.formats)
     inputs = _distinct(options.inputs)
@@ -168,7 +179,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     if options.move:
         settings = with_moves(settings, options.move, alone and is_whole, prediction)
     return JobOptions(
-        out=options.out,
+        out=options.out if isinstance(options.out, Path) else Path(),  # at a URL each machine has a folder of its own
         settings=settings,
         prediction=prediction,
         formats=formats,
@@ -198,7 +209,7 @@ def _require_weights(options: argparse.Namespace) -> None:
 
 def _show_begin(options: argparse.Namespace) -> None:
     """Names the inputs on a terminal before anything heavy is imported."""
-    inputs = _distinct(options.inputs)
+    inputs = options.inputs if is_remote(options) else _distinct(options.inputs)
     more = f" and {len(inputs) - 1} more" if len(inputs) > 1 else ""
     if not (options.quiet or options.json_lines):
         show_at_once(f"{inputs[0].name}{more}")

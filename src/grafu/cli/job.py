@@ -18,6 +18,7 @@ from grafu.export.formats import DEFAULT_FORMATS
 from grafu.export.output_names import output_name, same_place, told_apart, why_not_apart, with_ending
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import ProcessLimits
+from grafu.processes.worker import ignore
 
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
@@ -67,11 +68,12 @@ class JobOptions:
 @final
 @dataclass(frozen=True)
 class Job:
-    """One input and the name of its results."""
+    """One input and the name of its results; `stated` is what the report names as its path, if not the input itself."""
 
     input: Path
     name: str
     options: JobOptions
+    stated: str = ""
 
     @property
     def folder(self) -> Path:
@@ -108,17 +110,13 @@ class Failed:
 JobResult = Succeeded | Failed
 
 
-def _ignore(_: object) -> None:
-    """Hears of a stage or an object and does nothing."""
-
-
 @final
 @dataclass(frozen=True)
 class Listener:
     """What is called with each stage as it begins, and with the result before it is written."""
 
-    on_stage: Callable[[str], None] = _ignore
-    on_object: "Callable[[ArticulatedObject], None]" = _ignore
+    on_stage: Callable[[str], None] = ignore
+    on_object: "Callable[[ArticulatedObject], None]" = ignore
 
 
 SILENT = Listener()
@@ -220,6 +218,7 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
     listener.on_stage("load")
     started = perf_counter()
     asset = load_asset(job.input, options.settings.reading)
+    asset = replace(asset, path=job.stated) if job.stated else asset
     timings = {"load": perf_counter() - started}
     config, source = _config(options), _motions(job)
     made = functionalize(asset, source, open_gallery(options.templates), config, listener.on_stage, budget=budget)

@@ -46,6 +46,13 @@ def why_stopped(ending: Ending, limits: ProcessLimits) -> str:
         )
     if ending is Ending.LARGE and limits.memory is not None:
         return too_large(limits)
+    if ending is Ending.SET_ASIDE:
+        return (
+            "it was set aside: its process died each time that it was tried (out of memory, or a crash in a native "
+            "library); run it alone, or simplify the input"
+        )
+    if ending is Ending.LOST:
+        return "the machine that it was on was lost each time that it was tried: --resume tries it again"
     return "the process died while working on it (out of memory, or a crash in a native library)"
 
 

@@ -1,10 +1,52 @@
 """What is stated of one input as it ends: a line of JSON, a line for people, and its stages. It decides nothing."""
 
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, final
 
 from grafu.cli.job import Failed, JobResult, Succeeded
 from grafu.cli.stage_bar import stage_words
 from grafu.pipeline.words import counted
+
+if TYPE_CHECKING:
+    from grafu.cli.summary import SummaryRow
+
+
+@final
+@dataclass(frozen=True)
+class Ended:
+    """All that is stated of an input that ended, without its report.
+
+    `why` is why it failed, empty where it did not; `users_fault` whether the input is at fault then.
+    """
+
+    name: str
+    values: dict[str, Any]
+    words: str
+    stages: tuple[str, ...]
+    row: "SummaryRow"
+    why: str = ""
+    users_fault: bool = False
+
+    def in_short(self) -> "Ended":
+        """Returns it without what was printed of it: of a million models it stays in memory."""
+        return replace(self, values={"input": self.values["input"]}, words="", stages=())
+
+
+def ended_of(result: JobResult, given: str, place: str) -> Ended:
+    """Returns what is stated of a result whose input and folder are named as they were given."""
+    from grafu.cli.summary import row_of
+
+    values = {**outcome_values(result), "input": given, "folder": place}
+    failed = result if isinstance(result, Failed) else None
+    return Ended(
+        result.job.name,
+        values,
+        outcome_words(result),
+        tuple(stages_of(result)),
+        row_of(result),
+        failed.why if failed else "",
+        bool(failed and failed.users_fault),
+    )
 
 
 def outcome_values(result: JobResult) -> dict[str, Any]:

@@ -87,7 +87,7 @@ def run_all(
     `on_begin` is called here with each item as it begins. An item whose process was stopped or died gets the result
     that `failed` gives it; the others go on.
     """
-    with closing(run_each(items, workers, run, limits, _prepare, on_begin=on_begin)) as ended:
+    with closing(run_each(items, workers, run, limits, prepare_for_models, on_begin=on_begin)) as ended:
         for item, outcome in ended:
             yield outcome.results[0] if outcome.ending is Ending.DONE else failed(item, outcome.ending)
 
@@ -101,7 +101,7 @@ def _begin() -> None:
     prepare_verb()
 
 
-def _prepare() -> None:
+def prepare_for_models() -> None:
     """Imports what takes long: no model pays for it with its own time."""
     _begin()
     import_module("grafu.pipeline.functionalize")

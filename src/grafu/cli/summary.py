@@ -2,7 +2,9 @@
 
 from collections import Counter, defaultdict
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import final
 
 from rich.markup import escape
 from rich.table import Table
@@ -20,23 +22,60 @@ _READ_NOTES = 5  # of one input; the report has all
 _ALL_ROWS = 20  # inputs up to which each has its row, also where there is nothing to say of it
 
 
+@final
+@dataclass(frozen=True)
+class SummaryRow:
+    """What the table of several inputs, and the line under it, state of one; `colour` is None where it failed."""
+
+    cells: tuple[str, ...]
+    colour: Colour | None = None
+    joints: int = 0
+    skipped: int = 0
+    unused: int = 0
+    earlier: bool = False
+
+    @property
+    def is_worth_a_row(self) -> bool:
+        """Whether there is something to state of it."""
+        return self.colour is None or bool(self.cells[-1])
+
+
+def row_of(result: JobResult) -> SummaryRow:
+    """Returns what is stated of a result among several."""
+    if isinstance(result, Failed):
+        return SummaryRow((result.job.name, "failed", "", "", "", "", f"FAILED: {result.why}"))
+    report, verdict = result.report, verdict_of(result.report)
+    cells = (result.job.name, *_counts(result), "; ".join(_report_notes(report)))
+    unused = report.motion.unused_joints
+    return SummaryRow(cells, verdict.colour, len(report.joints), _skipped(verdict), unused, result.earlier)
+
+
 def print_results(results: Sequence[JobResult]) -> None:
     """Prints one input's joints, or one row per input, on stdout; a single failure prints nothing here."""
-    console = wide_console()
     if len(results) > 1:
-        shown = results if len(results) <= _ALL_ROWS else [result for result in results if _is_worth_a_row(result)]
-        if shown:
-            console.print(_inputs_table(shown))
-        console.print(_total(results))
-        for line in _stated(results):
-            console.print(line, highlight=False)
+        print_rows([row_of(result) for result in results])
     elif isinstance(results[0], Succeeded):
+        console = wide_console()
         report = results[0].report
         if report.joints or report.skipped or parts_without_joint(report):
             console.print(_joints_table(report))
         for line in _said_of_one(report):
             console.print(line, markup=False, highlight=False)
         print_place(*_place(results[0].job))
+
+
+def print_rows(rows: Sequence[SummaryRow]) -> None:
+    """Prints a row per input, of many only of those of which there is something to state, and a line on all."""
+    console = wide_console()
+    shown = rows if len(rows) <= _ALL_ROWS else [row for row in rows if row.is_worth_a_row]
+    if shown:
+        table = plain_table("input", "verdict", "doors", "drawers", "skipped", "seconds", "notes")
+        for row in shown:
+            table.add_row(*map(escape, row.cells))
+        console.print(table)
+    console.print(_total(rows))
+    for line in _stated(rows):
+        console.print(line, highlight=False)
 
 
 def _said_of_one(report: Report) -> list[str]:
@@ -101,20 +140,6 @@ def _not_built(report: Report) -> dict[str, list[str]]:
     return by_reason
 
 
-def _inputs_table(results: Sequence[JobResult]) -> Table:
-    table = plain_table("input", "verdict", "doors", "drawers", "skipped", "seconds", "notes")
-    for result in results:
-        if isinstance(result, Failed):
-            table.add_row(escape(result.job.name), "failed", "", "", "", "", escape(f"FAILED: {result.why}"))
-        else:
-            table.add_row(escape(result.job.name), *_counts(result), escape("; ".join(_report_notes(result.report))))
-    return table
-
-
-def _is_worth_a_row(result: JobResult) -> bool:
-    return isinstance(result, Failed) or bool(_report_notes(result.report))
-
-
 def _counts(result: Succeeded) -> tuple[str, ...]:
     verdict = verdict_of(result.report)
     kinds = [motion_kind(joint.type) for joint in result.report.joints if joint.is_front]
@@ -126,25 +151,22 @@ def _skipped(verdict: VerdictRecord) -> int:
     return sum(line.kind in _NOT_BUILT for line in verdict.lines)
 
 
-def _total(results: Sequence[JobResult]) -> str:
-    done = [result for result in results if isinstance(result, Succeeded)]
-    joints = sum(len(result.report.joints) for result in done)
-    verdicts = [verdict_of(result.report) for result in done]
-    skipped = sum(map(_skipped, verdicts))
-    colours = Counter(verdict.colour for verdict in verdicts)
+def _total(rows: Sequence[SummaryRow]) -> str:
+    done = [row for row in rows if row.colour is not None]
+    joints, skipped = sum(row.joints for row in done), sum(row.skipped for row in done)
+    colours = Counter(row.colour for row in done)
     lights = ", ".join(f"{colours[colour]} {colour}" for colour in Colour if colours[colour])
-    failed = len(results) - len(done)
-    ending = f"; {failed} of {len(results)} inputs failed" if failed else ""
+    failed = len(rows) - len(done)
+    ending = f"; {failed} of {len(rows)} inputs failed" if failed else ""
     ending = f": {lights}{ending}" if lights else ending
-    earlier = sum(result.earlier for result in done)
+    earlier = sum(row.earlier for row in done)
     ending = f" ({earlier} of them done earlier){ending}" if earlier else ending
     return f"{joints} joints built, {skipped} skipped in {len(done)} inputs{ending}"
 
 
-def _stated(results: Sequence[JobResult]) -> list[str]:
+def _stated(rows: Sequence[SummaryRow]) -> list[str]:
     """Returns in words how many inputs state joints that were not read, if any do."""
-    unused = [result.report.motion.unused_joints for result in results if isinstance(result, Succeeded)]
-    inputs, joints = sum(count > 0 for count in unused), sum(unused)
+    inputs, joints = sum(row.unused > 0 for row in rows), sum(row.unused for row in rows)
     states = "states" if inputs == 1 else "state"
     words = f"{counted(inputs, 'input')} {states} {counted(joints, 'joint')}; --motion annotation builds such"
     return [words] if joints else []

@@ -71,11 +71,17 @@ def output_name(path: Path) -> str:
         AssetError: if it cannot be the name of a folder on every system.
     """
     resolved = Path(os.path.realpath(path))
-    name = resolved.name if os.path.isdir(resolved) else resolved.stem
+    return name_that_is_safe(resolved.name if os.path.isdir(resolved) else resolved.stem, str(path))
+
+
+def name_that_is_safe(name: str, given: str) -> str:
+    """Returns a name of results as every system can hold it; `given` is the input, for what is stated of a refusal.
+
+    Raises:
+        AssetError: if it cannot be the name of a folder on every system.
+    """
     if why := _why_refused(name):
-        raise AssetError(
-            f"the results of `{visible(str(path))}` would go to `{visible(name)}`, {why}: rename the input"
-        )
+        raise AssetError(f"the results of `{visible(given)}` would go to `{visible(name)}`, {why}: rename the input")
     return _mended(name)
 
 

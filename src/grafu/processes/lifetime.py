@@ -91,16 +91,20 @@ def _watch() -> None:
         os._exit(1)
 
 
-_SWITCH = "ORT_DISABLE_TELEMETRY"  # ONNX Runtime reads it as it is loaded; later it is too late
+_SWITCHES = {  # they are read as the libraries are loaded; later it is too late
+    "ORT_DISABLE_TELEMETRY": "1",
+    "RAY_USAGE_STATS_ENABLED": "0",
+    "HF_HUB_DISABLE_TELEMETRY": "1",
+}
 
 
 def keep_private() -> None:
-    """Switches off the telemetry of ONNX Runtime, for this process and those that it starts.
+    """Switches off the telemetry of ONNX Runtime, Ray and Hugging Face, for this process and those that it starts.
 
-    To be called before the library is imported: as it loads, it would make a device id and a queue of events under the
-    user's cache folder, and ask for its makers' host.
+    To be called before the libraries are imported: as it loads, ONNX Runtime would make a device id and a queue of
+    events under the user's cache folder, and ask for its makers' host.
     """
-    os.environ[_SWITCH] = "1"
+    os.environ.update(_SWITCHES)
 
 
 @final

@@ -138,12 +138,17 @@ class ProcessLimits:
 
 @final
 class Ending(Enum):
-    """How work ended: with a result, too late, too large, or with the death of its process."""
+    """How work ended: with a result, too late, too large, or with the death of its process.
+
+    On several machines also: its process died each time that it was tried, or its machine was lost too often.
+    """
 
     DONE = "done"
     LATE = "late"
     LARGE = "large"
     DIED = "died"
+    SET_ASIDE = "set aside"
+    LOST = "lost"
 
 
 @final

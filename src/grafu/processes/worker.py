@@ -142,6 +142,40 @@ class Worker(Generic[Item, Result]):
         return Ending.LATE if self._deadline is not None and monotonic() > self._deadline else None
 
 
+@final
+class ReusedWorker(Generic[Item, Result]):
+    """A worker for one item after the other; another takes its place after it died, was stopped or is worn."""
+
+    def __init__(
+        self, run: Callable[[Item], Result], limits: ProcessLimits, prepare: Callable[[], None] = nothing
+    ) -> None:
+        self._run, self._limits, self._prepare = run, limits, prepare
+        self._worker: Worker[Item, Result] | None = None
+
+    def outcome_of(self, item: Item) -> Outcome[Result]:
+        """Returns how work on an item ended; when it is interrupted meanwhile, the worker ends."""
+        worker = self._worker or Worker(self._run, self._limits, self._prepare)
+        self._worker = None
+        try:
+            worker.give(item)
+            while (outcome := worker.outcome()) is None:
+                wait([worker.connection], worker.patience)
+        except BaseException:
+            worker.stop()
+            raise
+        if outcome.ending is Ending.DONE and not worker.is_worn:
+            self._worker = worker
+        elif outcome.ending is Ending.DONE:
+            worker.stop()
+        return outcome
+
+    def stop(self) -> None:
+        """Ends the worker, where there is one."""
+        if self._worker is not None:
+            self._worker.stop()
+        self._worker = None
+
+
 def _serve(
     run: Callable[[Any], object],
     limits: ProcessLimits,
