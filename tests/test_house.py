@@ -18,8 +18,8 @@ from grafu.version import __version__
 ROOT = Path(__file__).parent.parent
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
 LEARNING = ("network", "training")  # the folders that the product does without
-# What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, USD, the editor, Parquet, baselines
-# that ask a language model, storage at URLs, clusters.
+# What extras bring: COLLADA, Draco, MJCF, the .blend export in a process of its own, USD, the editor, Parquet,
+# baselines that ask a language model, storage at URLs, clusters.
 OPTIONAL = {"collada", "DracoPy", "mujoco", "bpy", "pxr", "zstandard", "starlette", "uvicorn", "openai", "pyarrow"}
 OPTIONAL |= {"fsspec", "ray"}
 SAYS_NOTHING = re.compile(r"(^|_)(utils?|helpers?|misc|common)$")
