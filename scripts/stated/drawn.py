@@ -42,6 +42,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("network.md", "synthetic"): copied(store["synthetic"], 0),
         ("network.md", "network and rules"): beside(store),
         ("network.md", "doors"): doors(store),
+        ("network.md", "facts"): copied(store["synthetic"], 2),
         ("network.md", "motions"): motions(store),
         ("training.md", "losses"): copied(store["losses"], 0),
         ("training.md", "folds"): copied(store["folds"], 0),

@@ -19,6 +19,7 @@ EFFORT = "after how many tries a search ends, or how much is done in a simpler w
 UNIT = "a unit, a constant of mathematics, or a row of a table"
 MEASURE = "the definition of a measure, as the paper, docs/metrics.md or docs/evaluation.md state it"
 PHYSICS = "a constant of physics, or the density of a material"
+TEXT = "a bound of what is read, shown or sent as text, or a number of a protocol"
 GRIPPER = "a size of the gripper whose grasp frames docs/conventions.md describes"
 
 REASONS = {
@@ -59,9 +60,15 @@ REASONS = {
     "evaluation": {
         "bootstrap.py": dict.fromkeys(("LEVEL", "RESAMPLES", "SEED", "_BLOCK"), SAMPLES),
         "completeness.py": {"_ONE_PANEL": MEASURE},
+        "config_file.py": {"_MOST_BYTES": TEXT},
         "dataset.py": dict.fromkeys(("TEST_SEED", "_DEEPEST", "_MOST_MADE", "_TEST_COUNT"), SAMPLES),
         "dataset_release.py": {"DRAWER_RANGE": MEASURE, "DOOR_RANGE": MEASURE, "_FITS": TOLERANCE},
         "distribution.py": {"TRAINING_COUNT": SAMPLES, "TRAINING_SEED": SAMPLES},
+        "llm/config.py": {"EXAMPLES_SEED": SAMPLES},
+        "llm/conversation.py": {"_LONGEST": TEXT},
+        "llm/endpoint.py": dict.fromkeys(("_BUSY", "_LEAST_SECRET", "_REFUSED", "_SERVER"), TEXT),
+        "llm/graph_text.py": {"_DIGITS": TEXT},
+        "llm/reply_json.py": {"_MOST_BYTES": TEXT, "_MOST_STARTS": EFFORT},
         "measures.py": {"OPENS": MEASURE},
         "methods.py": {"LEVELS": MEASURE},
         "motion_table.py": dict.fromkeys(("(TOPS, HANDLES, INTERIORS)", "MASKING", "MODELS", "MOTION"), UNIT),
@@ -69,6 +76,7 @@ REASONS = {
         "output.py": {"TOP": UNIT},
         "plausible.py": dict.fromkeys(("(_LINE_POINTS, _SAMPLES)", "_POSES"), SAMPLES)
         | dict.fromkeys(("HELD", "LEVER", "NEAR"), MEASURE),
+        "programs/running.py": {"_SAID": TEXT},
         "records.py": {"_MOST_BYTES": EFFORT},
         "statistics.py": dict.fromkeys(
             ("(_LOW, _HIGH)", "_CHANCE", "_GROUP", "_GROUPS", "_INSIDE", "_ROUNDING"), SAMPLES
@@ -76,8 +84,10 @@ REASONS = {
         "statistics_fronts.py": dict.fromkeys(("_BELOW", "_LEVEL", "_THIRDS"), MEASURE)
         | {"_GRID": SAMPLES, "_UP": UNIT},
         "statistics_measures.py": {"_FLAT": TOLERANCE},
+        "still_picture.py": {"SIZE": UNIT},
         "tasks.py": {"_SMALL": EFFORT},
         "twins.py": dict.fromkeys(("ALIKE", "ON", "SAME_BOX"), MEASURE) | {"_POINTS": SAMPLES},
+        "usage_table.py": {"_MILLION": UNIT},
     },
 }
 

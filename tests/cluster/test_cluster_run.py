@@ -5,7 +5,7 @@ import os
 import signal
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import replace
 from pathlib import Path
 from threading import Event, Thread
@@ -113,6 +113,25 @@ def test_a_cluster_elsewhere_is_used_by_its_client_port(cluster: Any, tmp_path: 
         items = [(str(tmp_path), name) for name in ("a", "crashes", "b")]
         ended = {item[1]: outcome.ending for item, outcome in run_on_cluster(ray, items, Work(work))}
     assert ended == {"a": Ending.DONE, "crashes": Ending.SET_ASIDE, "b": Ending.DONE}
+
+
+@pytest.mark.parametrize(("late", "asked"), [(0, 1), (2, 3), (5, 3)])
+def test_a_server_that_is_late_with_a_session_is_asked_again(
+    late: int, asked: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tries: list[str] = []
+
+    def init(address: str, **_: object) -> None:
+        tries.append(address)
+        if len(tries) <= late:
+            raise ConnectionAbortedError("Initialization failure from server")
+
+    monkeypatch.setattr("ray.init", init)
+    monkeypatch.setattr("grafu.cluster.ray_tasks._require_answer", lambda address, seconds: None)
+    refused = pytest.raises(OptionError, match="cannot be used") if late > 2 else nullcontext()
+    with refused, cluster_at("ray://host:10001", 1):
+        pass
+    assert tries == ["ray://host:10001"] * asked
 
 
 def test_no_more_than_the_stated_number_is_given_to_the_cluster(cluster: Any, tmp_path: Path) -> None:

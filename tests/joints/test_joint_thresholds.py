@@ -122,7 +122,7 @@ REASONS = {
     "tilting_fronts.py": {"(_UP, _DEPTH)": NUMBERING},
     "behind_fronts.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING},
     "waste_bins.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
-    "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_ON_LEAF": SAMPLES},
+    "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_STEPS": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,

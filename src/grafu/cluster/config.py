@@ -21,14 +21,16 @@ class ClusterConfig:
     """Bytes that Ray reserves for a model, at most its limit; after a death its whole limit is reserved."""
     reach_seconds: float = 15.0
     """Seconds until a cluster that does not answer is given up."""
+    connections: int = 3
+    """How often the server behind a `ray://` address is asked for a session: a busy one may be late with the first."""
     cancel_seconds: float = 5.0
     """Seconds that tasks have to end by themselves when a run is interrupted, before they are killed."""
     poll_seconds: float = 1.0
     """Seconds after which the cluster is asked again how many CPUs it has."""
 
     def __post_init__(self) -> None:
-        if self.in_flight_per_cpu <= 0.0 or self.tries < 1 or self.losses < 1:
-            raise OptionError("tasks in flight, tries and losses must be above 0")
+        if self.in_flight_per_cpu <= 0.0 or min(self.tries, self.losses, self.connections) < 1:
+            raise OptionError("tasks in flight, tries, losses and connections must be above 0")
         if min(self.reserved_memory, self.reach_seconds, self.cancel_seconds, self.poll_seconds) < 0:
             raise OptionError("bytes and seconds of a cluster must not be negative")
 

@@ -67,7 +67,7 @@ def cluster_at(address: str, cpus: int, config: ClusterConfig = ClusterConfig())
         _require_answer(address, config.reach_seconds)
     handler = signal.getsignal(signal.SIGTERM)
     try:
-        _connect(ray, address, cpus)
+        _connect(ray, address, cpus, config.connections)
         _silence()
         if started_by_main_thread():
             signal.signal(signal.SIGTERM, handler)  # Ray has put its own in its place
@@ -76,7 +76,7 @@ def cluster_at(address: str, cpus: int, config: ClusterConfig = ClusterConfig())
         ray.shutdown()
 
 
-def _connect(ray: _Ray, address: str, cpus: int) -> None:
+def _connect(ray: _Ray, address: str, cpus: int, connections: int) -> None:
     quiet = {"log_to_driver": False, "logging_level": "ERROR"}
     local = {"num_cpus": cpus, "include_dashboard": False, "object_store_memory": _STORE}
     try:
@@ -87,12 +87,25 @@ def _connect(ray: _Ray, address: str, cpus: int) -> None:
         if address in (LOCAL, AUTO):
             ray.init(address=LOCAL, **local, **quiet)
         elif address.startswith("ray://"):
-            logging.getLogger("ray.client_builder").setLevel(logging.ERROR)
-            ray.init(address=address, log_to_driver=False)  # it hands other options on to the cluster
+            _begin_session(ray, address, connections)
         else:
             ray.init(address=address, **quiet)
     except Exception as error:  # of another version, of another Python, not a cluster: Ray has no class for these
         raise OptionError(f"the cluster `{address}` cannot be used: {without_secrets(str(error))}") from None
+
+
+def _begin_session(ray: _Ray, address: str, tries: int) -> None:
+    """Connects to a client port; a server that does not begin a session in time is asked again."""
+    logging.getLogger("ray.client_builder").setLevel(logging.ERROR)
+    for left in reversed(range(tries)):
+        try:
+            ray.init(address=address, log_to_driver=False)  # it hands other options on to the cluster
+        except ConnectionAbortedError:
+            if not left:
+                raise
+            ray.shutdown()
+        else:
+            return
 
 
 def _silence() -> None:
