@@ -74,7 +74,7 @@ class FactConfig(ShortRepr):
     """A part moves as one with a door or drawer ..."""
     ajar: float = 0.8
     """... a door or drawer is drawn open ..."""
-    piece: float = 0.5
+    piece: float = 0.8
     """... and the piece is of a kind."""
 
     def __post_init__(self) -> None:
