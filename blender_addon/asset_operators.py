@@ -15,7 +15,7 @@ LIBRARY = "GraFu"
 _FOLDER = "assets"
 
 
-def library():
+def registered_library():
     """Returns Blender's entry of the library of templates, or None."""
     folder = own_folder(_FOLDER)
     found = bpy.context.preferences.filepaths.asset_libraries
@@ -59,7 +59,7 @@ class GRAFU_OT_add_assets(Applies, bpy.types.Operator):
             save_assets([_asset(self._run.folder, entry) for entry in thumbnails.entries_in(self._run.folder)], folder)
         except (OSError, RuntimeError, FunctionalizationError) as error:
             return self._refused(context, f"the asset library was not written to {folder}: {error}")
-        if library() is None:
+        if registered_library() is None:
             add_asset_library(LIBRARY, folder)
         self.report({"INFO"}, f"the asset browser has the library {LIBRARY}: {folder}")
         return {"FINISHED"}
@@ -98,13 +98,13 @@ class GRAFU_OT_remove_assets(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """Whether it is there, and nothing runs."""
-        return active_run() is None and library() is not None
+        return active_run() is None and registered_library() is not None
 
     def execute(self, context):
         """Removes it; files of others in its folder stay."""
         from grafu.export.blend.assets import CATALOG_NAME, FILE_NAME
 
-        remove_asset_library(library())
+        remove_asset_library(registered_library())
         for name in (CATALOG_NAME, FILE_NAME):
             (own_folder(_FOLDER) / name).unlink(missing_ok=True)
         return {"FINISHED"}

@@ -2,7 +2,7 @@
 
 import bpy
 
-from .asset_operators import library
+from .asset_operators import registered_library
 from .lists import BUTTONS, ICON, LEVEL_ICONS
 from .objects import joint_empties
 from .run_operators import active_run
@@ -215,7 +215,7 @@ class GRAFU_PT_assets(_Panel, bpy.types.Panel):
 
     def draw(self, context):
         """Draws it."""
-        column, there = self.layout.column(align=True), library() is not None
+        column, there = self.layout.column(align=True), registered_library() is not None
         column.operator("grafu.use_asset", icon="PIVOT_ACTIVE")
         text = "Write the asset library anew" if there else "Add the asset library"
         column.operator("grafu.add_assets", text=text, icon="ASSET_MANAGER")

@@ -24,7 +24,7 @@ def libraries() -> list:
 
 def marked() -> dict:
     """What the library holds: by the kind and id of a template, what Blender states of it."""
-    path = Path(asset_operators.library().path) / "templates.blend"
+    path = Path(asset_operators.registered_library().path) / "templates.blend"
     with bpy.data.libraries.load(str(path), assets_only=True) as (there, taken):
         taken.objects, taken.collections = there.objects, there.collections
     return {f"{one['kind']}-{one['id']}": one for one in (*taken.objects, *taken.collections)}
@@ -76,7 +76,7 @@ def main():
     grafu.add_assets()
     first = set(libraries()) - set(before)
     grafu.add_assets()
-    folder = Path(asset_operators.library().path)
+    folder = Path(asset_operators.registered_library().path)
     FACTS.append({"step": "added", "new": [len(first), len(libraries()) - len(before)]})
     FACTS[-1]["files"] = sorted(path.name for path in folder.iterdir())
     FACTS[-1]["catalogs"] = (folder / "blender_assets.cats.txt").read_text()
