@@ -154,7 +154,7 @@ def test_what_is_written_is_whole_and_its_settings_read_back(run):
 def test_source_and_settings_give_the_same_without_blender(run, tmp_path):
     written, source = run / "final", tmp_path / "final.glb"
     source.write_bytes((written / "source.glb").read_bytes())
-    given = [str(source), "--settings", str(written / "settings.json"), "--formats", "glb", "--no-page"]
+    given = [str(source), "--settings", str(written / "settings.json"), "--formats", "glb,urdf", "--no-page"]
     command = [find_interpreter(), "-m", "grafu.cli.main", "functionalize", *given, "--out", str(tmp_path / "out")]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
     assert done.returncode == 0, done.stderr
