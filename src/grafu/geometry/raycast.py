@@ -96,8 +96,7 @@ class RayCaster:
             np.ascontiguousarray(directions, dtype=np.float32),
             query="DISTANCE",
         )
-        distances = np.asarray(found, dtype=np.float64)
-        return np.where(distances > 1e30, np.inf, distances)
+        return _without_misses(found)
 
     def along(self, origins: Points, direction: Vec3) -> Scalars:
         """Returns the distances of many origins along one unit direction."""
@@ -105,16 +104,23 @@ class RayCaster:
 
     def first_faces(self, origins: Points, direction: Vec3) -> tuple[Indices, Scalars]:
         """Returns for each origin the number of the face first hit along a unit direction (-1: none), and how far."""
-        distances = self.along(origins, direction)
-        faces = np.full(len(origins), -1, np.int64)
-        if self._scene is not None and len(origins):
-            found = self._scene.run(
-                np.ascontiguousarray(origins, dtype=np.float32),
-                np.ascontiguousarray(np.broadcast_to(direction, origins.shape), dtype=np.float32),
-                query="INTERSECT",
-            )
-            faces = np.where(np.isfinite(distances), np.asarray(found, dtype=np.int64), -1)
-        return faces, distances
+        if self._scene is None or not len(origins):
+            return np.full(len(origins), -1, np.int64), np.full(len(origins), np.inf)
+        require_time()
+        found = self._scene.run(
+            np.ascontiguousarray(origins, dtype=np.float32),
+            np.ascontiguousarray(np.broadcast_to(direction, origins.shape), dtype=np.float32),
+            query="INTERSECT",
+            output=True,
+        )
+        distances = _without_misses(found["tfar"])
+        return np.where(np.isfinite(distances), found["primID"].astype(np.int64), -1), distances
+
+
+def _without_misses(found: np.ndarray) -> Scalars:
+    """Returns Embree's distances, infinity where a ray meets nothing."""
+    distances = np.asarray(found, dtype=np.float64)
+    return np.where(distances > 1e30, np.inf, distances)
 
 
 def depths_below(rays: RayCaster, face: Box, along: int, count: int, above: float) -> Scalars:
