@@ -15,7 +15,7 @@ from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays, median
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
@@ -140,7 +140,7 @@ def depths_below(rays: RayCaster, face: Box, along: int, count: int, above: floa
 def robust_median(distances: Scalars, reach: float, ratio: float = 0.3) -> float:
     """Returns the median of the distances within `reach`; infinity where less than `ratio` of the rays hit."""
     hits = distances[distances <= reach]
-    return float(np.median(hits)) if len(hits) >= max(1.0, ratio * len(distances)) else float("inf")
+    return median(hits) if len(hits) >= max(1.0, ratio * len(distances)) else float("inf")
 
 
 _OFF = 1e-4  # of the largest side: how far before a face a ray begins
