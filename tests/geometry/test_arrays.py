@@ -7,7 +7,7 @@ from typing import final
 import numpy as np
 import pytest
 
-from grafu.geometry.arrays import ArrayValue, extremes, freeze_arrays, median
+from grafu.geometry.arrays import ArrayValue, cross, extremes, freeze_arrays, median
 
 
 @final
@@ -72,3 +72,10 @@ def test_the_median_of_many_is_that_of_numpy_to_the_last_digit() -> None:
         values = rng.normal(size=count)
         assert median(values) == np.median(values)
     assert np.isnan(median([1.0, np.nan]))
+
+
+def test_cross_products_are_those_of_numpy_to_the_last_digit() -> None:
+    first, second = np.random.default_rng(2).normal(size=(2, 40, 3))
+    np.testing.assert_array_equal(cross(first, second), np.cross(first, second))
+    np.testing.assert_array_equal(cross(first, second[0]), np.cross(first, second[0]))
+    assert cross(first[:0], second[:0]).shape == (0, 3)

@@ -4,7 +4,7 @@ Hinges and rails carry no shape: their knuckles and channels interlock, and only
 they can be posed and asked whether they meet.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
@@ -116,16 +116,34 @@ def chosen_shapes(
     """
     shapes = [shape for visual in link.visuals for shape in of_part(visual, config)]
     shapes.sort(key=lambda shape: -extent_of(shape))
-    distinct: list[CollisionShape] = []
-    for shape in shapes:
-        if not any(_lies_within(shape, other, config.within) for other in distinct):
-            distinct.append(shape)
+    distinct = _distinct(shapes, config.within)
     if len(distinct) <= config.most_shapes:
         return tuple(distinct), ()
     held = np.array([_carries(shape, link, config) for shape in distinct])
     first = {int(k) for k in np.argsort(~held, kind="stable")[: config.most_shapes]}
     kept = tuple(shape for k, shape in enumerate(distinct) if k in first)
     return kept, tuple(shape for k, shape in enumerate(distinct) if k not in first)
+
+
+def _distinct(shapes: Sequence[CollisionShape], tolerance: float) -> list[CollisionShape]:
+    """Returns the shapes that lie in none before them.
+
+    Of the boxes before it, a shape is compared with those alone whose bounds, grown by twice the tolerance, hold its
+    bounds: a turned box that grows by the tolerance grows by less along any axis. A hull may grow by more at a corner.
+    """
+    corners = [corners_of(shape) for shape in shapes]
+    low = np.array([points.min(axis=0) for points in corners]).reshape(-1, 3)
+    high = np.array([points.max(axis=0) for points in corners]).reshape(-1, 3)
+    is_box = np.array([isinstance(shape, OrientedBox) for shape in shapes], dtype=bool)
+    found: list[int] = []
+    for k, shape in enumerate(shapes):
+        before = np.array(found, dtype=np.int64)
+        holds = (low[before] - 2 * tolerance <= low[k]).all(axis=1)
+        holds &= (high[before] + 2 * tolerance >= high[k]).all(axis=1)
+        near = before[holds | ~is_box[before]]
+        if not any(_lies_within(shape, shapes[other], tolerance) for other in near.tolist()):
+            found.append(k)
+    return [shapes[k] for k in found]
 
 
 def _carries(shape: CollisionShape, link: Link, config: CollisionShapeConfig) -> bool:

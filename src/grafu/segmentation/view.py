@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import ArrayValue, Indices, Mat3, Points, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Indices, Mat3, Points, cross, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.raycast import RayCaster
 
@@ -146,8 +146,8 @@ class SeenFaces:
         turned = TriangleMesh(mesh.vertices @ axes.T, mesh.faces)
         corners = turned.triangles
         low, high = triangle_bounds(corners)
-        cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        return cls(low, high, cross, RayGrid(turned, low, high))
+        normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        return cls(low, high, normals, RayGrid(turned, low, high))
 
     def view(self, shell: Indices, owner: OfShells) -> ShellsView:
         """Returns the shells, from the number of each face's shell and of the object that holds each shell."""
@@ -155,8 +155,8 @@ class SeenFaces:
         starts = np.searchsorted(shell[order], np.arange(len(owner)))
         low = np.minimum.reduceat(self.low[order], starts, axis=0)
         high = np.maximum.reduceat(self.high[order], starts, axis=0)
-        cross = self.cross[order] / 2
-        sides = [np.add.reduceat(np.maximum(sign * cross, 0.0), starts, axis=0) for sign in (1.0, -1.0)]
+        normals = self.cross[order] / 2
+        sides = [np.add.reduceat(np.maximum(sign * normals, 0.0), starts, axis=0) for sign in (1.0, -1.0)]
         return ShellsView(owner, low, high, np.maximum(*sides), shell, self.rays)
 
 
