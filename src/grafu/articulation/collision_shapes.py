@@ -116,13 +116,22 @@ def chosen_shapes(
     """
     shapes = [shape for visual in link.visuals for shape in of_part(visual, config)]
     shapes.sort(key=lambda shape: -extent_of(shape))
-    distinct = _distinct(shapes, config.within)
-    if len(distinct) <= config.most_shapes:
-        return tuple(distinct), ()
-    held = np.array([_carries(shape, link, config) for shape in distinct])
-    first = {int(k) for k in np.argsort(~held, kind="stable")[: config.most_shapes]}
-    kept = tuple(shape for k, shape in enumerate(distinct) if k in first)
-    return kept, tuple(shape for k, shape in enumerate(distinct) if k not in first)
+    return as_many_as_allowed(_distinct(shapes, config.within), link, config)
+
+
+def as_many_as_allowed(
+    shapes: Sequence[CollisionShape], link: Link, config: CollisionShapeConfig = DEFAULT_COLLISION_CONFIG
+) -> tuple[tuple[CollisionShape, ...], tuple[CollisionShape, ...]]:
+    """Returns the shapes of a link that are kept, at most `most_shapes`, and those left out, each in their order.
+
+    What stands on the floor or carries a joint is the last to be left out, then the largest.
+    """
+    if len(shapes) <= config.most_shapes:
+        return tuple(shapes), ()
+    order = sorted(range(len(shapes)), key=lambda k: (not _carries(shapes[k], link, config), -extent_of(shapes[k])))
+    first = set(order[: config.most_shapes])
+    kept = tuple(shape for k, shape in enumerate(shapes) if k in first)
+    return kept, tuple(shape for k, shape in enumerate(shapes) if k not in first)
 
 
 def _distinct(shapes: Sequence[CollisionShape], tolerance: float) -> list[CollisionShape]:
