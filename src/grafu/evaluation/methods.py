@@ -27,8 +27,8 @@ from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 
-LEVELS = (0.1, 0.3, 0.5, 1.0)
-"""The paper's rates."""
+LEVELS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+"""The paper's rates (0.1, 0.3, 0.5, 1) and those between."""
 
 
 def masked(asset: Asset, ratio: float, seed: int) -> Asset:
@@ -72,7 +72,7 @@ class Method:
     """A source of motions by its name, and where it needs that, from where they come.
 
     Predictions of others have a folder that holds one entry per model id; what is run has a program, what is asked a
-    language model.
+    language model. The network may have `weights` in a file; None: those that came with the package.
 
     Raises:
         OptionError: if the name is none of those known, or what it needs is missing or superfluous.
@@ -82,6 +82,7 @@ class Method:
     folder: Path | None = None
     program: OutsideProgram | None = None
     model: LanguageModel | None = None
+    weights: Path | None = None
 
     def __post_init__(self) -> None:
         if self.name not in KNOWN:
@@ -94,11 +95,13 @@ class Method:
             if (self.name in names) != (given is not None):
                 said = f"`{self.name}:{spelled}" if self.name in names else f"`{self.name}` alone"
                 raise OptionError(f"method `{self.name}` must be given as {said}")
+        if self.weights is not None and self.name != "network":
+            raise OptionError(f"weights are for the method network: got `{self.name}`")
 
     @property
     def spelled(self) -> str:
         """The method as the command spells it."""
-        of = self.folder or (self.program and self.program.path) or (self.model and self.model.name)
+        of = self.folder or self.weights or (self.program and self.program.path) or (self.model and self.model.name)
         return f"{self.name}:{of}" if of else self.name
 
     @property
@@ -118,7 +121,7 @@ class MethodOptions:
 
 
 def parse_method(text: str, options: MethodOptions = MethodOptions()) -> Method:
-    """Returns the method that a word of the command line spells: `network`, `particulate:DIR`, `llm:MODEL`.
+    """Returns the method that a word of the command line spells: `network:FILE`, `particulate:DIR`, `llm:MODEL`.
 
     Raises:
         OptionError: if it spells none, or the file that it names cannot be read.
@@ -129,7 +132,7 @@ def parse_method(text: str, options: MethodOptions = MethodOptions()) -> Method:
     if name in RUN and of:
         config = read_config(Path(of), ProgramConfig)
         return Method(name, program=OutsideProgram(Path(of), config, options.outputs, name.removesuffix("-run")))  # type: ignore[arg-type]
-    return Method(name, Path(of) if of else None)
+    return Method(name, weights=Path(of)) if name == "network" and of else Method(name, Path(of) if of else None)
 
 
 def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = False) -> Functionalized:
@@ -143,7 +146,8 @@ def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = Fa
         NotRun: if a program is not installed.
         OptionError: if the method asks a language model, which `grafu.evaluation.llm.baselines` does.
     """
-    config = PipelineConfig(Settings(additions=_JOINTS_ALONE)) if joints_alone else PipelineConfig()
+    settings = Settings(weights=method.weights)
+    config = PipelineConfig(replace(settings, additions=_JOINTS_ALONE) if joints_alone else settings)
     if method.can_be_masked:
         return functionalize(asset.without_annotation(), MotionSource(method.name), builtin_gallery(), config)
     if method.name == "annotation":
@@ -166,5 +170,5 @@ def made_with_labels_hidden(method: Method, asset: Asset, ratio: float, seed: in
     """
     if not method.can_be_masked:
         raise OptionError(f"labels can be hidden from rule and network alone: got `{method.name}`")
-    config = PipelineConfig(Settings(additions=_JOINTS_ALONE))
+    config = PipelineConfig(Settings(additions=_JOINTS_ALONE, weights=method.weights))
     return functionalize(masked(asset, ratio, seed), MotionSource(method.name), builtin_gallery(), config)
