@@ -6,7 +6,8 @@ MODELS are inputs with annotated joints; without any, those in the folder that G
 ../shared/models. Every model runs in a fresh process on one core, once to warm up (and to import) and then `--repeats`
 times, from reading to writing. Bars are held against the processor's own time, which on one core is the clock's on a
 machine that does nothing else; the clock's spread stands beside it. `--quick` runs each once and leaves out what takes
-longest. Synthetic furniture is timed by the model (`bench_synth.py`), the network by the graph (`bench_network.py`).
+longest. Synthetic furniture is timed by the model (`bench_synth.py`), the network by the graph (`bench_network.py`),
+a fresh process beside Blender (`bench_start.py`).
 """
 
 import argparse
@@ -28,6 +29,7 @@ from typing import TypeVar
 
 import numpy as np
 from bench_network import PARTS, completing_table, time_completing
+from bench_start import SAMPLE, starting_table, time_starting
 from bench_synth import making_table, time_making
 
 W, T = TypeVar("W"), TypeVar("T")
@@ -37,6 +39,12 @@ QUICK_SIZES = (10, 80)
 MADE, QUICK_MADE = 300, 40  # specimens
 BARS = {"median_s": 1.5, "p95_s": 5.0, "growth_exponent": 1.3, "help_s": 0.5, "peak_mb": 600.0, "made_s": 0.05}
 BARS |= {"completed_s": 0.15}  # 30 parts, by the network
+BARS |= {
+    "cold_s": 0.9,
+    "import_s": 0.3,
+    "open_s": 0.1,
+    "cold_ratio": 1.2,
+}  # a fresh process; over Blender, by the clock
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -66,7 +74,9 @@ def main() -> int:
     walls = [in_fresh_process(time_wall, str(parts), repeats) for parts in sizes]
     making = in_fresh_process(time_making, QUICK_MADE if options.quick else MADE, repeats)
     completing = in_fresh_process(time_completing, PARTS, repeats)
+    starting = in_fresh_process(time_starting, str(SAMPLE), 3 if options.quick else 7)
     figures = summary(models, walls) | {"made_s": round(1 / making.rate, 4), "completed_s": completing.median}
+    figures |= {name: round(value, 3) for name, value in starting.figures.items()}
     options.out.mkdir(parents=True, exist_ok=True)
     rows = {
         "figures": figures,
@@ -74,9 +84,11 @@ def main() -> int:
         "growth": [asdict(w) for w in walls],
         "making": asdict(making),
         "completing": asdict(completing),
+        "starting": asdict(starting),
     }
     (options.out / "bench.json").write_text(json.dumps(rows, indent=1) + "\n")
-    text = page(figures, models, walls, (making_table(making), completing_table(completing)))
+    more = making_table(making), completing_table(completing), starting_table(starting)
+    text = page(figures, models, walls, more)
     (options.out / "bench.md").write_text(text)
     print(text)
     return 0

@@ -165,6 +165,7 @@ READERS_OF_OTHERS = {f"grafu.asset.{name}" for name in (
     "blend", "collada", "fbx", "foreign", "hssd", "mjcf", "partnet_mobility", "sdf", "threeds", "threemf", "urdf", "usd"
 )}  # fmt: skip
 NOT_ASKED_FOR = {"grafu.pipeline.foreign", "grafu.render", "grafu.templates.user", "grafu.viewer.run_page"}
+NOT_ASKED_FOR |= {"lxml", "rich.progress"} | {f"grafu.cli.{verb}" for verb in ("ablate", "doctor", "evaluate", "synth")}
 
 
 def imported_by_a_run(out: Path, *options: str) -> set[str]:

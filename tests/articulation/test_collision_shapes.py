@@ -5,7 +5,13 @@ import pytest
 import trimesh
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
-from grafu.articulation.collision_shapes import CollisionShapeConfig, chosen_shapes, collision_shapes, corners_of
+from grafu.articulation.collision_shapes import (
+    CollisionShapeConfig,
+    chosen_shapes,
+    collision_shapes,
+    corners_of,
+    extent_of,
+)
 from grafu.articulation.convex_pieces import ConvexPieceConfig, convex_pieces, hull_of
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
@@ -13,6 +19,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box, OrientedBox
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.solids import ConvexSolid, subtract
+from grafu.geometry.transform import rotation_matrix
 from grafu.vocabulary import PartLabel
 
 UP = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
@@ -241,3 +248,30 @@ def test_too_few_points_have_a_thick_hull_or_none(count):
     hull = hull_of(np.eye(3)[:count], 0.004)
 
     assert hull is None or min(np.ptp(hull.vertices, axis=0)) > 0
+
+
+def test_shapes_are_left_out_just_where_they_lie_in_another() -> None:
+    rng = np.random.default_rng(3)
+    tolerance = CollisionShapeConfig().within
+    shapes = []
+    for k in range(120):
+        turn, half = rotation_matrix(vec3(0.0, 0.0, 1.0), rng.uniform(0, np.pi)), rng.uniform(0.01, 0.2, 3)
+        box = OrientedBox(rng.uniform(-0.2, 0.2, 3), half, turn)
+        grown = OrientedBox(box.center, half + tolerance * rng.uniform(0.5, 1.5), turn)
+        shapes += [box, grown if k % 2 else ConvexSolid.around(grown.corners()[:7])]
+    link = link_of(board(0, 0, 0, 1, 1, 1))
+    kept, left = chosen_shapes(link, CollisionShapeConfig(most_shapes=1000), lambda *_: list(shapes))
+
+    expected: list[object] = []
+    for shape in sorted(shapes, key=lambda shape: -extent_of(shape)):
+        if not any(lies_within(shape, other, tolerance) for other in expected):
+            expected.append(shape)
+    assert (kept, left) == (tuple(expected), ())
+    assert 20 < len(expected) < len(shapes) - 20
+
+
+def lies_within(shape: OrientedBox | ConvexSolid, other: OrientedBox | ConvexSolid, tolerance: float) -> bool:
+    points = corners_of(shape)
+    if isinstance(other, OrientedBox):
+        return bool((np.abs((points - other.center) @ other.rotation) <= other.half + tolerance).all())
+    return bool((points @ other.planes[:, :3].T <= other.planes[:, 3] + tolerance).all())

@@ -1,5 +1,7 @@
 """The command as a whole: help, version, exit codes, and the last door that errors meet."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +15,7 @@ VERBS = (
     "functionalize",
     "inspect",
     "show",
+    "check",
     "edit",
     "templates",
     "doctor",
@@ -30,6 +33,16 @@ def test_version(capsys: pytest.CaptureFixture[str]) -> None:
         main(["--version"])
     assert end.value.code == 0
     assert capsys.readouterr().out == f"grafu {__version__}\n"
+
+
+def test_no_verb_is_imported_but_the_one_that_is_asked_for() -> None:
+    code = (
+        "import sys\nfrom grafu.cli.main import build_parser\nbuild_parser(['functionalize', 'a.glb'])\n"
+        f"print(*[verb for verb in {VERBS} if f'grafu.cli.{{verb}}' in sys.modules])"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout.split() == [
+        "functionalize"
+    ]
 
 
 @pytest.mark.parametrize("verb", VERBS)

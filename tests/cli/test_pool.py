@@ -1,9 +1,11 @@
 """Jobs in processes: a result each, and a crash that takes no other job with it."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from time import sleep
 
@@ -90,11 +92,15 @@ def hidden(out: Path) -> list[str]:
 
 
 def wait_for_hidden(out: Path, count: int) -> None:
+    wait_for(lambda: len(hidden(out)) == count)
+
+
+def wait_for(happened: Callable[[], bool]) -> None:
     for _ in range(int(SOON / 0.02)):
-        if len(hidden(out)) == count:
+        if happened():
             return
         sleep(0.02)
-    raise AssertionError(f"no one wrote into {out}")
+    raise AssertionError("it did not happen in time")
 
 
 def models(tmp_path: Path, *names: str) -> list[Path]:
@@ -125,6 +131,35 @@ def test_a_run_that_is_ended_leaves_nothing_running(
         assert said.count("\n") == len(names)
         assert main([*map(str, command), "--jobs", "1", "--resume"]) == 0
         assert sorted(path.name for path in out.iterdir()) == names
+
+
+def test_a_run_that_is_killed_twice_is_finished_by_resume(tmp_path: Path, out: Path) -> None:
+    names = ["a", "bad", "b", "bad_too", "c"]
+    command = ("functionalize", *models(tmp_path, *names), "--out", out, "--jobs", 2, "--resume", *QUICK)
+    kept: dict[str, int] = {}
+    for k in range(2):
+        (begun := tmp_path / f"begun_{k}").mkdir()
+        hang = f"open(f'{begun}/{{os.getpid()}}', 'w').close(); {HANG}"
+        run = begin(tmp_path, *command, what=hang)
+        wait_for(lambda begun=begun: len(list(begun.iterdir())) == 2)  # both workers are about to give results a place
+        os.killpg(run.pid, signal.SIGKILL)
+        run.communicate(timeout=SOON)
+        assert hidden(out) != []
+        assert written(out).items() >= kept.items()
+        kept = written(out)
+        assert set(kept) == {"a", "b"}
+
+    assert main([*map(str, command)]) == 0
+    assert written(out).items() > kept.items()
+    assert sorted(path.name for path in out.iterdir()) == sorted(names)
+    for name in names:
+        assert json.loads((out / name / "report.json").read_text(encoding="utf-8"))["joints"]
+        assert (out / name / "model.urdf").read_text(encoding="utf-8").rstrip().endswith("</robot>")
+
+
+def written(out: Path) -> dict[str, int]:
+    """Returns when each result that is there was written, in nanoseconds."""
+    return {path.parent.name: path.stat().st_mtime_ns for path in out.glob("[!.]*/report.json")}
 
 
 def test_ctrl_c_reaches_all_and_is_said_once(tmp_path: Path, out: Path) -> None:

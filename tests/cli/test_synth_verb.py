@@ -48,7 +48,7 @@ def test_an_interrupted_run_says_how_to_go_on(
 
     command = [*FEW, "--count", "12", "--jobs", "1", "--out", str(tmp_path)]
     with monkeypatch.context() as patch:
-        patch.setattr("grafu.cli.terminal.with_progress", interrupted)
+        patch.setattr("grafu.cli.item_bar.with_progress", interrupted)
         assert main(command) == 130
     said = capsys.readouterr().err
     assert said.count("\n") == 1

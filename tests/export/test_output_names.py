@@ -9,7 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.errors import AssetError
-from grafu.export.output_names import MOST_BYTES, file_safe, output_name, same_place, told_apart, why_not_apart
+from grafu.export.output_names import (
+    MOST_BYTES,
+    InputPlaces,
+    file_safe,
+    output_name,
+    same_place,
+    told_apart,
+    why_not_apart,
+)
 from grafu.export.whole_file import hidden_name
 from grafu.visible import visible
 
@@ -135,14 +143,28 @@ def test_links_are_followed_both_ways(models: Path) -> None:
 
 
 def test_places_are_compared_as_the_disk_knows_them(models: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    real = os.path.samefile
+    real = os.stat
 
-    def folding(first: Path, second: Path) -> bool:
-        return real(str(first).replace("MODELS/CAB", "models/cab"), second)
+    def folding(path: Path) -> os.stat_result:
+        return real(str(path).replace("MODELS/CAB", "models/cab"))
 
-    monkeypatch.setattr(os.path, "samefile", folding)  # a disk on which case does not count
+    monkeypatch.setattr(os, "stat", folding)  # a disk on which case does not count
 
     assert why_not_apart(Path("MODELS/CAB"), [Path("models/cab/cab.urdf")])
+
+
+def test_each_input_is_looked_at_once_however_many_results_there_are(
+    models: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looked: list[Path] = []
+    real = os.stat
+    monkeypatch.setattr(os, "stat", lambda path: looked.append(path) or real(path))
+    places = InputPlaces([Path(f"models/{k}.glb") for k in range(100)])
+    assert 100 <= len(looked) <= 3 * 100
+
+    looked.clear()
+    assert [places.why_not_apart(Path(f"out/{k}")) for k in range(100)] == [""] * 100
+    assert len(looked) == 100
 
 
 @pytest.mark.parametrize("name", ["CON", "aux", "nul", "Com1", "lpt9", "prn.x", ".con", "-aux", "aux.2", "con."])

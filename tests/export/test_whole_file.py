@@ -92,3 +92,16 @@ def test_what_is_being_made_or_is_none_of_ours_stays(tmp_path: Path) -> None:
     clear_remains(tmp_path / "nowhere")
 
     assert sorted(os.listdir(tmp_path)) == before
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only /proc tells")
+def test_what_a_process_left_that_no_one_has_waited_for_is_cleared(tmp_path: Path) -> None:
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it is dead, and still has its number
+    left = of_process(hidden_name(tmp_path / "a", "new"), ended.pid)
+    left.mkdir()
+    clear_remains(tmp_path)
+    there = left.exists()
+    ended.wait()
+
+    assert not there

@@ -7,7 +7,7 @@ from typing import final
 import numpy as np
 import pytest
 
-from grafu.geometry.arrays import ArrayValue, extremes, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, cross, extremes, freeze_arrays, median
 
 
 @final
@@ -58,3 +58,24 @@ def test_extremes_are_those_of_each_column(order: str) -> None:
     np.testing.assert_array_equal(high, rows.max(axis=0))
     with pytest.raises(ValueError, match="zero-size"):
         extremes(rows[:0])
+
+
+@pytest.mark.parametrize("values", [[3.0], [1, 2], [0.1, 0.2, 0.4], [5.0, 1.0, 4.0, 2.0], [np.inf, 1.0], [True, False]])
+def test_the_median_is_that_of_numpy(values: list[float]) -> None:
+    assert median(values) == np.median(values)
+    assert median(np.asarray(values)) == np.median(values)
+
+
+def test_the_median_of_many_is_that_of_numpy_to_the_last_digit() -> None:
+    rng = np.random.default_rng(1)
+    for count in range(1, 60):
+        values = rng.normal(size=count)
+        assert median(values) == np.median(values)
+    assert np.isnan(median([1.0, np.nan]))
+
+
+def test_cross_products_are_those_of_numpy_to_the_last_digit() -> None:
+    first, second = np.random.default_rng(2).normal(size=(2, 40, 3))
+    np.testing.assert_array_equal(cross(first, second), np.cross(first, second))
+    np.testing.assert_array_equal(cross(first, second[0]), np.cross(first, second[0]))
+    assert cross(first[:0], second[:0]).shape == (0, 3)

@@ -217,3 +217,18 @@ def test_faces_drawn_twice_are_named_both():
     once, count = MeshCollider(fine).faces_in_contact(WALL), len(fine.faces)
     assert once
     assert MeshCollider(twice).faces_in_contact(WALL) == once | {face + count for face in once}
+
+
+def test_the_box_of_a_pose_is_the_same_whatever_was_posed_before() -> None:
+    rng = np.random.default_rng(4)
+    moved = MeshCollider(CUBE)
+    turns = [rotation_matrix(vec3(0.0, 0.0, 1.0), angle) for angle in (0.0, 0.3, 0.3, 0.7)]
+    for turn in [turn for turn in turns for _ in range(3)]:
+        T, shift = from_rotation(turn, rng.normal(size=3)), rng.normal(size=3)
+        moved.place(T, shift)
+        fresh = MeshCollider(CUBE)
+        fresh.place(T, shift)
+        around = Box.around(CUBE.box.corners() @ turn.T + (T[:3, 3] + shift))
+
+        assert moved.box_gap(fresh) == 0.0
+        assert (moved._low, moved._high) == (fresh._low, fresh._high) == (around.low.tolist(), around.high.tolist())

@@ -9,6 +9,7 @@ import trimesh
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
 from grafu.segmentation.config import CandidateConfig, DivisionConfig, FrameConfig, MemberConfig, SegmentationConfig
 from grafu.segmentation.division import axes_from, divided
 from grafu.segmentation.view import view_of
@@ -469,3 +470,27 @@ def test_handles_on_fronts_that_are_objects_of_their_own_are_parted_by_these():
 
     large = [board((-0.4, -0.03, z), (0.4, -0.02, z + 0.19)) for z in (0.04, 0.27)]
     assert cut(merge_meshes(CHEST), *STACK, merge_meshes([*large, stiles])).keys() <= {3}, "no handles"
+
+
+@pytest.fixture
+def traced(monkeypatch):
+    """How many rays each grid that was traced has."""
+    counts, first_faces = [], RayCaster.first_faces
+    monkeypatch.setattr(RayCaster, "first_faces", lambda *given: counts.append(len(given[1])) or first_faces(*given))
+    return counts
+
+
+def test_no_ray_is_traced_where_no_shell_could_be_a_front(traced):
+    legs = [board((x, y, 0.0), (x + 0.05, y + 0.05, 0.7)) for x in (0.0, 0.9) for y in (0.0, 0.5)]
+
+    assert cut(merge_meshes(legs)) == {}
+    assert traced == []
+
+
+def test_a_side_is_traced_once_however_its_shells_are_parted(traced):
+    meshes = [part.mesh for part in dresser().parts]
+    moving = [part.label.is_movable for part in dresser().parts]
+    two = [np.arange(len(mesh.faces)) % 2 for mesh in meshes]
+
+    assert divided(meshes, moving, moving, two) == {}
+    assert len(traced) == 4

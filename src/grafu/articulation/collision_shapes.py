@@ -116,11 +116,7 @@ def chosen_shapes(
     """
     shapes = [shape for visual in link.visuals for shape in of_part(visual, config)]
     shapes.sort(key=lambda shape: -extent_of(shape))
-    distinct: list[CollisionShape] = []
-    for shape in shapes:
-        if not any(_lies_within(shape, other, config.within) for other in distinct):
-            distinct.append(shape)
-    return as_many_as_allowed(distinct, link, config)
+    return as_many_as_allowed(_distinct(shapes, config.within), link, config)
 
 
 def as_many_as_allowed(
@@ -136,6 +132,27 @@ def as_many_as_allowed(
     first = set(order[: config.most_shapes])
     kept = tuple(shape for k, shape in enumerate(shapes) if k in first)
     return kept, tuple(shape for k, shape in enumerate(shapes) if k not in first)
+
+
+def _distinct(shapes: Sequence[CollisionShape], tolerance: float) -> list[CollisionShape]:
+    """Returns the shapes that lie in none before them.
+
+    Of the boxes before it, a shape is compared with those alone whose bounds, grown by twice the tolerance, hold its
+    bounds: a turned box that grows by the tolerance grows by less along any axis. A hull may grow by more at a corner.
+    """
+    corners = [corners_of(shape) for shape in shapes]
+    low = np.array([points.min(axis=0) for points in corners]).reshape(-1, 3)
+    high = np.array([points.max(axis=0) for points in corners]).reshape(-1, 3)
+    is_box = np.array([isinstance(shape, OrientedBox) for shape in shapes], dtype=bool)
+    found: list[int] = []
+    for k, shape in enumerate(shapes):
+        before = np.array(found, dtype=np.int64)
+        holds = (low[before] - 2 * tolerance <= low[k]).all(axis=1)
+        holds &= (high[before] + 2 * tolerance >= high[k]).all(axis=1)
+        near = before[holds | ~is_box[before]]
+        if not any(_lies_within(shape, shapes[other], tolerance) for other in near.tolist()):
+            found.append(k)
+    return [shapes[k] for k in found]
 
 
 def _carries(shape: CollisionShape, link: Link, config: CollisionShapeConfig) -> bool:

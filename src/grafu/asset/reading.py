@@ -12,7 +12,7 @@ import numpy as np
 from grafu.asset.part import Annotation, AssetKind, Frame, Part, moved_joints
 from grafu.asset.pieces import with_attached
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Mask
+from grafu.geometry.arrays import Mask, cross
 from grafu.geometry.mesh import TriangleMesh
 
 
@@ -158,7 +158,7 @@ def has_area(mesh: TriangleMesh) -> Mask:
     """Returns for each face whether it is a triangle rather than a line or a point."""
     a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
     ab, ac, bc = b - a, c - a, c - b
-    twice_area = np.linalg.norm(np.cross(ab, ac), axis=1)
+    twice_area = np.linalg.norm(cross(ab, ac), axis=1)
     longest = np.maximum.reduce([(e * e).sum(axis=1) for e in (ab, ac, bc)])
     return twice_area > _FLATNESS * np.maximum(longest, 1e-300)
 

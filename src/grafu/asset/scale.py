@@ -14,6 +14,7 @@ import numpy as np
 from grafu.asset.names import singular, spoken
 from grafu.asset.part import Part
 from grafu.asset.reading import Furniture
+from grafu.geometry.arrays import median
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
 from grafu.vocabulary import PartLabel
@@ -215,12 +216,12 @@ def _measures(parts: tuple[Part, ...], whole: Box, up: int) -> dict[str, float]:
     for label, noun in ((PartLabel.DOOR, "door"), (PartLabel.DRAWER, "drawer")):
         boxes = [p.box.size for p in parts if p.label is label]
         if boxes:
-            found[f"{noun} height"] = float(np.median([s[up] for s in boxes]))
-            found[f"{noun} width"] = float(np.median([np.delete(s, up).max() for s in boxes]))
+            found[f"{noun} height"] = median([s[up] for s in boxes])
+            found[f"{noun} width"] = median([np.delete(s, up).max() for s in boxes])
     handles = [p.box.size.max() for p in parts if p.label is PartLabel.HANDLE]
     if handles:
-        found["handle length"] = float(np.median(handles))
+        found["handle length"] = median(handles)
     panels = [p.box.size.min() for p in parts if p.label in _PANELS]
     if panels:
-        found["panel thickness"] = float(np.median(panels))
+        found["panel thickness"] = median(panels)
     return found

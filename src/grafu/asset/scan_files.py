@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from lxml import etree
 
 from grafu.asset.options import Limits, Tally
 from grafu.asset.reading import MeshFile, MeshPiece
@@ -52,6 +51,8 @@ def parse_xml(data: bytes, path: Path, expected: str, limits: Limits) -> Any:
             are a known way to exhaust memory and to read other files.
         AssetTooLarge: if it is larger than the limits allow.
     """
+    from lxml import etree  # local: models of other formats need it not
+
     limits.require("values", data.count(b"<") + data.count(b"="), path)
     # libxml2's own limits hold as long as `huge_tree` is not asked for: depth, length of texts, growth by entities
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, remove_comments=True)

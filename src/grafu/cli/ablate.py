@@ -154,7 +154,7 @@ def _train(
     options: argparse.Namespace, runs: "Sequence[AblationRun]", results: "dict[Path, AblationResult]", title: str
 ) -> int:
     """Does the runs that have no result, and adds theirs; returns how many failed."""
-    from grafu.cli.terminal import with_progress
+    from grafu.cli.item_bar import with_progress
     from grafu.training.ablation import AblationResult
     from grafu.training.ablation_run import do_runs
 

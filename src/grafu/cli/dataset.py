@@ -152,7 +152,7 @@ def _complained_of(outcomes: "Iterator[ModelOutcome]") -> "Iterator[ModelOutcome
 
 
 def _outcomes(options: argparse.Namespace) -> "Iterator[ModelOutcome]":
-    from grafu.cli.terminal import with_progress
+    from grafu.cli.item_bar import with_progress
     from grafu.dataset.write import ResultSetPlan, write_result_set
 
     plan = ResultSetPlan(

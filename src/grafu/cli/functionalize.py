@@ -157,7 +157,8 @@ def run(options: argparse.Namespace) -> int:
     tell(options, *refused)
     done = [run_alone(job, options) for job in jobs] if _is_single(options) else run_several(jobs, options)
     order = {job.name: k for k, job in enumerate(jobs)}
-    results = sorted([*done, *refused], key=lambda r: (inputs.index(r.job.input), order.get(r.job.name, -1)))
+    places = {path: k for k, path in enumerate(inputs)}
+    results = sorted([*done, *refused], key=lambda r: (places[r.job.input], order.get(r.job.name, -1)))
     clear_line()
     print_results(results)
     if options.check:

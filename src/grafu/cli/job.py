@@ -15,7 +15,7 @@ from grafu.cli.limit_options import too_large
 from grafu.cli.verb import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
 from grafu.export.formats import DEFAULT_FORMATS
-from grafu.export.output_names import output_name, same_place, told_apart, why_not_apart, with_ending
+from grafu.export.output_names import InputPlaces, output_name, same_place, told_apart, with_ending
 from grafu.pipeline.motion_source import MotionSource, SourceOption
 from grafu.processes.limits import ProcessLimits
 from grafu.processes.worker import ignore
@@ -294,6 +294,7 @@ def with_places_apart(jobs: Sequence[Job], inputs: Sequence[Path]) -> tuple[list
                 f"inputs, or their folders, must have different names, for results go to DIR/<name>: got "
                 f"{alike[0].input} and {alike[1].input}; run them into different --out"
             )
-    judged = [(job, why_not_apart(job.folder, inputs)) for job in jobs]
+    places = InputPlaces(inputs)
+    judged = [(job, places.why_not_apart(job.folder)) for job in jobs]
     refused = [Failed(job, why, users_fault=True) for job, why in judged if why]
     return [job for job, why in judged if not why], refused

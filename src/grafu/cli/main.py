@@ -1,30 +1,16 @@
 """The command `grafu`: reads the arguments and hands them to one verb.
 
-Nothing heavy is imported until a verb runs, so that `grafu --help` answers at once. What a user can get wrong ends in
-one line on stderr and exit code 2, never in a traceback.
+Of the verbs only the one that is asked for is imported, and nothing heavy until it runs, so that `grafu --help` answers
+at once. What a user can get wrong ends in one line on stderr and exit code 2, never in a traceback.
 """
 
 import argparse
 import re
 import sys
 from collections.abc import Callable, Sequence
-from typing import NoReturn, final
+from importlib import import_module
+from typing import Final, NoReturn, final
 
-from grafu.cli import (
-    ablate,
-    check,
-    completion,
-    dataset,
-    doctor,
-    edit,
-    evaluate,
-    functionalize,
-    inspect,
-    show,
-    synth,
-    templates,
-    train,
-)
 from grafu.cli.input_options import join_directions
 from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, one_line, prepare_verb
@@ -33,20 +19,20 @@ from grafu.processes.lifetime import end_requests_heard, keep_private
 from grafu.version import __version__
 from grafu.visible import visible
 
-_VERBS = (
-    functionalize,
-    inspect,
-    show,
-    check,
-    edit,
-    templates,
-    doctor,
-    completion,
-    synth,
-    train,
-    ablate,
-    evaluate,
-    dataset,
+_VERBS: Final = (  # each in the module of its name
+    "functionalize",
+    "inspect",
+    "show",
+    "check",
+    "edit",
+    "templates",
+    "doctor",
+    "completion",
+    "synth",
+    "train",
+    "ablate",
+    "evaluate",
+    "dataset",
 )
 _EPILOG = """\
 examples:
@@ -76,7 +62,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     stays in the caller's process, where nothing can stop it, while of several each has a process and limits.
     """
     words = join_directions(sys.argv[1:] if arguments is None else arguments)
-    parser = build_parser()
+    parser = build_parser(words)
     if not words:
         parser.print_help()
         return 0
@@ -129,8 +115,8 @@ def _parsed(parser: "_Parser", words: Sequence[str]) -> argparse.Namespace:
     return options
 
 
-def build_parser() -> _Parser:
-    """Returns the parser of all verbs."""
+def build_parser(words: Sequence[str] = ()) -> _Parser:
+    """Returns the parser of the verb that the words name first, or of all verbs; only these are imported."""
     parser = _Parser(
         prog="grafu",
         description="Makes part-segmented 3D furniture work: hinges, rails, limits, handles, physics.",
@@ -139,27 +125,20 @@ def build_parser() -> _Parser:
     )
     parser.add_argument("--version", action="version", version=f"grafu {__version__}")
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
-    for verb in (
-        functionalize,
-        inspect,
-        show,
-        check,
-        edit,
-        templates,
-        doctor,
-        completion,
-        synth,
-        train,
-        ablate,
-        evaluate,
-        dataset,
-    ):
-        subparser = verb.add_parser(verbs)
+    for name in _named_verbs(words):
+        subparser = import_module(f"grafu.cli.{name}").add_parser(verbs)
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter
         subparser.set_defaults(parser=subparser)
         subparser.add_argument("--debug", action="store_true", help="print the traceback of an internal error")
-    verbs.choices["completion"].set_defaults(command=parser)
+    if "completion" in verbs.choices:
+        verbs.choices["completion"].set_defaults(command=parser)
     return parser
+
+
+def _named_verbs(words: Sequence[str]) -> Sequence[str]:
+    """Returns the verb that the words begin with; all verbs where they begin with none, or with one about all."""
+    first = words[0] if words else ""
+    return (first,) if first in _VERBS and first != "completion" else _VERBS
 
 
 if __name__ == "__main__":

@@ -59,7 +59,8 @@ def pieces_apart(
             else:
                 pieces.extend(found)
             bar.ends(names[found.job.input if isinstance(found, Failed) else found[0].input])
-    pieces.sort(key=lambda job: (inputs.index(job.input), job.options.settings.reading.piece or 0))
+    places = {path: k for k, path in enumerate(inputs)}
+    pieces.sort(key=lambda job: (places[job.input], job.options.settings.reading.piece or 0))
     apart, refused = with_places_apart(pieces, inputs)
     tell(options, *failed, *refused)
     return apart, failed + refused

@@ -114,8 +114,8 @@ def run_dataset(options: argparse.Namespace) -> int:
     Raises:
         FunctionalizationError: if the folder cannot be gone on with, or not be written.
     """
+    from grafu.cli.item_bar import with_progress
     from grafu.cli.synth_tally import SynthTally, print_tally
-    from grafu.cli.terminal import with_progress
     from grafu.data.write import models_written
     from grafu.data.write_plan import DatasetPlan
     from grafu.processes.lifetime import END_REQUESTS
@@ -188,7 +188,7 @@ def print_statistics(options: argparse.Namespace) -> int:
 
 
 def _specimens(options: argparse.Namespace) -> "Iterator[Specimen]":
-    from grafu.cli.terminal import with_progress
+    from grafu.cli.item_bar import with_progress
     from grafu.data.stream import stream_specimens
 
     made = stream_specimens(options.seed, jobs=options.jobs, points=options.points, stop=options.count)

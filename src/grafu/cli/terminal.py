@@ -1,59 +1,18 @@
-"""What the terminal shows: how far the work is, on stderr where that is a terminal, and tables, in a pipe too.
+"""What is printed as a table, on a terminal and in a pipe.
 
 What steers a terminal is shown as an escape, whatever is printed: names of files and parts are others' text.
 """
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any, TypeVar, final
+from typing import Any, final
 
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    ProgressColumn,
-    Task,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 from rich.table import Table
 from rich.text import Text
 
 from grafu.visible import visible
 
-T = TypeVar("T")
 PIPE_WIDTH = 200  # a pipe or file has no width of its own; rich would fold at 80
 NUMBERS = ("doors", "drawers", "skipped", "seconds", "opening", "models", "movable")
-
-
-@final
-class _RateColumn(ProgressColumn):
-    """How many items per second, lately."""
-
-    def render(self, task: Task) -> Text:
-        return Text(f"{task.speed:.1f} per second," if task.speed else "")
-
-
-def with_progress(
-    items: Iterable[T], total: int, word: str = "inputs", shown: bool = True, size: Callable[[T], int] = lambda _: 1
-) -> Iterator[T]:
-    """Yields the items and counts them, each as `size` (say steps), on a bar, under this word, if it is to be shown."""
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        _RateColumn(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
-    )
-    console = Console(stderr=True)
-    with Progress(*columns, console=console, transient=True, disable=not (shown and console.is_terminal)) as progress:
-        task = progress.add_task(word, total=total)
-        for item in items:
-            progress.advance(task, size(item))
-            yield item
 
 
 @final

@@ -156,7 +156,7 @@ def run_training(options: argparse.Namespace) -> int:
         FunctionalizationError: if the run cannot be begun or gone on with.
     """
     prepare_processor()
-    from grafu.cli.terminal import with_progress
+    from grafu.cli.item_bar import with_progress
     from grafu.training.loop import RunOptions, train
     from grafu.training.source import source_to_train_on
     from grafu.training.workers import has_device, joined_workers, use_threads

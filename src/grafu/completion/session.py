@@ -61,6 +61,8 @@ class NetworkSession:
         options.intra_op_num_threads = threads
         options.inter_op_num_threads = 1
         options.log_severity_level = 3  # errors alone
+        # rewriting the graph takes longer than it spares in a dozen passes; a model takes two to four
+        options.graph_optimization_level = ort.GraphOptimizationLevel.ORT_DISABLE_ALL
         try:
             self._session: Any = ort.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
         except Exception as error:  # the runtime raises a class of its own for each kind of damage

@@ -11,8 +11,9 @@ import unicodedata
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from hashlib import blake2b
+from itertools import chain
 from pathlib import Path
-from typing import Final
+from typing import Final, final
 
 from grafu.asset.regular_files import MARKER
 from grafu.errors import AssetError
@@ -26,17 +27,47 @@ def why_not_apart(result: Path, inputs: Iterable[Path]) -> str:
     Places are compared as the disk knows them: links, the case of letters and other paths to the same place count.
     A result inside an input's folder is fine: readers pass it over.
     """
-    for given in inputs:
-        if _is_same(result, given):
-            return f"the results would go to `{result}`, and so replace the input `{given}`: choose another --out"
-        if holds(result, given):
-            return f"the results would go to `{result}`, which holds the input `{given}`: choose another --out"
-    return ""
+    return InputPlaces(inputs).why_not_apart(result)
 
 
-def holds(folder: Path, path: Path) -> bool:
-    """Whether a path, by its name or by what it leads to, is the folder or lies in it."""
-    return any(_is_same(folder, place) for place in _places(path))
+@final
+class InputPlaces:
+    """Where inputs lie: each is looked at once, however many results are compared with it. Not a value."""
+
+    def __init__(self, inputs: Iterable[Path]) -> None:
+        self._known: dict[Path, _Id | None] = {}
+        self._held: dict[_Id, tuple[Path, bool]] = {}
+        """The first input that lies in each place, and whether it is that place itself."""
+        for given in inputs:
+            for is_itself, path in chain([(True, given)], ((False, place) for place in _places(given))):
+                if (at := self._at(path)) is not None:
+                    self._held.setdefault(at, (given, is_itself))
+
+    def why_not_apart(self, result: Path) -> str:
+        """Returns why results cannot go to a folder, as the function of this name does."""
+        at = _id_of(result)
+        if at is None or at not in self._held:
+            return ""
+        given, is_itself = self._held[at]
+        what = "and so replace" if is_itself else "which holds"
+        return f"the results would go to `{result}`, {what} the input `{given}`: choose another --out"
+
+    def _at(self, path: Path) -> "_Id | None":
+        if path not in self._known:
+            self._known[path] = _id_of(path)
+        return self._known[path]
+
+
+_Id = tuple[int, int]  # of a file or folder: its device and its number there
+
+
+def _id_of(path: Path) -> _Id | None:
+    """Returns what the disk knows a place by; None of what is not there, which is nothing and holds nothing."""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 def _places(path: Path) -> Iterable[Path]:
@@ -44,13 +75,6 @@ def _places(path: Path) -> Iterable[Path]:
     written = Path(os.path.abspath(path))
     for start in (written, Path(os.path.realpath(written.parent)) / written.name, Path(os.path.realpath(path))):
         yield from (start, *start.parents)
-
-
-def _is_same(first: Path, second: Path) -> bool:
-    try:
-        return os.path.samefile(first, second)
-    except OSError:  # what is not there is nothing, and holds nothing
-        return False
 
 
 MOST_BYTES: Final = 120

@@ -66,7 +66,16 @@ def _is_alive(process: int) -> bool:
         return False
     except OSError:  # it belongs to another user
         return True
-    return True
+    return not _is_ended(process)
+
+
+def _is_ended(process: int) -> bool:
+    """Whether a process has ended and was not waited for yet, as it may be right after a kill; Linux alone tells."""
+    try:
+        _, _, values = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")
+    except OSError:
+        return False
+    return values.split()[:1] in (["Z"], ["X"])
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 Arrays inside values are copies that cannot be written to; values compare and hash by content.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from hashlib import blake2b
 from typing import Any, ClassVar
 
@@ -44,6 +44,25 @@ def freeze_arrays(value: object, *names: str, dtype: type | None = None) -> None
 def vec3(x: float, y: float, z: float) -> Vec3:
     """Returns one vector of three floats."""
     return np.array([x, y, z], dtype=np.float64)
+
+
+def median(values: np.ndarray | Sequence[Any]) -> float:
+    """Returns the median of at least one number: that of `numpy.median`, which takes ten times as long for a few."""
+    rising = np.sort(np.asarray(values, dtype=np.float64), axis=None)
+    middle = len(rising) // 2
+    if np.isnan(rising[-1]):
+        return float("nan")
+    return float(rising[middle] if len(rising) % 2 else (rising[middle - 1] + rising[middle]) / 2)
+
+
+def cross(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Returns the cross products of rows of three: those of `numpy.cross`, which costs three times as much."""
+    product = np.empty(np.broadcast_shapes(first.shape, second.shape))
+    (x, y, z), (u, v, w) = ((rows[..., 0], rows[..., 1], rows[..., 2]) for rows in (first, second))
+    np.subtract(y * w, z * v, out=product[..., 0])
+    np.subtract(z * u, x * w, out=product[..., 1])
+    np.subtract(x * v, y * u, out=product[..., 2])
+    return product
 
 
 def extremes(rows: Float[np.ndarray, "n k"]) -> tuple[Float[np.ndarray, " k"], Float[np.ndarray, " k"]]:

@@ -3,13 +3,15 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import hypot, isfinite
-from typing import final
+from typing import Final, final
 
 import numpy as np
 from jaxtyping import Float
 
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, extremes, frozen_array
 from grafu.geometry.transform import from_rotation, transform_points
+
+_AT_HIGH: Final = np.array([[bool((k >> axis) & 1) for axis in range(3)] for k in range(8)])  # of each corner
 
 
 @final
@@ -123,8 +125,7 @@ class Box(ArrayValue):
 
     def corners(self) -> Points:
         """Returns the eight corners."""
-        pick = np.array([[(k >> a) & 1 for a in range(3)] for k in range(8)])
-        return np.where(pick == 1, self.high, self.low)
+        return np.where(_AT_HIGH, self.high, self.low)
 
 
 @final

@@ -12,7 +12,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, Scalars, freeze_arrays, row_keys
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, Scalars, cross, freeze_arrays, row_keys
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 
 _OF_PIECE = 0x7F4A7C159E3779B9  # an odd multiplier of no pattern, as in `row_keys`
@@ -216,7 +216,7 @@ def _without_border(edges: np.ndarray, patch: np.ndarray, patches: int) -> np.nd
 
 def _tetrahedra(triangles: np.ndarray) -> Scalars:
     """Returns the signed volume between the origin and each triangle."""
-    return np.einsum("nd,nd->n", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6.0
+    return np.einsum("nd,nd->n", triangles[:, 0], cross(triangles[:, 1], triangles[:, 2])) / 6.0
 
 
 _FLAT = 1e-6  # how far normals of one plane differ

@@ -14,7 +14,7 @@ import fcl
 import numpy as np
 from jaxtyping import Int
 
-from grafu.geometry.arrays import Indices, Mat3, Mat4, Points, Vec3
+from grafu.geometry.arrays import Indices, Mat3, Mat4, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import repeated_faces
@@ -43,8 +43,7 @@ class _Model:
     kept: Indices
     stand_in: Int[np.ndarray, " faces"] | None
     pose: Mat4 | None = None
-    number: int = field(default_factory=_numbers.__next__)
-    """No other mesh ever gets the same."""
+    number: int = field(default_factory=_numbers.__next__)  # no other mesh ever gets the same
 
     def faces(self, hit: set[int]) -> set[int]:
         """Returns the mesh's faces that the BVH's faces stand for."""
@@ -110,8 +109,8 @@ class MeshCollider:
     def __init__(self, mesh: TriangleMesh) -> None:
         self.box: Box = mesh.box
         self._mesh = mesh
-        self._corners: Points | None = None
         self._low, self._high = mesh.box.low.tolist(), mesh.box.high.tolist()
+        self._turned: tuple[bytes, tuple[float, ...], tuple[float, ...]] | None = None
         self._pose: tuple[Mat3, Vec3] | None = None
         self._made: fcl.CollisionObject | None = None
         self._start: Mat4 | None = None
@@ -145,11 +144,12 @@ class MeshCollider:
         """Poses the mesh at T, then moved by `shift` metres."""
         offset = T[:3, 3] if shift is None else T[:3, 3] + shift
         self._pose, self._is_at_rest = (T[:3, :3], offset), False
-        if self._corners is None:  # most colliders never leave their place
-            self._corners = self.box.corners()
-        corners = self._corners @ T[:3, :3].T + offset
-        x, y, z = zip(*corners.tolist(), strict=True)  # plain numbers, as in `is_apart`
-        self._low, self._high = [min(x), min(y), min(z)], [max(x), max(y), max(z)]
+        key = T[:3, :3].tobytes()  # what slides is not turned anew at each pose
+        if self._turned is None or self._turned[0] != key:
+            x, y, z = zip(*(self.box.corners() @ T[:3, :3].T).tolist(), strict=True)
+            self._turned = key, (min(x), min(y), min(z)), (max(x), max(y), max(z))
+        (_, low, high), (x, y, z) = self._turned, offset.tolist()  # plain numbers, as in `is_apart`
+        self._low, self._high = [low[0] + x, low[1] + y, low[2] + z], [high[0] + x, high[1] + y, high[2] + z]
 
     def posed(self, T: Mat4) -> "MeshCollider":
         """Returns another collider of the same mesh, posed at T."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from grafu.geometry.arrays import ArrayValue, Faces, Mat3, Mat4, Points, Scalars, Vec3, frozen_array, row_keys
+from grafu.geometry.arrays import ArrayValue, Faces, Mat3, Mat4, Points, Scalars, Vec3, cross, frozen_array, row_keys
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.transform import is_mirror, transform_points
 
@@ -205,7 +205,7 @@ _BOX_FACES = [
 
 
 def _cross(t: np.ndarray) -> np.ndarray:
-    return np.asarray(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]))
+    return cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
 
 
 def _meet_in_pairs(start: np.ndarray, end: np.ndarray) -> bool:

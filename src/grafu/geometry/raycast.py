@@ -15,7 +15,7 @@ from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays, median
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
@@ -96,8 +96,7 @@ class RayCaster:
             np.ascontiguousarray(directions, dtype=np.float32),
             query="DISTANCE",
         )
-        distances = np.asarray(found, dtype=np.float64)
-        return np.where(distances > 1e30, np.inf, distances)
+        return _without_misses(found)
 
     def along(self, origins: Points, direction: Vec3) -> Scalars:
         """Returns the distances of many origins along one unit direction."""
@@ -105,16 +104,23 @@ class RayCaster:
 
     def first_faces(self, origins: Points, direction: Vec3) -> tuple[Indices, Scalars]:
         """Returns for each origin the number of the face first hit along a unit direction (-1: none), and how far."""
-        distances = self.along(origins, direction)
-        faces = np.full(len(origins), -1, np.int64)
-        if self._scene is not None and len(origins):
-            found = self._scene.run(
-                np.ascontiguousarray(origins, dtype=np.float32),
-                np.ascontiguousarray(np.broadcast_to(direction, origins.shape), dtype=np.float32),
-                query="INTERSECT",
-            )
-            faces = np.where(np.isfinite(distances), np.asarray(found, dtype=np.int64), -1)
-        return faces, distances
+        if self._scene is None or not len(origins):
+            return np.full(len(origins), -1, np.int64), np.full(len(origins), np.inf)
+        require_time()
+        found = self._scene.run(
+            np.ascontiguousarray(origins, dtype=np.float32),
+            np.ascontiguousarray(np.broadcast_to(direction, origins.shape), dtype=np.float32),
+            query="INTERSECT",
+            output=True,
+        )
+        distances = _without_misses(found["tfar"])
+        return np.where(np.isfinite(distances), found["primID"].astype(np.int64), -1), distances
+
+
+def _without_misses(found: np.ndarray) -> Scalars:
+    """Returns Embree's distances, infinity where a ray meets nothing."""
+    distances = np.asarray(found, dtype=np.float64)
+    return np.where(distances > 1e30, np.inf, distances)
 
 
 def depths_below(rays: RayCaster, face: Box, along: int, count: int, above: float) -> Scalars:
@@ -134,7 +140,7 @@ def depths_below(rays: RayCaster, face: Box, along: int, count: int, above: floa
 def robust_median(distances: Scalars, reach: float, ratio: float = 0.3) -> float:
     """Returns the median of the distances within `reach`; infinity where less than `ratio` of the rays hit."""
     hits = distances[distances <= reach]
-    return float(np.median(hits)) if len(hits) >= max(1.0, ratio * len(distances)) else float("inf")
+    return median(hits) if len(hits) >= max(1.0, ratio * len(distances)) else float("inf")
 
 
 _OFF = 1e-4  # of the largest side: how far before a face a ray begins

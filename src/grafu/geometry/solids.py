@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from grafu.geometry.appearance import Surface, attribute_rows, from_attributes
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, cross, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.face_cuts import NOTHING, left_over
@@ -127,7 +127,7 @@ def _merged_planes(equations: np.ndarray) -> np.ndarray:
 
 
 def _cross(triangles: np.ndarray) -> Points:
-    return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    return cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
 
 
 def _subtract_closed(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface | None:

@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.geometry.arrays import Points
+from grafu.geometry.arrays import Points, median
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import SweptBody
@@ -245,7 +245,7 @@ def _frame_levels(drawer: _Drawer, sense: float = 1.0) -> Sequence[float]:
         away = rays.distances(origins, np.tile(-frame.slide, (len(origins), 1))).reshape(len(config.offsets), -1)
         away = np.where(away <= start + config.widest * depth, away, np.inf)
         hits = away.min(axis=0)
-        hit = float(np.median(hits))
+        hit = median(hits)
         ahead = float(frame.origin @ frame.slide) + start - hit
         found.append(ahead)
     return found

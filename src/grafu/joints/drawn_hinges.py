@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import Points, vec3
+from grafu.geometry.arrays import Points, median, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.components import connected_parts
@@ -243,7 +243,7 @@ def _lies_on_rim(points: Float[np.ndarray, "n 2"], radius: float, config: DrawnC
     off, near = off[off > (1 - config.round) * radius], (1 - config.round) * radius
     on_rim = np.abs(off - radius) <= near
     inner = off[~on_rim]
-    in_bore = np.count_nonzero(np.abs(inner - np.median(inner)) <= near) if len(inner) else 0
+    in_bore = np.count_nonzero(np.abs(inner - median(inner)) <= near) if len(inner) else 0
     found = int(np.count_nonzero(on_rim))
     return bool(found >= config.corners and found + in_bore >= config.round * len(off))
 

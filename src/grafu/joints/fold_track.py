@@ -14,7 +14,7 @@ from jaxtyping import Float
 
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Scalars, vec3
+from grafu.geometry.arrays import Scalars, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.intersection import MeshCollider, SweptBody
@@ -100,7 +100,7 @@ def _line(scene: Scene, outer: Built, inner: Built, upper: float, config: Realiz
     ring = [(line.rest + dx * rim, py + dy * rim) for dx, dy in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))]
     tops = line.heights(RayCaster(leaf), ring, start, -1.0)
     on_leaf = np.abs(tops - frame.length / 2) <= config.hinge.pivot.start
-    return replace(line, top=float(np.median(tops[on_leaf]))) if on_leaf.mean() >= config.hinge.pivot.met else None
+    return replace(line, top=median(tops[on_leaf])) if on_leaf.mean() >= config.hinge.pivot.met else None
 
 
 def _at(frame: BorderFrame, built: Built) -> tuple[float, float]:

@@ -12,7 +12,7 @@ import numpy as np
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Part
 from grafu.errors import OptionError
-from grafu.geometry.arrays import Mat3, Vec3, vec3
+from grafu.geometry.arrays import Mat3, Vec3, median, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -159,7 +159,7 @@ def label_of_motion(part: Part, choice: MotionChoice, drawers: DrawerConfig = Dr
 
 def _is_leaf(part: Part, choice: MotionChoice) -> bool:
     size = part.box.size
-    level = part.box.thin_axis == int(np.argmax(DIRECTIONS[Side.TOP])) and size.min() < _BOARD * np.median(size)
+    level = part.box.thin_axis == int(np.argmax(DIRECTIONS[Side.TOP])) and size.min() < _BOARD * median(size)
     return choice.moves is Moves.SLIDES and bool(level) and not part.label.is_movable
 
 
@@ -176,7 +176,7 @@ def axis_of_motion(part: Part, choice: MotionChoice, whole: Box) -> Axis:
     side = _own_side(axes, _direction(choice))
     if choice.moves is Moves.SLIDES:
         return Axis(axes @ local.center, side)
-    if choice.moves is Moves.TILTS and local.size[local.thin_axis] > _BOARD * np.median(local.size):
+    if choice.moves is Moves.TILTS and local.size[local.thin_axis] > _BOARD * median(local.size):
         opens = _own_side(axes, DIRECTIONS[Side.FRONT])  # the bin is part of its mesh
     else:
         thin = axes[:, local.thin_axis]

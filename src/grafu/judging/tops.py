@@ -13,6 +13,7 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from grafu.geometry.arrays import median
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -107,7 +108,7 @@ def lost_tops(
         covered = [(top[plan] > least) & (top[plan] <= own[plan] + config.near * grid.height) for top in new]
         ratio = float(np.logical_or.reduce(covered).mean()) if covered else 0.0
         is_missed = float(hollow.mean()) >= config.hollow
-        found.append(LostTop(float(np.median(own[plan])), float(hollow.mean()), ratio, is_missed))
+        found.append(LostTop(median(own[plan]), float(hollow.mean()), ratio, is_missed))
     return tuple(found)
 
 

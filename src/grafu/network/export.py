@@ -40,7 +40,7 @@ def onnx_bytes(
 
     Of the `points` of a part, `anchors` groups of `neighbours` points each are seen, and edges of these `kinds`: the
     `features` of the file. Weights have their names in the network (`grafu.network.stored`). With `half_weights` they
-    are stored in 16 bits and widened when the file is loaded: half the size, and all is computed in 32 bits as before.
+    are stored in 16 bits and widened when they are used: half the size, and all is computed in 32 bits as before.
     """
     proto = _exported(deepcopy(model).cpu(), anchors, neighbours)
     _without_traces(proto)

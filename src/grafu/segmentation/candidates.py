@@ -62,14 +62,14 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
     kept = [
         k
         for k in found.tolist()
-        if _is_seen(view, k, bool(cover[k] < config.full), config.near * float(scale.extent[k]), config)
-        and (
+        if (  # rays come last: many views are never asked for any
             (body[k] and _has_handle(view, k, config.near * float(scale.extent[k]), config))
             or (
                 _has_room(view, k, config.room * float(shorter[k]), config)
                 and (plate[k] or _is_flanked(view, k, scale, config))
             )
         )
+        and _is_seen(view, k, bool(cover[k] < config.full), config.near * float(scale.extent[k]), config)
     ]
     return np.array(kept, dtype=np.int64)
 
@@ -193,16 +193,13 @@ def merged(view: ShellsView, groups: list[tuple[int, ...]]) -> tuple[ShellsView,
     order = np.argsort(number, kind="stable")
     starts = np.searchsorted(number[order], np.arange(int(number.max(initial=-1)) + 1))
     members = [tuple(shells.tolist()) for shells in np.split(order, starts[1:])]
-    seen = np.where(view.seen >= 0, number[view.seen], -1).astype(np.int64)
     return ShellsView(
         view.owner[order][starts],
         np.minimum.reduceat(view.low[order], starts, axis=0),
         np.maximum.reduceat(view.high[order], starts, axis=0),
         np.add.reduceat(view.faced[order], starts, axis=0),
-        seen,
-        view.depth,
-        view.origin,
-        view.cell,
+        number[view.shell].astype(np.int64),
+        view.rays,
     ), members
 
 

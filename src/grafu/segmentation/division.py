@@ -3,8 +3,9 @@
 It asks geometry alone.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import Final, Literal, final
 
 import numpy as np
@@ -18,7 +19,7 @@ from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.fronts import FrontShells, fronts_among
 from grafu.segmentation.hidden_fronts import hides, is_flush, is_one_with_handles, outline, without_case
 from grafu.segmentation.lying import lying_on_fronts
-from grafu.segmentation.view import MaskOfShells, OfShells, ShellsView, view_of
+from grafu.segmentation.view import MaskOfShells, OfShells, SeenFaces, ShellsView
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
 Faces = Int[np.ndarray, " _"]
@@ -82,12 +83,18 @@ def divided(
     may = np.asarray(open_to, dtype=bool)
     shells = MeshShells.of(meshes)
     loose = may if lying is None else np.asarray(lying, dtype=bool)
-    found = _from_the_best_side(shells, may, whole, config, loose)
+
+    @cache
+    def seen_from(turn: int) -> SeenFaces:
+        return SeenFaces.of(shells.mesh, axes_from(turn))
+
+    found = _from_the_best_side(seen_from, shells, (may, loose), whole, config)
     pieces = found.pieces(shells)
     if materials is not None:
         left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
         parted = MeshShells.of(meshes, materials) if left.any() else shells
-        pieces |= FoundFronts({}, _from_the_best_side(parted, left, whole, config).with_handles).pieces(parted)
+        single = _from_the_best_side(seen_from, parted, (left, np.zeros_like(left)), whole, config).with_handles
+        pieces |= FoundFronts({}, single).pieces(parted)
     return dict(sorted(pieces.items()))
 
 
@@ -116,26 +123,27 @@ class FoundFronts:
 
 
 def _from_the_best_side(
+    seen_from: Callable[[int], SeenFaces],
     shells: MeshShells,
-    may_be_cut: MaskOfObjects,
+    may_be: tuple[MaskOfObjects, MaskOfObjects],
     whole: Sequence[bool],
     config: SegmentationConfig,
-    lying: MaskOfObjects | None = None,
 ) -> FoundFronts:
     """Returns the fronts as they are seen from -Y; from elsewhere only where they are clearer than there.
+
+    `may_be` states which objects may be cut, and which may be parted by the fronts that they lie on.
 
     A side or the back is a plate that is alone and has no handle, so such a front is not clear. Where all is one
     object, two fronts with handles are clearer than fronts without: a back in two panels has none.
     """
     several = np.bincount(shells.owner, minlength=len(whole)) > 1
-    may = (several & may_be_cut)[shells.owner]
-    loose = may if lying is None else (several & lying)[shells.owner]
+    may, loose = ((several & objects)[shells.owner] for objects in may_be)
     if not may.any():
         return FoundFronts({}, {})
     sides: list[FoundFronts] = []
     ranks: list[tuple[bool, bool, float]] = []
     for turn in range(4):
-        view = view_of(shells.mesh, shells.shell, shells.owner, axes_from(turn))
+        view = seen_from(turn).view(shells.shell, shells.owner)
         found = fronts_by_object(view, may, whole, config, loose)
         clear = [front for fronts in found.clear.values() for front in fronts]
         is_held = len(whole) > 1 or sum(front.is_held for front in clear) > 1
@@ -180,10 +188,12 @@ def fronts_by_object(
     hidden = {o: fronts for o, fronts in flush.items() if fronts and hides(view, o, fronts, whole[o], config)}
     others = {o: fronts for o, fronts in flush.items() if o not in hidden}
     single = {o: f[0] for o, f in others.items() if is_one_with_handles(view, o, f, config.division)}
-    alone = candidates(view, np.bincount(view.owner)[view.owner] == 1, config.candidates)
-    alone = np.append(alone, np.array([f[0].shells[0] for f in others.values() if len(f) == 1], dtype=np.int64))
     left = ~np.isin(view.owner, [*hidden, *single])
-    lying = lying_on_fronts(view, ((may | loose) & left, loose & left), (hidden, alone), config)
+    lying: dict[int, tuple[tuple[int, ...], ...]] = {}
+    if hidden or (loose & left).any():
+        alone = candidates(view, np.bincount(view.owner)[view.owner] == 1, config.candidates)
+        alone = np.append(alone, np.array([f[0].shells[0] for f in others.values() if len(f) == 1], dtype=np.int64))
+        lying = lying_on_fronts(view, ((may | loose) & left, loose & left), (hidden, alone), config)
     return FoundFronts(
         {o: tuple(front.made_of(members) for front in fronts) for o, fronts in hidden.items()},
         {o: front.made_of(members) for o, front in single.items()},

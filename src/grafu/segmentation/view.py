@@ -4,12 +4,13 @@ Coordinates are those of the viewer: x to the right, y up, z towards the viewer.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import ArrayValue, Indices, Mat3, Points, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Indices, Mat3, Points, cross, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.raycast import RayCaster
 
@@ -25,26 +26,73 @@ _SPARE = 0.01  # of that distance: rays are traced in single precision
 
 
 @final
-@dataclass(frozen=True, eq=False, slots=True)
+class RayGrid:
+    """Parallel rays towards a mesh, along -z, rows from the bottom up; they are traced when first asked. Not a value.
+
+    Rays stand `cell` apart, the first at `origin`; `shape` are their rows and columns.
+    """
+
+    def __init__(self, mesh: TriangleMesh, low: Points, high: Points) -> None:
+        """Takes a mesh in the viewer's coordinates, and the ends of the box of each face."""
+        self._mesh, self._low, self._high = mesh, low, high
+        size = mesh.box.size
+        self.cell = float(max(size[:2].max(), 1e-12)) / _RAYS
+        # off the middle of cells: no ray runs along the edge where boards meet
+        self.origin = mesh.box.low[:2] + self.cell * np.array([0.4871, 0.5113])
+        columns, rows = np.maximum(np.ceil((mesh.box.high[:2] - self.origin) / self.cell).astype(int), 1).tolist()
+        self.shape = rows, columns
+
+    @property
+    def face(self) -> Int[np.ndarray, "r c"]:
+        """The face that each ray meets first, -1 where it meets none."""
+        return self._met[0]
+
+    @property
+    def depth(self) -> Float[np.ndarray, "r c"]:
+        """How high each ray meets that face (z); minus infinity where it meets none."""
+        return self._met[1]
+
+    @cached_property
+    def _met(self) -> tuple[Int[np.ndarray, "r c"], Float[np.ndarray, "r c"]]:
+        x, y = np.meshgrid(*(self.origin[k] + self.cell * np.arange(self.shape[1 - k]) for k in (0, 1)))
+        top = float(self._mesh.box.high[2]) + _FAR * float(self._mesh.box.size.max())
+        starts = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, top)])
+        met = _may_be_met(self._low, self._high, self.origin, self.cell)
+        caster = RayCaster(TriangleMesh(self._mesh.vertices, self._mesh.faces[met]))
+        found, distance = caster.first_faces(starts, np.array([0.0, 0.0, -1.0]))
+        face = np.where(found >= 0, met[found], -1) if len(met) else found
+        return face.reshape(x.shape), (top - distance).reshape(x.shape)
+
+
+@final
+@dataclass(frozen=True, eq=False)
 class ShellsView(ArrayValue):
     """Shells seen from one side, in the viewer's coordinates and the unit of the meshes.
 
     `owner` is the number of the mesh that holds each shell; `low` and `high` are the ends of its box; `faced` is the
-    area of its projection along each axis (the greater of both sides). `seen` is the number of the shell that each ray
-    meets first, -1 where it meets none, rows from the bottom up; rays stand `cell` apart, the first at `origin`.
+    area of its projection along each axis (the greater of both sides). `shell` is the number of each face's shell.
     """
 
     owner: OfShells
     low: PointsOfShells
     high: PointsOfShells
     faced: PointsOfShells
-    seen: Int[np.ndarray, "r c"]
-    depth: Float[np.ndarray, "r c"]
-    origin: Float[np.ndarray, "2"]
-    cell: float
+    shell: Indices
+    rays: RayGrid
 
     def __post_init__(self) -> None:
         freeze_arrays(self)
+
+    @cached_property
+    def seen(self) -> Int[np.ndarray, "r c"]:
+        """The number of the shell that each ray meets first, -1 where it meets none."""
+        face = self.rays.face
+        return np.where(face >= 0, self.shell[face], -1)
+
+    @property
+    def depth(self) -> Float[np.ndarray, "r c"]:
+        """How near to the viewer that is (z)."""
+        return self.rays.depth
 
     @property
     def size(self) -> PointsOfShells:
@@ -54,13 +102,14 @@ class ShellsView(ArrayValue):
     def of_shells(self, shells: Indices) -> "ShellsView":
         """Returns the view of some shells, numbered in their order; what rays meet keeps its number."""
         owner, low, high, faced = (a[shells] for a in (self.owner, self.low, self.high, self.faced))
-        return ShellsView(owner, low, high, faced, self.seen, self.depth, self.origin, self.cell)
+        return ShellsView(owner, low, high, faced, self.shell, self.rays)
 
     def window(self, shell: int) -> tuple[slice, slice]:
         """Returns the rows and columns of the rays within the outline of a shell's box, at least one of each."""
-        first = np.ceil((self.low[shell, :2] - self.origin) / self.cell - 1e-9).astype(int)
-        last = np.floor((self.high[shell, :2] - self.origin) / self.cell + 1e-9).astype(int)
-        ends = np.array(self.seen.shape[::-1]) - 1  # a speck at the very border lies beyond the last ray
+        origin, cell = self.rays.origin, self.rays.cell
+        first = np.ceil((self.low[shell, :2] - origin) / cell - 1e-9).astype(int)
+        last = np.floor((self.high[shell, :2] - origin) / cell + 1e-9).astype(int)
+        ends = np.array(self.rays.shape[::-1]) - 1  # a speck at the very border lies beyond the last ray
         first = np.clip(first, 0, ends)
         last = np.clip(last, first, ends)
         return slice(first[1], last[1] + 1), slice(first[0], last[0] + 1)
@@ -84,16 +133,12 @@ class SeenFaces:
     """The faces of a mesh as they are seen from one side, however they are sorted into shells.
 
     `low` and `high` are the ends of the box of each face, `cross` its normal, twice as long as the face is large.
-    `face` is the face that each ray meets first; rays are those of `ShellsView`.
     """
 
     low: Points
     high: Points
     cross: Points
-    face: Int[np.ndarray, "r c"]
-    depth: Float[np.ndarray, "r c"]
-    origin: Float[np.ndarray, "2"]
-    cell: float
+    rays: RayGrid
 
     @classmethod
     def of(cls, mesh: TriangleMesh, axes: Mat3) -> "SeenFaces":
@@ -101,20 +146,8 @@ class SeenFaces:
         turned = TriangleMesh(mesh.vertices @ axes.T, mesh.faces)
         corners = turned.triangles
         low, high = triangle_bounds(corners)
-        cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        whole = turned.box
-        cell = float(max(whole.size[:2].max(), 1e-12)) / _RAYS
-        # off the middle of cells: no ray runs along the edge where boards meet
-        origin = whole.low[:2] + cell * np.array([0.4871, 0.5113])
-        counts = np.maximum(np.ceil((whole.high[:2] - origin) / cell).astype(int), 1)
-        x, y = np.meshgrid(*(origin[k] + cell * np.arange(counts[k]) for k in (0, 1)))
-        top = float(whole.high[2]) + _FAR * float(whole.size.max())
-        starts = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, top)])
-        met = _may_be_met(low, high, origin, cell)
-        away = np.array([0.0, 0.0, -1.0])
-        found, distance = RayCaster(TriangleMesh(turned.vertices, turned.faces[met])).first_faces(starts, away)
-        face = np.where(found >= 0, met[found], -1) if len(met) else found
-        return cls(low, high, cross, face.reshape(x.shape), (top - distance).reshape(x.shape), origin, cell)
+        normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        return cls(low, high, normals, RayGrid(turned, low, high))
 
     def view(self, shell: Indices, owner: OfShells) -> ShellsView:
         """Returns the shells, from the number of each face's shell and of the object that holds each shell."""
@@ -122,10 +155,9 @@ class SeenFaces:
         starts = np.searchsorted(shell[order], np.arange(len(owner)))
         low = np.minimum.reduceat(self.low[order], starts, axis=0)
         high = np.maximum.reduceat(self.high[order], starts, axis=0)
-        cross = self.cross[order] / 2
-        sides = [np.add.reduceat(np.maximum(sign * cross, 0.0), starts, axis=0) for sign in (1.0, -1.0)]
-        seen = np.where(self.face >= 0, shell[self.face], -1)
-        return ShellsView(owner, low, high, np.maximum(*sides), seen, self.depth, self.origin, self.cell)
+        normals = self.cross[order] / 2
+        sides = [np.add.reduceat(np.maximum(sign * normals, 0.0), starts, axis=0) for sign in (1.0, -1.0)]
+        return ShellsView(owner, low, high, np.maximum(*sides), shell, self.rays)
 
 
 def _may_be_met(low: Points, high: Points, origin: np.ndarray, cell: float) -> Int[np.ndarray, " _"]:

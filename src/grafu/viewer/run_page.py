@@ -10,6 +10,7 @@ from urllib.parse import quote
 
 import numpy as np
 
+from grafu.geometry.arrays import median
 from grafu.viewer.pictures import MIME, THUMBNAIL, data_uri
 from grafu.viewer.run_table import LIGHTS, WORDS, Cell, Run, RunColumn, RunFigure, RunRow, RunTable
 from grafu.viewer.shell import Html, joined, light_of, section, tag, whole_page
@@ -56,7 +57,7 @@ def histogram(title: str, values: Sequence[float], words: Callable[[float], str]
         for k, (count, a, b) in enumerate(zip(bins.counts, bins.edges, bins.edges[1:], strict=False))
         if count
     ]
-    middle = words(float(np.median(values)))
+    middle = words(median(values))
     svg = tag("svg", *bars, viewBox=f"0 0 {width} {height}", role="img", aria_label=f"{title}: half are below {middle}")
     ends = tag("div", tag("span", words(min(values))), tag("span", words(max(values))), class_="ends")
     caption = tag("figcaption", tag("strong", title), tag("span", f"median {middle}"))

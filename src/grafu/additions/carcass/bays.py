@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene
-from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, Vec3, vec3
+from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, Vec3, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.components import clustered
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -199,9 +199,7 @@ def _bay(view: FrontsView, scene: Scene, moving: str, is_door: bool, config: Car
         return None
     places = (1, depths[both]), (2, z)
     sides = [wall_distances(view.cast, vec3(x, 0.0, 0.0), *places, sign) for sign in (-1.0, 1.0)]
-    x0, x1 = (
-        x + sign * float(np.median(found[np.isfinite(found)])) for sign, found in zip((-1.0, 1.0), sides, strict=True)
-    )
+    x0, x1 = (x + sign * median(found[np.isfinite(found)]) for sign, found in zip((-1.0, 1.0), sides, strict=True))
     walled = float(both[first : last + 1].mean()) * (end - start) / depth
     outline = np.array([low[0], high[0], low[2], high[2]])
     inset = start < float(low[1]) + 0.5 * min(float(high[1] - low[1]), config.front_thickness)

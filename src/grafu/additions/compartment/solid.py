@@ -16,7 +16,7 @@ from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene
 from grafu.additions.compartment.config import SolidBodyConfig
 from grafu.asset.part import Part
-from grafu.geometry.arrays import Mat3, Points, vec3
+from grafu.geometry.arrays import Mat3, Points, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster, wall_distances
@@ -101,7 +101,7 @@ def _solid_span(caster: RayCaster, front: Box, config: SolidBodyConfig) -> tuple
     across = [(i, np.linspace(front.center[i] - half[i], front.center[i] + half[i], RAYS)) for i in (0, 2)]
     y = float(front.low[1]) - config.start
     first = wall_distances(caster.along, vec3(0.0, y, 0.0), across[0], across[1], 1.0)
-    face = float(np.median(first))
+    face = median(first)
     if not np.isfinite(face) or y + face > float(front.high[1]) + config.near:
         return None
     level = np.abs(first - face) <= config.flat

@@ -12,7 +12,7 @@ import numpy as np
 
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.drawer_box.verdict import RAY_START, BoardName, BoxVerdict
-from grafu.geometry.arrays import ArrayValue, vec3
+from grafu.geometry.arrays import ArrayValue, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
@@ -117,7 +117,7 @@ def _inner_face(caster: RayCaster, outer: Box, axis: int, sign: int, fallback: f
     direction[axis] = sign
     hits = caster.along(origins, direction)
     found = hits[hits <= outer.half[axis] + inset]
-    return float(outer.center[axis] + sign * np.median(found)) if len(found) else float(fallback)
+    return float(outer.center[axis] + sign * median(found)) if len(found) else float(fallback)
 
 
 def _top_of_bottom(caster: RayCaster, outer: Box) -> float:
@@ -133,7 +133,7 @@ def _top_of_bottom(caster: RayCaster, outer: Box) -> float:
     start = float(outer.high[2]) + RAY_START
     hits = caster.along(np.column_stack([x, y, np.full(x.size, start)]), vec3(0.0, 0.0, -1.0))
     found = hits[np.isfinite(hits)]
-    return start - float(np.median(found)) if len(found) else float(outer.low[2])
+    return start - median(found) if len(found) else float(outer.low[2])
 
 
 def _boards(
@@ -178,4 +178,4 @@ def _front_face(drawer: RayCaster, outer: Box, start: float, ahead: float) -> fl
     )
     hits = drawer.along(np.column_stack([x, np.full(x.size, start + RAY_START), z]), vec3(0.0, -1.0, 0.0)) - RAY_START
     found = hits[(hits >= -RAY_START) & (hits <= ahead)]
-    return start - max(float(np.median(found)), 0.0) if len(found) else start
+    return start - max(median(found), 0.0) if len(found) else start

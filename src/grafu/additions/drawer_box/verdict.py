@@ -11,7 +11,7 @@ from typing import Literal, final
 import numpy as np
 
 from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
-from grafu.geometry.arrays import vec3
+from grafu.geometry.arrays import median, vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import DrawerFrame, is_board
@@ -115,7 +115,7 @@ def _inner_front(caster: RayCaster, frame: DrawerFrame, config: BoxProbeConfig) 
     found = hits[hits <= middle + RAY_START]
     if len(found) < 0.5 * len(hits):
         return unseen
-    inner = middle - float(np.median(found))
+    inner = middle - median(found)
     return inner if inner > config.thinnest else unseen  # a solid block shows its outer face
 
 
@@ -132,7 +132,7 @@ def _bottom(caster: RayCaster, frame: DrawerFrame, inner: float, config: DrawerB
     half = frame.height / 2 + RAY_START
     above = half - caster.along(np.column_stack([x, y, np.full(x.size, half)]), vec3(0.0, 0.0, -1.0))
     hit = np.isfinite(above)
-    return float(hit.mean()), float(np.median(above[hit])) if hit.any() else 0.0
+    return float(hit.mean()), median(above[hit]) if hit.any() else 0.0
 
 
 def _side(

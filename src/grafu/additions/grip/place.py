@@ -9,7 +9,7 @@ import numpy as np
 from grafu.additions.grip.config import GripConfig, GripKind, GripSize
 from grafu.additions.grip.ground import FrontLayers, Grid, GripSite, Triangles, aside
 from grafu.additions.grip.shape import GripCut, GripFrame
-from grafu.geometry.arrays import Mask, Scalars, Vec3
+from grafu.geometry.arrays import Mask, Scalars, Vec3, median
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import triangle_bounds
 from grafu.geometry.raycast import line_crossings
@@ -105,7 +105,7 @@ def _groove(site: GripSite, cut: GripCut, ground: FrontLayers, config: GripConfi
     """Returns a groove as deep as the front allows."""
     if float(ground.thickness.min()) <= config.ground.thinnest * site.scale:
         return Reason.NO_THICKNESS
-    face = float(np.median(ground.face))
+    face = median(ground.face)
     room = float((face - ground.back).min())
     depth = min(cut.size.depth, config.depth_ratio * room, room - config.wall * site.scale)
     if depth < config.shallowest * site.scale:

@@ -24,7 +24,7 @@ from grafu.additions.handle.finger_room import (
 )
 from grafu.additions.handle.grasp_config import GraspConfig, GripConfidences
 from grafu.additions.handle.relief import Relief
-from grafu.geometry.arrays import ArrayValue, Indices, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Indices, Vec3, freeze_arrays, median
 from grafu.scene.front import Side
 
 CellRows = Int[np.ndarray, "k 2"]
@@ -112,7 +112,7 @@ def _hooked(relief: Relief, config: GraspConfig, where: Cells) -> Iterator[Grip]
     steps = np.repeat(np.arange(len(STEPS)), [len(h.cells) for h in hooks])
     lips = np.concatenate([h.lip for h in hooks])
     for cluster in clusters_of(np.vstack([h.cells for h in hooks])):
-        grip = _hook(relief, config, cluster, steps[cluster.rows], float(np.median(lips[cluster.rows])))
+        grip = _hook(relief, config, cluster, steps[cluster.rows], median(lips[cluster.rows]))
         if grip is not None:
             yield grip
 
@@ -220,7 +220,7 @@ def _length(relief: Relief, cluster: Cluster) -> float:
 def _depth(relief: Relief, cluster: Cluster, config: GraspConfig) -> float:
     """Returns how deep a cluster lies, a finger's reach behind the front's plane at most."""
     seen = relief.face[cluster.cells[:, 0], cluster.cells[:, 1]]
-    return float(np.median(np.minimum(seen, relief.plane + config.held * relief.factor)))
+    return median(np.minimum(seen, relief.plane + config.held * relief.factor))
 
 
 def _center(relief: Relief, cluster: Cluster, depth: float) -> Vec3:

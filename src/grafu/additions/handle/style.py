@@ -4,11 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import final
 
-import numpy as np
-
 from grafu.additions.handle.config import HandleConfig
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material
+from grafu.geometry.arrays import median
 from grafu.geometry.box import Box
 from grafu.scene.front import Front, front_of
 from grafu.scene.scene import Scene
@@ -99,7 +98,7 @@ def _length(template: HandleTemplate, fronts: Sequence[Front], factor: float, co
     natural = factor * template.natural.length
     if template.family != "bar" or not fronts:
         return natural
-    wanted = config.bar_ratio * float(np.median([max(f.width, f.height) for f in fronts]))
+    wanted = config.bar_ratio * median([max(f.width, f.height) for f in fronts])
     low, high = (factor * length for length in (config.shortest_bar, config.longest_bar))
     return min(max(wanted, low), max(high, natural))
 
@@ -108,8 +107,8 @@ def _like(siblings: Sequence[Sibling], factor: float, config: HandleConfig) -> t
     """Returns the template most like a model's handles, with their length and protrusion, metres."""
     lengths = [float(max(s.box.size[0], s.box.size[2])) for s in siblings]
     across = [float(min(s.box.size[0], s.box.size[2])) for s in siblings]
-    length, width = float(np.median(lengths)), float(np.median(across))
-    protrusion = float(np.median([min(float(s.box.size[1]), -float(s.box.low[1])) for s in siblings]))
+    length, width = median(lengths), median(across)
+    protrusion = median([min(float(s.box.size[1]), -float(s.box.low[1])) for s in siblings])
     is_knob = length <= factor * config.knob and length <= config.knob_ratio * max(width, 1e-9)
     family = "knob" if is_knob else "bar"
     able = [t for t in HANDLES if t.family == family and factor * t.longest >= length] or [HANDLES[0]]

@@ -13,7 +13,7 @@ import numpy as np
 from grafu.additions.interior.config import RoomConfig, Sizes
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
-from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays, median
 from grafu.geometry.box import Box
 from grafu.geometry.free_space import Grid, cells_met, points_on
 from grafu.geometry.mesh import TriangleMesh
@@ -119,7 +119,7 @@ def _free_run(cells: Grid, axis: int) -> int:
     if not cells.size:
         return 0
     first = np.where(cells.any(axis=axis), cells.argmax(axis=axis), cells.shape[axis])
-    return int(np.median(first))
+    return int(median(first))
 
 
 def _rails(scene: Scene, moving: MovingBody) -> list[Visual]:

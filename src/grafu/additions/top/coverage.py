@@ -16,7 +16,7 @@ from grafu.additions.top.config import OpeningConfig, TopConfig
 from grafu.additions.top.height_map import CellMask, Grid, Heights, islands, without_narrow
 from grafu.additions.top.supports import levels_of, spanned_at
 from grafu.additions.top.views import Views
-from grafu.geometry.arrays import ArrayValue, frozen_array
+from grafu.geometry.arrays import ArrayValue, frozen_array, median
 
 Opening = tuple[float, CellMask]
 """The height of a rim, metres, and the cells that one looks into past it."""
@@ -133,7 +133,7 @@ def _by_level(opened: CellMask, rim: Heights, step: float) -> list[Opening]:
     """Returns the openings, those whose rims are about equally high as one, each with the height of its rim."""
     labels, count = islands(opened)
     groups: list[Opening] = []
-    levels = [float(np.median(rim[labels == k])) for k in range(1, count + 1)]
+    levels = [median(rim[labels == k]) for k in range(1, count + 1)]
     for k in np.argsort(levels)[::-1]:
         mask = labels == k + 1
         if groups and groups[-1][0] - levels[k] <= step:

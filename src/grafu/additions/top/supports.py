@@ -16,6 +16,7 @@ from shapely.geometry.base import BaseGeometry
 from grafu.additions.top.config import SupportConfig, TopConfig
 from grafu.additions.top.height_map import CellMask, Grid, grown, islands, without_narrow
 from grafu.additions.top.views import Views
+from grafu.geometry.arrays import median
 
 ALONG_AXES = 1.05
 """Area of the rectangle along the axes, over that of the smallest one, up to which it is taken instead (ratio)."""
@@ -49,7 +50,7 @@ def levels_of(views: Views, config: SupportConfig, metre: float) -> list[float]:
     found: list[float] = []
     while len(rises) and len(found) < config.most_levels:
         together = rises >= rises[0] - config.even * metre
-        found.append(float(np.median(rises[together])))
+        found.append(median(rises[together]))
         rises = rises[~together]
     return found
 

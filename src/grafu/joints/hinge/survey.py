@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import Scalars
+from grafu.geometry.arrays import Scalars, median
 from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.joints.hinge_config import SurveyConfig
 from grafu.scene.border import BorderFrame
@@ -82,7 +82,7 @@ class _Probe:
         board = self._frame.board
         tops = [self._height_at(-max(side_gap, 0.0) - step * board, board) for step in self._config.in_front]
         found = [top for top in tops if np.isfinite(top)]
-        return float(np.median(found)) if found else float("-inf")
+        return median(found) if found else float("-inf")
 
     def _height_at(self, x: float, depth: float) -> float:
         """Returns the y at which rays from the front meet the static body at an x, down to a depth."""
@@ -136,7 +136,7 @@ class _Probe:
             distance = self.median_of(self.row(-self._reach, y, 1.0, 0.0), self._reach + self._frame.board)
             faces.append(distance - self._reach)
         found = [x for x in faces if np.isfinite(x)]
-        return float(np.median(found)) if found else float("-inf")
+        return median(found) if found else float("-inf")
 
     def beside_width(self, back_gap: float) -> float:
         """Returns how far outwards of the border the face behind the door goes on at one level."""

@@ -11,7 +11,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, vec3
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
@@ -153,7 +153,7 @@ def body_region(
     rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > body.long)
     if rows[1] < rows[0]:
         return None
-    left, right = (float(np.median(flank[in_body])) for flank in flanks)
+    left, right = (median(flank[in_body]) for flank in flanks)
     lift = frame.height / _HEIGHT / 2
 
     def belongs(at: np.ndarray) -> np.ndarray:
@@ -187,7 +187,7 @@ def is_shallow(frame: DrawerFrame, config: DrawerConfig = DrawerConfig()) -> boo
 
 def _median(values: np.ndarray) -> float:
     found = values[np.isfinite(values)]
-    return float(np.median(found)) if len(found) else float("nan")
+    return median(found) if len(found) else float("nan")
 
 
 def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:

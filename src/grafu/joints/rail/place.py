@@ -250,18 +250,25 @@ def _in_the_way(static: list[Visual], dynamic: list[Visual], upper: float, searc
     """Whether rails or blocks cut into the other side's parts along the path, or into other moving bodies at rest."""
     depth, poses = search.config.depth * search.scene.extent, search.config.rail.poses
     motion = search.motion
-    fixed = merge_meshes([v.mesh for v in static])
-    if not is_free(search.body, motion, upper, [Obstacle("rail", MeshCollider(fixed))], poses):
+    fixed, moving = [v.mesh for v in static], [v.mesh for v in dynamic]
+    if not is_free(search.body, motion, upper, [Obstacle("rail", MeshCollider(mesh)) for mesh in fixed], poses):
         return True
-    moving = merge_meshes([v.mesh for v in dynamic])
-    body = SweptBody(moving, depth, np.asarray(search.frame.rotation))
-    if not is_free(body, motion, upper, in_the_way(search.obstacles, swept_box(moving.box, motion, upper)), poses):
+    body, box = _of_pieces(moving, depth, search), Box.enclosing([mesh.box for mesh in moving])
+    if not is_free(body, motion, upper, in_the_way(search.obstacles, swept_box(box, motion, upper)), poses):
         return True
     return _cuts_neighbours(fixed, depth, search) or _cuts_neighbours(moving, depth, search)
 
 
-def _cuts_neighbours(mesh: TriangleMesh, depth: float, search: DrawerSearch) -> bool:
+def _of_pieces(meshes: list[TriangleMesh], depth: float, search: DrawerSearch) -> SweptBody:
+    """Returns rails with their blocks as one body; each piece is asked about elsewhere, too, and prepared once."""
+    return SweptBody(merge_meshes(meshes), depth, np.asarray(search.frame.rotation), meshes)
+
+
+def _cuts_neighbours(meshes: list[TriangleMesh], depth: float, search: DrawerSearch) -> bool:
     """Whether hardware at rest cuts into another moving body at rest."""
-    body = SweptBody(mesh, depth, np.asarray(search.frame.rotation))
+    near = in_the_way(search.neighbours, Box.enclosing([mesh.box for mesh in meshes]))
+    if not near:
+        return False
+    body = _of_pieces(meshes, depth, search)
     body.place(np.eye(4))
-    return any(body.penetrates(o.collider) for o in in_the_way(search.neighbours, mesh.box))
+    return any(body.penetrates(o.collider) for o in near)

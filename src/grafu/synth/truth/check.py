@@ -17,6 +17,7 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
 from grafu.articulation.sweep import values_before
 from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.geometry.arrays import median
 from grafu.graph.annotated import carrying_part
 from grafu.graph.edges import Hinge, MotionEdge, Rail, Slide, Turn, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
@@ -183,7 +184,7 @@ def _slide_faults(whole: Asset, joint: AnnotatedJoint, still: BoxRows) -> Iterat
 def _size_faults(whole: Asset) -> Iterator[Fault]:
     for joint in whole.joints:
         part = whole.part(joint.part)
-        across = float(np.median(part.box.size))  # of a board, the shorter of the two sides that are seen
+        across = median(part.box.size)  # of a board, the shorter of the two sides that are seen
         if part.label is PartLabel.DOOR and across < LEAST_DOOR:
             yield Fault("size", (joint.part,), f"a door {across:.3f} m across")
         if part.label is PartLabel.DRAWER and part.box.size[2] < LEAST_DRAWER:
