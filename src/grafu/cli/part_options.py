@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from grafu.articulation.base import BaseKind
-from grafu.errors import OptionError
+from grafu.errors import OptionError, did_you_mean
 from grafu.pipeline.motion_source import SourceOption, parse_motion
 from grafu.vocabulary import MOTION_WORDS
 
@@ -45,7 +45,8 @@ def part_move(text: str) -> Move:
     if part and motion == OLD_FIXED:
         raise argparse.ArgumentTypeError(f"`not` is called `fixed` now: use --move {part}=fixed")
     if not part or motion not in MOTION_WORDS:
-        raise argparse.ArgumentTypeError(f"must be PART=HOW, HOW one of {', '.join(MOTION_WORDS)}: got {text!r}")
+        near = did_you_mean(motion, MOTION_WORDS) if part else ""
+        raise argparse.ArgumentTypeError(f"must be PART=HOW, HOW one of {', '.join(MOTION_WORDS)}: got {text!r}{near}")
     return part, motion
 
 
@@ -57,7 +58,7 @@ def with_moves(
     Raises:
         OptionError: if there are several inputs, or the motions are another system's.
     """
-    from grafu.errors import OptionError
+    from grafu.errors import OptionError, did_you_mean
     from grafu.joints.motion_choice import choice_in_words
 
     if not alone:
@@ -143,7 +144,7 @@ def addition_config(
         OptionError: if options contradict each other, or name a style or an interior that there is not.
     """
     from grafu.additions.config import NO_ADDITIONS
-    from grafu.errors import OptionError
+    from grafu.errors import OptionError, did_you_mean
     from grafu.pipeline.addition_choice import choose_additions
 
     _require_consistent(options)
@@ -166,7 +167,7 @@ def addition_config(
 
 
 def _require_consistent(options: argparse.Namespace) -> None:
-    from grafu.errors import OptionError
+    from grafu.errors import OptionError, did_you_mean
 
     asked = {
         "--top": options.top,

@@ -114,7 +114,7 @@ def _cleared(search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]]:
         return fitted
     path = _path(search.request, search.scene, search.to_clear().axis, search.wanted)
     cleared = make_clearance(search.scene, path, search.config)
-    again = door_search(search.request, cleared.scene, search.config)
+    again = door_search(search.request, cleared.scene, search.config) if cleared.clearances else search
     is_wider = again.best().free > search.best().free or again.free_ratio() > search.free_ratio()
     if search.config.trim and (again if is_wider else search).met_at_rest():
         found = _fitted(search, sides=1)
