@@ -34,7 +34,7 @@ def test_verbs_that_need_more_are_told_with_their_extra(monkeypatch: pytest.Monk
     assert (found["grafu edit"].works, found["grafu edit"].needed) == (False, False)
     assert found["grafu edit"].said == "needs starlette: pip install 'grafu[edit]'"
     assert found["grafu check"].works
-    extras = {name for name in metadata("grafu").get_all("Provides-Extra") or ()}
+    extras = set(metadata("grafu").get_all("Provides-Extra") or ())
     assert {extra for extra, *_ in doctor._NEEDED.values()} <= extras
 
 
@@ -64,7 +64,7 @@ def test_show_opens_the_page_of_a_result_of_a_run_and_of_the_only_one(
 
 
 def test_a_folder_without_a_page_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(UnreadableAsset, match="there is no .*gone"):
+    with pytest.raises(UnreadableAsset, match=r"there is no .*gone"):
         show.page_of(tmp_path / "gone")
     with pytest.raises(UnreadableAsset, match="without --no-page"):
         show.page_of(tmp_path)

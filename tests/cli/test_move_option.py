@@ -77,5 +77,5 @@ def test_a_misspelled_motion_is_told_with_the_word_that_is_like_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit):
-        run(tmp_path, "--move", "door=lft")
-    assert "did you mean `left`?" in capsys.readouterr().err
+        run(tmp_path, "--move", "door=rigth")
+    assert "did you mean `right`?" in capsys.readouterr().err

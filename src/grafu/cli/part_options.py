@@ -58,7 +58,7 @@ def with_moves(
     Raises:
         OptionError: if there are several inputs, or the motions are another system's.
     """
-    from grafu.errors import OptionError, did_you_mean
+    from grafu.errors import OptionError
     from grafu.joints.motion_choice import choice_in_words
 
     if not alone:
@@ -144,7 +144,7 @@ def addition_config(
         OptionError: if options contradict each other, or name a style or an interior that there is not.
     """
     from grafu.additions.config import NO_ADDITIONS
-    from grafu.errors import OptionError, did_you_mean
+    from grafu.errors import OptionError
     from grafu.pipeline.addition_choice import choose_additions
 
     _require_consistent(options)
@@ -167,7 +167,7 @@ def addition_config(
 
 
 def _require_consistent(options: argparse.Namespace) -> None:
-    from grafu.errors import OptionError, did_you_mean
+    from grafu.errors import OptionError
 
     asked = {
         "--top": options.top,
