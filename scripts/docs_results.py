@@ -35,9 +35,10 @@ the name of another part. None was chosen: these are the first in which everythi
 
 ![Five pieces that work, opened: drawers, doors, a corner cabinet](images/results_works.png)
 
-and the first in which something does not: a door hangs on another side than it should, or a part that moves is taken for
-one that does not. `grafu edit` sets it right ([edit in the browser](edit.md)); `python scripts/pictures.py results_works
-results_wrong` draws both.
+and the first in which something does not: a door hangs on another side than it should, or a part that moves is taken
+for one that does not. `grafu edit` sets it right ([edit in the browser](edit.md)); this draws both:
+
+    python scripts/pictures.py results_works results_wrong
 
 ![Five pieces in which something does not work, each with its first fault](images/results_wrong.png)
 """
