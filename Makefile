@@ -59,6 +59,7 @@ train-deps: .venv/installed-train
 demo: .venv/installed
 	$(BIN)/grafu functionalize $(SAMPLE) --out out --overwrite
 	@echo "look: out/sideboard/report.html (any browser), model.glb (animated: any glTF viewer), model.urdf (any robot simulator)"
+	@echo "correct by a click: $(BIN)/pip install 'grafu[edit]', then $(BIN)/grafu edit out/sideboard"
 
 # With npm the exported GLBs also pass the Khronos validator; without it, or where it cannot be fetched, those tests skip.
 .venv/installed-validator: .venv/made package.json

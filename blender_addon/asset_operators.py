@@ -24,13 +24,8 @@ def registered_library():
 
 def dropped(thing) -> tuple:
     """Returns kind (`hinge`, `rail`, `handle`) and id of the template that an object is; both empty: it is none."""
-    held = [one for one in (thing, thing and thing.instance_collection, *_holders(thing)) if one is not None]
-    found = next((one for one in held if one.get(objects.KIND) == "template"), None)
-    return (found["kind"], found[objects.ID]) if found is not None else ("", "")
-
-
-def _holders(thing) -> list:
-    return list(thing.users_collection) if thing is not None else []
+    is_template = thing is not None and thing.get(objects.KIND) == "template"
+    return (thing["kind"], thing[objects.ID]) if is_template else ("", "")
 
 
 class GRAFU_OT_add_assets(Applies, bpy.types.Operator):
@@ -152,15 +147,8 @@ class GRAFU_OT_use_asset(Applies, bpy.types.Operator):
         result = super()._shown(context)
         one = bpy.data.objects.get(self._dropped)
         if result == {"FINISHED"} and one is not None:
-            for thing in {one, *_siblings(one)}:
-                bpy.data.objects.remove(thing)
+            bpy.data.objects.remove(one)
         return result
-
-
-def _siblings(thing) -> list:
-    """Returns what was dropped with an object: a hinge that is no instance is several."""
-    held = [one for one in thing.users_collection if one.get(objects.KIND) == "template"]
-    return [other for one in held for other in one.all_objects]
 
 
 CLASSES = (GRAFU_OT_add_assets, GRAFU_OT_remove_assets, GRAFU_OT_use_asset)

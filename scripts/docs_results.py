@@ -26,6 +26,20 @@ was trained on them, but the generator and the realization were developed with t
     {command}
 
 `make figures FIGURES="--only results --write"` runs it and draws its tables.
+
+## What works, and what does not, in pictures
+
+The first pieces of our generator, of a seed that no training saw, as a reader would load them: parts missing, some with
+the name of another part. None was chosen: these are the first in which everything moves as it should,
+
+![Five pieces that work, opened: drawers, doors, a corner cabinet](images/results_works.png)
+
+and the first in which something does not: a door hangs on another side than it should, or a part that moves is taken
+for one that does not. `grafu edit` sets it right ([edit in the browser](edit.md)); this draws both:
+
+    python scripts/pictures.py results_works results_wrong
+
+![Five pieces in which something does not work, each with its first fault](images/results_wrong.png)
 """
 HARD = """\
 ## Harder models, too

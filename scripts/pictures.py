@@ -14,6 +14,7 @@ import pictures_edit
 import pictures_motions
 import pictures_pages
 import pictures_prepare
+import pictures_results
 import pictures_sheets
 from PIL import Image
 
@@ -28,7 +29,7 @@ from grafu.templates.gallery import builtin_gallery
 ROOT = Path(__file__).parent.parent
 COLOURS = 256  # a palette is a third of the bytes, and on plain wood the difference is invisible
 BEFORE_AFTER = "before_after"
-MODULES = pictures_additions, pictures_edit, pictures_motions, pictures_pages, pictures_prepare
+MODULES = pictures_additions, pictures_edit, pictures_motions, pictures_pages, pictures_prepare, pictures_results
 SHEETS = {name: draw for module in MODULES for name, draw in module.SHEETS.items()}
 
 

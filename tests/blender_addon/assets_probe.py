@@ -23,16 +23,17 @@ def libraries() -> list:
 
 
 def marked() -> dict:
-    """What the library holds: by the kind and id of a template, what Blender states of it."""
+    """What the library holds: by the kind and id of a template, the object that Blender offers."""
     path = Path(asset_operators.registered_library().path) / "templates.blend"
     with bpy.data.libraries.load(str(path), assets_only=True) as (there, taken):
-        taken.objects, taken.collections = there.objects, there.collections
-    return {f"{one['kind']}-{one['id']}": one for one in (*taken.objects, *taken.collections)}
+        taken.objects = there.objects
+    return {f"{one['kind']}-{one['id']}": one for one in taken.objects}
 
 
 def stated(one) -> dict:
     pixels = list(one.preview.image_pixels_float)
-    heights = [corner[2] for corner in one.bound_box] if isinstance(one, bpy.types.Object) else [0.0, 0.0]
+    heights = [corner[2] for corner in one.bound_box]
+    shown = one.instance_collection.all_objects if one.instance_collection else ()
     return {
         "name": one.name,
         "size": list(one.preview.image_size),
@@ -40,16 +41,12 @@ def stated(one) -> dict:
         "catalog": one.asset_data.catalog_id,
         "tags": sorted(one.asset_data.tags.keys()),
         "stands": [min(heights), max(heights)],
-        "joints": sum(o.get("grafu") == "joint" for o in getattr(one, "all_objects", ())),
+        "joints": sum(o.get("grafu") == "joint" for o in shown),
     }
 
 
-def drop(one, part):
-    """Drops an asset in front of a part, as Blender does: an object itself, a collection as an instance."""
-    thing = one
-    if isinstance(one, bpy.types.Collection):
-        thing = bpy.data.objects.new(one.name, None)
-        thing.instance_type, thing.instance_collection = "COLLECTION", one
+def drop(thing, part):
+    """Drops an asset in front of a part."""
     bpy.context.scene.collection.objects.link(thing)
     on = objects.visual(session(), part)
     middle = sum((on.matrix_world @ v.co for v in on.data.vertices), on.matrix_world.translation * 0)

@@ -1,5 +1,6 @@
 """`doctor` finds what is missing, and `show` the page of a result."""
 
+from importlib.metadata import metadata
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,16 @@ def test_a_package_that_is_missing_is_told_with_the_remedy() -> None:
     assert not found.works
     assert found.needed
     assert found.said == "not installed: pip install no-such-package"
+
+
+def test_verbs_that_need_more_are_told_with_their_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doctor, "find_spec", lambda name: None if name == "starlette" else object())
+    found = {one.what: one for one in doctor._verbs()}
+    assert (found["grafu edit"].works, found["grafu edit"].needed) == (False, False)
+    assert found["grafu edit"].said == "needs starlette: pip install 'grafu[edit]'"
+    assert found["grafu check"].works
+    extras = set(metadata("grafu").get_all("Provides-Extra") or ())
+    assert {extra for extra, *_ in doctor._NEEDED.values()} <= extras
 
 
 def test_without_weights_doctor_fails(
@@ -53,6 +64,8 @@ def test_show_opens_the_page_of_a_result_of_a_run_and_of_the_only_one(
 
 
 def test_a_folder_without_a_page_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UnreadableAsset, match=r"there is no .*gone"):
+        show.page_of(tmp_path / "gone")
     with pytest.raises(UnreadableAsset, match="without --no-page"):
         show.page_of(tmp_path)
     for name in ("a", "b"):

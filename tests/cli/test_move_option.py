@@ -71,3 +71,11 @@ def test_another_form_is_an_argument_error(tmp_path: Path, capsys: pytest.Captur
         run(tmp_path, "--move", move)
     assert end.value.code == 2
     assert "PART=HOW" in capsys.readouterr().err
+
+
+def test_a_misspelled_motion_is_told_with_the_word_that_is_like_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        run(tmp_path, "--move", "door=rigth")
+    assert "did you mean `right`?" in capsys.readouterr().err

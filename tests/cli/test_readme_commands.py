@@ -50,8 +50,8 @@ def is_short(line: str) -> bool:
 
 
 def outputs_of(line: str) -> list[Path]:
-    """Returns the folders that a line writes, one for each input."""
-    if line.endswith("--formats"):
+    """Returns the folders that a line writes, one for each input; the editor writes into the result that it opens."""
+    if line.endswith("--formats") or line.startswith("grafu edit "):
         return []
     options = build_parser().parse_args(arguments_of(line))
     return (

@@ -13,7 +13,15 @@ from PIL import Image
 from rich.style import Style
 
 from grafu.cli.main import main
-from grafu.cli.terminal_picture import PictureProtocol, half_blocks, iterm, kitty, protocol_of, sixel
+from grafu.cli.terminal_picture import (
+    PictureProtocol,
+    half_blocks,
+    iterm,
+    kitty,
+    protocol_of,
+    sixel,
+    without_margins,
+)
 from grafu.render.picture import encode_png
 
 SEED = 22
@@ -112,6 +120,15 @@ def test_half_blocks_hold_two_pixels_each(picture: np.ndarray) -> None:
             " ": (None, None),
         }[character]
         assert list(found) == wanted
+
+
+@pytest.mark.parametrize(("first", "last", "kept"), [(7, 8, (6, 10)), (4, 5, (4, 6)), (0, 19, (0, 20))])
+def test_empty_rows_above_and_below_are_left_out_in_pairs(first: int, last: int, kept: tuple[int, int]) -> None:
+    picture = np.zeros((20, 5, 4), np.uint8)
+    picture[first, 2, 3] = picture[last, 0, 3] = 255
+    picture[:, :, 0] = np.arange(20)[:, None]
+    assert without_margins(picture)[:, 0, 0].tolist() == list(range(*kept))
+    assert without_margins(np.zeros((4, 5, 4), np.uint8)).shape == (4, 5, 4)
 
 
 @pytest.mark.parametrize(("term", "mark"), [("xterm-kitty", "\x1b_Ga=T"), ("foot", '\x1bP0;1q"'), ("xterm", "▀")])

@@ -240,6 +240,9 @@ def test_a_folder_that_is_not_ours_is_never_written(model, tmp_path):
         open_all([model], tmp_path / "out")
     with pytest.raises(UnreadableAsset, match="there is no"):
         open_all([tmp_path / "nothing.glb"], tmp_path / "out")
+    (tmp_path / "notes.md").write_text("no model")
+    with pytest.raises(UnreadableAsset, match="not a kind of file that is read"):
+        open_all([tmp_path / "notes.md"], tmp_path / "out")
     with pytest.raises(UnreadableAsset, match="open them apart"):
         open_all([model, model], tmp_path / "results")
 

@@ -12,6 +12,9 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.solids import ConvexSolid
+from grafu.joints import build
+from grafu.joints.clearance import carve as carving
 from grafu.joints.clearance import make
 from grafu.joints.clearance.carve import Carving, Path, carve
 from grafu.joints.config import RealizationConfig
@@ -270,7 +273,8 @@ def test_what_is_not_seen_or_a_drawn_bearing_makes_way_where_other_parts_would_l
         assert volume(visuals(result)[name].surfaces) >= 0.4 * volume(stuck.surfaces)
 
 
-def test_triangles_cut_less_than_the_hull_of_what_is_hollow():
+def trough_above(*others) -> tuple[Scene, Path]:
+    """A trough of fine triangles that sinks by a tenth of a metre, and what stands in its way."""
     sides = [((-0.1, -0.1, 0.0), (0.1, 0.1, 0.01)), ((-0.1, -0.1, 0.0), (-0.09, 0.1, 0.2))]
     sides.append(((0.09, -0.1, 0.0), (0.1, 0.1, 0.2)))
     trough = trimesh.boolean.union([trimesh.creation.box(bounds=bounds) for bounds in sides], engine="manifold")
@@ -278,19 +282,58 @@ def test_triangles_cut_less_than_the_hull_of_what_is_hollow():
     part = replace(
         box("trough", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=(Surface(TriangleMesh.from_trimesh(fine)),)
     )
-    block = box("block", (-0.05, -0.05, 0.009), (0.05, 0.05, 0.109))
-    made = scene(part, block, joints=(sliding("trough", (0.0, 0.0, -1.0), 0.1),))
+    made = scene(part, *others, joints=(sliding("trough", (0.0, 0.0, -1.0), 0.1),))
     parts = {p.id: p for p in made.parts}
-    built = Scene(parts, bodies_of(plan_from_annotation(made).joints), made.extent)
     axis = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0))
     path = Path("trough", axis.shift, 0.1, np.eye(3), False)
+    return Scene(parts, bodies_of(plan_from_annotation(made).joints), made.extent), path
 
+
+BLOCK = box("block", (-0.05, -0.05, 0.009), (0.05, 0.05, 0.109))
+
+
+def test_triangles_cut_less_than_the_hull_of_what_is_hollow():
+    built, path = trough_above(BLOCK)
     assert carve(built, path, ["block"], RealizationConfig(), 10)[1] == []
     (carving,) = carve(built, path, ["block"], RealizationConfig(), 10_000)[1]
     assert isinstance(carving, Carving)
     done = carving.recorded()
     assert (done.part, done.kind) == ("block", "carved")
     assert done.volume_share < 0.05
+
+
+def test_what_loses_too_much_to_a_few_solids_is_left_out_before_all_are_made(monkeypatch):
+    """A plate below a side of the trough, of which half would go. The block is cut as if it stood alone."""
+    plate = box("plate", (0.086, -0.08, -0.06), (0.104, 0.08, -0.01))
+    built, path = trough_above(BLOCK, plate)
+    made: list[ConvexSolid] = []
+    solids = carving._Swept.solids
+
+    def noted(swept, *each):
+        made.extend(found := solids(swept, *each))
+        return found
+
+    monkeypatch.setattr(carving._Swept, "solids", noted)
+
+    def carved(*names):
+        made.clear()
+        scene, done = carve(built, path, names, RealizationConfig(), 10_000)
+        return [one.part.id for one in done], {name: scene.parts[name] for name in ("block", "plate")}, len(made)
+
+    first = carved("block", "plate"), carved("plate")
+    monkeypatch.setattr(carving, "_FEW_SOLIDS", ())
+    second = carved("block", "plate"), carved("plate")
+    assert [one[0] for one in first] == [one[0] for one in second] == [["block"], []]
+    assert [one[1] for one in first] == [one[1] for one in second]
+    assert first[1][2] < second[1][2]
+
+
+def test_a_door_that_stays_blocked_is_cleared_once(monkeypatch):
+    paths: list[Path] = []
+    monkeypatch.setattr(build, "make_clearance", lambda *given: paths.append(given[1]) or make.make_clearance(*given))
+    block = box("block", (-0.02, -0.05, 0.0), (0.42, 0.05, 0.6))
+    realized(scene(DOOR, block, joints=(hinged(),)))
+    assert len(paths) == 1
 
 
 def test_what_was_in_vain_is_not_tried_again_until_something_changed(monkeypatch):

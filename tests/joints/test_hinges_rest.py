@@ -12,10 +12,17 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.config import RealizationConfig
+from grafu.joints.hinge import place
 from grafu.joints.hinge.candidates import Tolerances, heights_to_try, ruled_pins
+from grafu.joints.hinge.hardware import install
+from grafu.joints.hinge.search import door_search
 from grafu.joints.hinge.survey import BorderSurvey
 from grafu.joints.hinge_config import PinConfig
+from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.nesting import bodies_of
 from grafu.scene.border import border_frame, without_handle
+from grafu.scene.scene import Scene
+from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import MechanismClass
 from judging import hardware, installed, realized
 from small_scenes import DOOR, LEFT_EDGE, box, hinged, scene
@@ -156,3 +163,18 @@ def test_hinges_of_a_door_are_out_of_the_way_only_all_together():
 
 def _stop(name, leaf, low, high):
     return box(name, (leaf.low[0], leaf.low[1], low), (-1e-4, leaf.high[1], high))
+
+
+def test_a_hinge_is_installed_once_at_one_place(monkeypatch):
+    """Fewer hinges, and a thorough search, come back to places that were tried; what was found there holds."""
+    installs = []
+    monkeypatch.setattr(place, "install", lambda *given: installs.append(given) or install(*given))
+    asset = scene(DOOR, BESIDE, joints=(hinged(),))
+    (request,) = plan_from_annotation(asset).joints
+    built = Scene({part.id: part for part in asset.parts}, bodies_of([request]), asset.extent)
+    search = door_search(request, built, RealizationConfig())
+    first = place.place_hinges(search, builtin_gallery())
+    once = len(installs)
+    again = place.place_hinges(search, builtin_gallery())
+    assert once == len(installs) > 0
+    assert [visual.mesh for visual in again.static] == [visual.mesh for visual in first.static]

@@ -60,7 +60,14 @@ REASONS = {
     "gaps.py": {"_POSES": SAMPLES, "_TOUCHING": TOLERANCE},
     "known.py": {"MOST_KNOWN": KEPT},
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_TRAVELS": SAMPLES, "_POSES": SAMPLES},
-    "clearance/carve.py": {"_TURN_STEP": SAMPLES, "_MOST_PLANES": EFFORT, "MOST_SOLIDS": EFFORT, "_SAMPLES": SAMPLES},
+    "clearance/carve.py": {
+        "_TURN_STEP": SAMPLES,
+        "_MOST_PLANES": EFFORT,
+        "MOST_SOLIDS": EFFORT,
+        "_FEW_SOLIDS": EFFORT,
+        "_SURE": TOLERANCE,
+        "_SAMPLES": SAMPLES,
+    },
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/in_frame.py": {"GAPS": EFFORT},
     "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},
@@ -68,6 +75,7 @@ REASONS = {
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "clearance/loss.py": {
         "_MOST_EXACT": EFFORT,
+        "_FEW_EXACT": EFFORT,
         "_POINTS": SAMPLES,
         "_FEW_POINTS": SAMPLES,
         "_FAR": TOLERANCE,

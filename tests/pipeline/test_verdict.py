@@ -247,6 +247,19 @@ def test_a_part_that_is_hardly_told_from_a_drawer_is_a_guess_until_somebody_says
     assert verdict_of(report.model_copy(update={"guesses": (sure,)})).colour is Colour.GREEN
 
 
+def test_the_option_beside_a_guessed_side_is_the_next_likeliest():
+    """A flap that turns about its bottom, or else about its right side: its top is hardly an answer."""
+    report = sound(0)
+    door = next(joint.part for joint in report.joints if joint.type == "revolute")
+    guess = GuessRecord(
+        part=door, question="border", choice="bottom", score=0.6, runner_up="right", runner_up_score=0.2
+    )
+    [line] = verdict_of(report.model_copy(update={"guesses": (guess,)})).lines
+    assert (line.part, line.option) == (door, f"--move {door}=right")
+    [line] = verdict_of(report.model_copy(update={"guesses": (guess,), "moves": {}})).lines
+    assert line.option == ""
+
+
 @pytest.mark.parametrize("field", fields(VerdictConfig), ids=lambda field: field.name)
 def test_a_threshold_of_faults_is_a_fraction(field):
     with pytest.raises(ValueError, match=f"`VerdictConfig.{field.name}` must be between 0 and 1"):

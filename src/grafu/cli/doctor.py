@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.util import find_spec
 from time import perf_counter
 from typing import final
 
@@ -51,7 +52,7 @@ def run(_: argparse.Namespace) -> int:
 
     from grafu.cli.terminal import plain_table, wide_console
 
-    found = [*_packages(), *_formats(), _network(), _self_test()]
+    found = [*_packages(), *_formats(), *_verbs(), _network(), _self_test()]
     table = plain_table("", "what", "found")
     for one in found:
         table.add_row("ok" if one.works else "FAILS" if one.needed else "-", escape(one.what), escape(one.said))
@@ -87,6 +88,17 @@ def _formats() -> Iterator[Finding]:
             yield Finding(f"--formats {one.name}", False, str(error), needed=False)
         else:
             yield Finding(f"--formats {one.name}", True, one.title)
+
+
+_NEEDED = {"edit": ("edit", "starlette", "uvicorn"), "check": ("sim", "mujoco"), "train": ("train", "torch")}
+"""What verbs need beside the base install: the extra that brings it, and its packages."""
+
+
+def _verbs() -> Iterator[Finding]:
+    for verb, (extra, *packages) in _NEEDED.items():
+        missing = [name for name in packages if find_spec(name) is None]
+        said = f"needs {', '.join(missing)}: pip install 'grafu[{extra}]'" if missing else ", ".join(packages)
+        yield Finding(f"grafu {verb}", not missing, said, needed=False)
 
 
 def _network() -> Finding:

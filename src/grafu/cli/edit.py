@@ -5,6 +5,7 @@ from pathlib import Path
 
 from grafu.cli.input_options import add_input_options, add_limit_option, load_options, with_limits
 from grafu.cli.verb import complain, say
+from grafu.processes.lifetime import Terminated
 
 _DESCRIPTION = """\
 Opens the page of a result, or of a model, in the browser, where everything can be set right by hand: how a part moves,
@@ -51,7 +52,7 @@ def _port(text: str) -> int:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serves until it is interrupted; returns 0.
+    """Serves until it is ended with Ctrl-C; returns 0.
 
     Raises:
         FunctionalizationError: if an input or an option is wrong.
@@ -67,7 +68,12 @@ def run(options: argparse.Namespace) -> int:
         raise OptionError("`grafu edit` needs its extra: pip install 'grafu[edit]'") from None
     reading = with_limits(load_options(options), options)
     found = open_all(options.inputs, options.out, reading, lambda why: complain(f"left out: {why}"))
-    serve(found, _tell, options.port, browser=not options.no_browser)
+    try:
+        serve(found, _tell, options.port, browser=not options.no_browser)
+    except Terminated:
+        raise
+    except KeyboardInterrupt:  # the way to end it: what was chosen is saved already
+        say("ended; every choice is saved")
     return 0
 
 

@@ -5,7 +5,7 @@ import re
 from typing import TYPE_CHECKING
 
 from grafu.articulation.base import BaseKind
-from grafu.errors import OptionError
+from grafu.errors import OptionError, did_you_mean
 from grafu.pipeline.motion_source import SourceOption, parse_motion
 from grafu.vocabulary import MOTION_WORDS
 
@@ -46,7 +46,8 @@ def part_move(text: str) -> Move:
     if part and motion == OLD_FIXED:
         raise argparse.ArgumentTypeError(f"`not` is called `fixed` now: use --move {part}=fixed")
     if not part or motion not in MOTION_WORDS:
-        raise argparse.ArgumentTypeError(f"must be PART=HOW, HOW one of {', '.join(MOTION_WORDS)}: got {text!r}")
+        near = did_you_mean(motion, MOTION_WORDS) if part else ""
+        raise argparse.ArgumentTypeError(f"must be PART=HOW, HOW one of {', '.join(MOTION_WORDS)}: got {text!r}{near}")
     return part, motion
 
 

@@ -48,6 +48,8 @@ def page_of(result: Path) -> Path:
     Raises:
         UnreadableAsset: if there is none.
     """
+    if not result.exists():
+        raise UnreadableAsset(f"there is no {result}: give the folder of a result or of a run")
     if result.is_file() and result.suffix == ".html":
         return result
     pages = [result / name for name in _PAGES if (result / name).is_file()]

@@ -75,7 +75,15 @@ def _picture_of(asset: "Asset", size: tuple[int, int]) -> "Picture":
 
     visuals = [Visual(part.id, part.surfaces, label=part.label) for part in asset.parts]
     camera = three_quarter_view(box_of(visuals), size[0] / size[1])
-    return render(visuals, camera, size, PictureStyle(background="transparent", by_category=True))
+    return without_margins(render(visuals, camera, size, PictureStyle(background="transparent", by_category=True)))
+
+
+def without_margins(picture: "Picture") -> "Picture":
+    """Returns a picture without the empty rows above and below what it shows; pairs of rows stay pairs."""
+    import numpy as np
+
+    shown = np.flatnonzero((picture[..., 3] >= 128).any(axis=1))
+    return picture[shown[0] // 2 * 2 : shown[-1] // 2 * 2 + 2] if len(shown) else picture
 
 
 def kitty(png: bytes) -> str:

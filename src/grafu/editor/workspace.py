@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import final
 
+from grafu.asset.load import detect
 from grafu.asset.options import LoadOptions
 from grafu.errors import AssetError, ExportError, OptionError, UnreadableAsset
 from grafu.export.files import ExportFiles, require_free, write_files
@@ -68,7 +69,8 @@ def open_all(
     left out; `on_left_out` is called with the reason for each.
 
     Raises:
-        AssetError: if an input is not there, is no result, or two would be edited in one folder.
+        AssetError: if an input is not there, is neither a result nor a kind of model that is read, or two would be
+            edited in one folder.
         ExportError: if a folder cannot hold results.
         OptionError: if saved settings are damaged.
     """
@@ -112,6 +114,7 @@ def _result(folder: Path) -> Workspace:
 
 
 def _model(path: Path, out: Path, reading: LoadOptions) -> Workspace:
+    detect(path)  # what is no model is refused before a browser opens
     name = output_name(path)
     folder = out / name
     if why := why_not_apart(folder, [path]):

@@ -71,9 +71,10 @@ def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     drawn = (swung, scene, ()) if swung else _on_drawn_hinges(search)
     if drawn is not None:
         return _built(request, drawn, search.wanted)
-    found = _cleared(search) if search.best().free < search.wanted else (search, ())
+    is_blocked = search.best().free < search.wanted
+    found = _cleared(search) if is_blocked else (search, ())
     placement = _hinged(found[0], gallery)
-    if found[0] is search and not _is_wide(placement, search) and search.free_ratio() < 1.0:
+    if not is_blocked and not _is_wide(placement, search) and search.free_ratio() < 1.0:
         again = _cleared(search)  # something blocks it between the poses in which pins were compared
         wider = None if again[0] is search else _hinged(again[0], gallery)
         found, placement = (again, wider) if _is_wide(wider, search) else (found, placement)
@@ -113,7 +114,7 @@ def _cleared(search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]]:
         return fitted
     path = _path(search.request, search.scene, search.to_clear().axis, search.wanted)
     cleared = make_clearance(search.scene, path, search.config)
-    again = door_search(search.request, cleared.scene, search.config)
+    again = door_search(search.request, cleared.scene, search.config) if cleared.clearances else search
     is_wider = again.best().free > search.best().free or again.free_ratio() > search.free_ratio()
     if search.config.trim and (again if is_wider else search).met_at_rest():
         found = _fitted(search, sides=1)

@@ -12,6 +12,7 @@ from typing import final
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.reading import tells_of_lost_mesh
 from grafu.geometry.config_checks import require_ratios
+from grafu.joints.motion_choice import TURNING_SIDES
 from grafu.pipeline.report_schema import (
     NOT_ADDED,
     FaultRecord,
@@ -165,7 +166,9 @@ def _guessed(guess: GuessRecord, report: Report, config: VerdictConfig) -> Fault
     sure = f"confidence {percent(guess.score)}, below {percent(config.least_confidence)}"
     other = f"; {guess.runner_up}: {percent(guess.runner_up_score)}" if guess.runner_up else ""
     why = f"{what.get(guess.question, 'slide direction')} {guess.choice}: {sure}{other}"
-    return _fault(report, guess.part, FaultKind.GUESSED, why)
+    is_side = guess.question == "border" and guess.runner_up in TURNING_SIDES and guess.part in report.moves
+    option = f"--move {guess.part}={guess.runner_up}" if is_side else None  # the next likeliest, not the other side
+    return _fault(report, guess.part, FaultKind.GUESSED, why, option)
 
 
 def _carved(report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:

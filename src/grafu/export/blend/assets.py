@@ -1,7 +1,8 @@
 """Templates as assets of Blender: a `.blend` in which each is marked and has a picture, and the list of its catalogs.
 
-It works in a Blender that holds other things, and leaves these alone. A hinge or rail is a collection that opens and
-closes; a handle is one mesh whose back is at z = 0, so that it is dropped onto a front upright.
+It works in a Blender that holds other things, and leaves these alone. A hinge or rail is an empty that shows a
+collection which opens and closes (of a collection that is marked itself, Blender 5.0 does not write the picture); a
+handle is one mesh whose back is at z = 0, so that it is dropped onto a front upright.
 """
 
 from collections.abc import Sequence
@@ -74,7 +75,8 @@ def save_assets(assets: Sequence[TemplateAsset], folder: Path) -> Path:
             with whole_file(path) as fresh:
                 bpy.data.libraries.write(str(fresh), {one for one, _ in made}, fake_user=True, compress=True)
         finally:
-            for _, collection in made:
+            for shown, collection in made:
+                bpy.data.objects.remove(shown)
                 remove_object(collection)
             bpy.data.scenes.remove(scene)
     write_whole(_catalogs(), folder / CATALOG_NAME)
@@ -85,9 +87,8 @@ def _built(asset: TemplateAsset, scene: Any) -> tuple[Any, Any]:
     """Returns what is marked as the asset, and the collection that was built for it."""
     is_handle = asset.kind == "handle"
     built = build_object(_upright(asset.made) if is_handle else asset.made, scene, animate=False)
-    (shown,) = built.visuals.values() if is_handle else (built.collection,)
-    if is_handle:
-        shown.parent = None  # it is offered alone, without its link
+    (shown,) = built.visuals.values() if is_handle else (_instance(built.collection),)
+    shown.parent = None  # a handle is offered alone, without its link
     shown.name = asset.title
     shown[KIND], shown[ID], shown[KIND_OF_TEMPLATE] = TEMPLATE, asset.id, asset.kind
     shown.asset_mark()
@@ -97,6 +98,13 @@ def _built(asset: TemplateAsset, scene: Any) -> tuple[Any, Any]:
     about.tags.new("grafu")
     _show(shown, asset.picture)
     return shown, built.collection
+
+
+def _instance(collection: Any) -> Any:
+    """Returns an empty that shows a collection."""
+    empty = bpy.data.objects.new(collection.name, None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    return empty
 
 
 def _upright(handle: ArticulatedObject) -> ArticulatedObject:

@@ -5,7 +5,6 @@ The path that must become free, and what stands in it.
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import TypeAlias, final
 
 import numpy as np
@@ -13,10 +12,11 @@ from jaxtyping import Float
 
 from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Points, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.components import part_numbers
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import outer_points
 from grafu.geometry.sampling import sample_surface
@@ -90,6 +90,8 @@ def box_in(axes: Mat3, mesh: TriangleMesh) -> Box:
 _TURN_STEP = np.radians(5.0)
 _MOST_PLANES = 26  # of a box with its edges and corners bevelled
 _SAMPLES = 2000  # points on a part where it is looked at
+_FEW_SOLIDS = (24, 96, 192, 384)  # with which it is seen which parts would lose too much, before all are made
+_SURE = 0.02  # of a part: how far beyond its limit a few solids must take it; volumes are counted to about half of that
 MOST_SOLIDS = 400  # a piece whose cutting triangles would sweep out more is covered by its convex hull
 
 
@@ -103,22 +105,48 @@ def carve(
     """
     ids = [name for name in ids if len(scene.parts[name].mesh.faces) <= config.carved_faces]
     play = config.clearance.play * config.depth * scene.extent
-    solids = list(_swept_solids(scene, path, ids, play, config, most))
+    swept = _swept(scene, path, ids, play, config, most)
+    for count in _FEW_SOLIDS:
+        if len(swept := swept.near([scene.parts[name].box for name in ids])) >= 2 * count:
+            few = swept.solids(len(swept) // count)
+            ids = [name for name in ids if not _loses_too_much(_cut(scene.parts[name], few, config), scene, config)]
+    solids = swept.near([scene.parts[name].box for name in ids]).solids()
     carved: list[Part] = []
     done: list[Change] = []
     for name in ids:
-        part = scene.parts[name]
-        near = [solid for solid in solids if solid.box.overlaps(part.box)]
-        clipped = [clip(surface, near) for surface in part.surfaces]
-        area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
-        lost = _lost_ratio(part, near, area, config)
-        may_lose = 0 < lost < config.max_carve
-        if not may_lose and not (0 < lost < config.max_carve_hidden and _is_hidden(scene, part, near, config)):
+        cut = _cut(scene.parts[name], solids, config)
+        if cut.ratio == 0 or _loses_too_much(cut, scene, config, sure=0.0):
             continue
-        surfaces = (subtract(surface, near, left) for surface, left in zip(part.surfaces, clipped, strict=True))
-        carved.append(replace(part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
-        done.append(Carving(part, tuple(near), area, path.moving))
+        surfaces = (subtract(s, cut.solids, left) for s, left in zip(cut.part.surfaces, cut.clipped, strict=True))
+        carved.append(replace(cut.part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
+        done.append(Carving(cut.part, cut.solids, cut.area, path.moving))
     return scene.replaced(carved), done
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class _Cut:
+    """What solids would take of a part: its surfaces without that, square metres, and the fraction that goes."""
+
+    part: Part
+    solids: tuple[ConvexSolid, ...]
+    clipped: tuple[Surface, ...]
+    area: float
+    ratio: float
+
+
+def _cut(part: Part, solids: Sequence[ConvexSolid], config: RealizationConfig) -> _Cut:
+    near = tuple(solid for solid in solids if solid.box.overlaps(part.box))
+    clipped = tuple(clip(surface, near) for surface in part.surfaces)
+    area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
+    return _Cut(part, near, clipped, area, _lost_ratio(part, near, area, config))
+
+
+def _loses_too_much(cut: _Cut, scene: Scene, config: RealizationConfig, sure: float = _SURE) -> bool:
+    """Whether a part loses more than it may, by more than `sure`: what a few solids take, more of them take as well."""
+    if cut.ratio < config.max_carve + sure:
+        return False
+    return cut.ratio >= config.max_carve_hidden + sure or not _is_hidden(scene, cut.part, cut.solids, config)
 
 
 def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, config: RealizationConfig) -> float:
@@ -144,20 +172,41 @@ def _is_hidden(scene: Scene, part: Part, solids: Sequence[ConvexSolid], config: 
     return bool(np.count_nonzero(outer_points(inside, whole)) <= config.max_carve_seen * _SAMPLES)
 
 
-def _swept_solids(
-    scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig, most: int
-) -> Iterator[ConvexSolid]:
-    """Yields convex solids that cover the path of whatever of the moving body cuts into a blocker, with some play."""
+@final
+@dataclass(frozen=True, eq=False)
+class _Swept:
+    """Corners whose hulls cover a path, in order, and the boxes around them grown by `play` metres."""
+
+    corners: Sequence[Points]
+    play: float
+
+    def __len__(self) -> int:
+        return len(self.corners)
+
+    def near(self, boxes: Sequence[Box]) -> "_Swept":
+        """Returns those that come within the play of one of some boxes."""
+        if not boxes or not self.corners:
+            return _Swept((), self.play)
+        lows, highs = np.array([box.low for box in boxes]), np.array([box.high for box in boxes])
+        low = np.array([corners.min(axis=0) for corners in self.corners])[:, None]
+        high = np.array([corners.max(axis=0) for corners in self.corners])[:, None]
+        is_near = np.all(np.maximum(low - highs, lows - high) <= self.play, axis=2).any(axis=1)
+        return _Swept([self.corners[k] for k in np.flatnonzero(is_near).tolist()], self.play)
+
+    def solids(self, each: int = 1) -> list[ConvexSolid]:
+        """Returns the hulls, or each so-manieth of them; none of what is flat."""
+        found = (ConvexSolid.around(corners) for corners in self.corners[::each])
+        return [solid for solid in found if solid is not None]
+
+
+def _swept(scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig, most: int) -> _Swept:
+    """Returns what covers the path of whatever of the moving body cuts into a blocker, with some play."""
     poses = [path.motion(v) for v in np.linspace(0.0, path.reach, _steps(path) + 1)]
-    boxes = [scene.parts[name].box for name in ids]
+    corners: list[Points] = []
     for points in _cutting_pieces(scene, path, ids, play, config, most):
-        for step in pairwise(poses):
-            swept = np.vstack([transform_points(T, points) for T in step])
-            if not any(Box.around(swept).overlaps(box, play) for box in boxes):
-                continue
-            solid = ConvexSolid.around(swept)
-            if solid is not None:
-                yield solid
+        posed = np.stack([transform_points(T, points) for T in poses])
+        corners += [posed[k : k + 2].reshape(-1, 3) for k in range(len(poses) - 1)]
+    return _Swept(corners, play)
 
 
 def _steps(path: Path) -> int:
@@ -170,9 +219,7 @@ def _cutting_pieces(
 ) -> Iterator[Points]:
     """Yields the corners, with play, of what cuts in: a convex piece's hull, or the triangles of other pieces."""
     mesh = scene.moving_mesh(path.moving)
-    body = scene.swept_body(path.moving, config.depth * scene.extent, path.axes)
-    colliders = [MeshCollider(scene.parts[name].mesh) for name in ids]
-    cutting = _cutting_faces(body, path, colliders, config.fine_poses)
+    cutting = scene.once(_cutting_faces, path, tuple(ids), config)
     numbers = part_numbers(mesh)
     for number in np.unique(numbers[cutting]):
         piece = mesh.with_faces(numbers == number)
@@ -184,10 +231,12 @@ def _cutting_pieces(
             yield from (_grown(triangle, play, path.axes) for triangle in mesh.triangles[faces])
 
 
-def _cutting_faces(body: SweptBody, path: Path, obstacles: Sequence[MeshCollider], poses: int) -> np.ndarray:
-    """Returns the numbers of the moving faces that cut into an obstacle somewhere along the path."""
+def _cutting_faces(scene: Scene, path: Path, ids: tuple[str, ...], config: RealizationConfig) -> np.ndarray:
+    """Returns the numbers of the moving faces that cut into a blocker somewhere along the path."""
+    body = scene.swept_body(path.moving, config.depth * scene.extent, path.axes)
+    obstacles = [MeshCollider(scene.parts[name].mesh) for name in ids]
     found: set[int] = set()
-    for value in opening_values(path.reach, poses):
+    for value in opening_values(path.reach, config.fine_poses):
         body.place(path.motion(value))
         found |= body.cutting_faces(obstacles)
     return np.array(sorted(found), dtype=np.int64)

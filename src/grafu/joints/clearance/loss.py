@@ -58,14 +58,15 @@ def lost_volume(part: Part, solids: Sequence[ConvexSolid], limits: Sequence[floa
     """
     if not solids:
         return 0.0
-    if limits and len(solids) > _MOST_EXACT:
-        rough = _lost_volume(part, solids, _FEW_POINTS)
+    if limits and len(solids) > _FEW_EXACT:
+        rough = _lost_volume(part, solids, _FEW_POINTS, _FEW_EXACT)
         if min(abs(rough - limit) for limit in limits) > _FAR:
             return rough
-    return _lost_volume(part, solids, _POINTS)
+    return _lost_volume(part, solids, _POINTS, _MOST_EXACT)
 
 
-def _lost_volume(part: Part, solids: Sequence[ConvexSolid], points: int) -> float:
+def _lost_volume(part: Part, solids: Sequence[ConvexSolid], points: int, most_exact: int) -> float:
+    """Returns the fraction that is lost, counted on points in pieces that more than `most_exact` solids meet."""
     whole = lost = 0.0
     for piece in connected_parts(part.mesh):
         require_time()
@@ -75,7 +76,7 @@ def _lost_volume(part: Part, solids: Sequence[ConvexSolid], points: int) -> floa
         body = _manifold(hull)
         whole += body.volume()
         near = [solid for solid in solids if hull.box.overlaps(solid.box)]
-        many = len(near) > _MOST_EXACT
+        many = len(near) > most_exact
         lost += _counted_volume(hull, near, points) * body.volume() if many else _cut_volume(body, near)
     return min(lost / whole, 1.0) if whole > 0 else 1.0
 
@@ -100,6 +101,7 @@ def _manifold(solid: ConvexSolid) -> manifold3d.Manifold:
 
 
 _MOST_EXACT = 60  # solids whose union is built
+_FEW_EXACT = 8  # the same, for a first look: to count on points is quicker
 _POINTS = 20_000  # in the box of a hull
 _FEW_POINTS = 1_000  # the same, for a first look
 _FAR = 0.05  # from a limit: the first look tells on which side of it the fraction is

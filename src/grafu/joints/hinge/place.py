@@ -233,7 +233,7 @@ def _installed(
     taken: list[float] = []
     for levels in heights_to_try(search.frame, count):
         free = (level for level in levels if all(abs(level - other) > size.length for other in taken))
-        tries = ((level, install(fit_hinge(model, size, search.frame, pin, level), pin, site)) for level in free)
+        tries = ((level, _installed_once(model, size, pin, level, site, search)) for level in free)
         found = _first_unstruck((level, hinge) for level, hinge in tries if hinge is not None)
         if found is None:
             yield None
@@ -241,6 +241,16 @@ def _installed(
         taken.append(found[0])
         site = replace(site, beside=(*site.beside, *found[1].dynamic_meshes))
         yield found[1]
+
+
+def _installed_once(
+    model: HingeModel, size: HingeSize, pin: PinCandidate, level: float, site: HingeSite, search: DoorSearch
+) -> InstalledHinge | None:
+    """Returns one hinge at a height of a pin; what is tried again, with more hinges or thoroughly, is known."""
+    key = (model.id, size, pin, level, site.upper, site.beside)
+    if key not in search.installed:
+        search.installed[key] = install(fit_hinge(model, size, search.frame, pin, level), pin, site)
+    return search.installed[key]
 
 
 def _on_material(

@@ -27,6 +27,7 @@ from grafu.joints.hinge.candidates import (
     ruled_pins,
     turns_about_itself,
 )
+from grafu.joints.hinge.hardware import InstalledHinge
 from grafu.joints.hinge.judged import JudgedPin
 from grafu.joints.hinge.most_opening import most_opening
 from grafu.joints.hinge.neighbours import Neighbour, neighbours_of
@@ -84,6 +85,11 @@ class DoorSearch:
     def bodies_around(self) -> tuple[Neighbour, ...]:
         """The other moving bodies, with and their motions, as built or as expected."""
         return neighbours_of(self.request.moving, self.scene, self.depth)
+
+    @cached_property
+    def installed(self) -> dict[tuple[object, ...], InstalledHinge | None]:
+        """Hinges as they were installed, None where one finds no hold, by all that makes them; not a value."""
+        return {}
 
     @cached_property
     def ruled(self) -> list[JudgedPin]:
