@@ -63,6 +63,12 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument(
         "--seeds", type=positive_count, default=5, metavar="N", help="draws of hidden labels at each rate (default: 5)"
     )
+    parser.add_argument(
+        "--weights",
+        type=Path,
+        metavar="FILE",
+        help="of the method network: an ONNX file, or the authors' checkpoint (.pt)",
+    )
     parser.add_argument("--jobs", type=positive_count, metavar="J", help="processes (default: one per core)")
     parser.add_argument("--overwrite", action="store_true", help="measure everything anew")
     parser.add_argument(
@@ -126,6 +132,7 @@ def _require_room(out: Path) -> None:
 
 
 def _plan(options: argparse.Namespace) -> "EvaluationPlan":
+    from grafu.cli.weights_option import usable_weights
     from grafu.evaluation.config_file import read_config
     from grafu.evaluation.dataset import find_models
     from grafu.evaluation.llm.config import LlmConfig
@@ -133,7 +140,8 @@ def _plan(options: argparse.Namespace) -> "EvaluationPlan":
     from grafu.evaluation.tasks import EvaluationPlan
 
     llm = read_config(options.llm, LlmConfig) if options.llm else LlmConfig()
-    chosen = MethodOptions(llm, options.replies or options.out / "replies", options.out / "predictions")
+    weights = usable_weights(options.weights, options.out) if options.weights else None
+    chosen = MethodOptions(llm, options.replies or options.out / "replies", options.out / "predictions", weights)
     methods = tuple(parse_method(word, chosen) for word in _words(options.methods))
     absent = next((method for method in methods if method.folder is not None and not method.folder.is_dir()), None)
     if absent is not None:
@@ -189,7 +197,7 @@ def _named(task: "Task") -> str:
 def _command(options: argparse.Namespace) -> str:
     """Returns the command that gives these tables, whatever it was spelled like."""
     words = ["grafu", "evaluate", "--data", options.data, "--methods", options.methods, "--tables", options.tables]
-    given = [("--llm", options.llm), ("--replies", options.replies)]
+    given = [("--weights", options.weights), ("--llm", options.llm), ("--replies", options.replies)]
     more = [word for name, path in given if path is not None for word in (name, str(path))]
     return shlex.join([*words, "--seeds", str(options.seeds), *more, "--out", str(options.out)])
 

@@ -94,7 +94,8 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--start",
         type=Path,
         metavar="FILE",
-        help="begin a new run with the weights in FILE (`--export` of another run), not with random ones",
+        help="begin a new run with the weights in FILE (`--export` of another run, or with --config paper a checkpoint "
+        "of the authors', .pt), not with random ones",
     )
     add_training_options(parser)
     parser.add_argument(
@@ -129,8 +130,8 @@ def run(options: argparse.Namespace) -> int:
         return export_weights(options.out, options.export, options.data) if options.export else run_training(options)
 
 
-def exported(network: "GraFu", features: "FeatureConfig") -> bytes:
-    """Returns an ONNX file; weights are stored in 16 bits and computed with in 32."""
+def exported(network: "GraFu", features: "FeatureConfig", *, half: bool = True) -> bytes:
+    """Returns an ONNX file; weights are stored in 16 bits, if `half`, and computed with in 32."""
     from grafu.network.export import onnx_bytes
     from grafu.processes.lifetime import keep_private
 
@@ -138,7 +139,7 @@ def exported(network: "GraFu", features: "FeatureConfig") -> bytes:
     before = logging.root.manager.disable
     logging.disable(logging.WARNING)  # torch's exporter warns of packages that it does not need
     try:
-        return onnx_bytes(network, **asdict(features), half_weights=True)
+        return onnx_bytes(network, **asdict(features), half_weights=half)
     finally:
         logging.disable(before)
 
@@ -218,10 +219,13 @@ def export_weights(folder: Path, target: Path, data: str = "synth") -> int:
 
 
 def _start(options: argparse.Namespace) -> Mapping[str, Any] | None:
+    from grafu.network.official_weights import SUFFIX, start_weights
     from grafu.network.stored import stored_weights
 
     if options.start is None:
         return None
+    if options.start.suffix.lower() == SUFFIX:
+        return start_weights(options.start, _config(options).network)
     if not options.start.is_file():
         raise WeightsError(f"`--start` must be a file that `grafu train --export` wrote: there is no {options.start}")
     return stored_weights(options.start.read_bytes())

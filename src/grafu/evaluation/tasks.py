@@ -125,12 +125,15 @@ def _of_method(method: Method, model: ModelRef) -> dict[str, str]:
         return {"method": method.spelled, "program": program_hash(method.program)}
     if method.model is not None:
         return {"method": method.spelled, "prompt": prompt_hash(method.name, method.model)}
-    return {"method": method.name, "weights": _weights() if method.name == "network" else ""}
+    return {
+        "method": method.name,
+        "weights": _weights(method.weights or SHIPPED_WEIGHTS) if method.name == "network" else "",
+    }
 
 
 @cache
-def _weights() -> str:
-    data = SHIPPED_WEIGHTS.read_bytes() if SHIPPED_WEIGHTS.is_file() else b""
+def _weights(path: Path) -> str:
+    data = path.read_bytes() if path.is_file() else b""
     return sha256(data).hexdigest()[:16]
 
 
