@@ -124,7 +124,10 @@ def _planned(options: argparse.Namespace, config: "TrainingConfig") -> "list[Abl
     rows = experiments(options.kind, config)
     seeds = dict.fromkeys(options.seeds)
     points = config.features.points
-    sources = {seed: training_models(options.kind, source_to_train_on(options.data, seed, points)) for seed in seeds}
+    sources = {
+        seed: training_models(options.kind, source_to_train_on(options.data, seed, points, options.split))
+        for seed in seeds
+    }
     return [
         AblationRun(row, seed, sources[seed], options.out / row.name / f"seed_{seed}", options.device)
         for seed in seeds

@@ -58,6 +58,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     )  # fmt: skip
     parser.add_argument("--data", required=True, metavar="DATA", help="the models: a folder, or synth:SEED:COUNT")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where rows and tables go")
+    parser.add_argument(
+        "--split", default="", metavar="NAME", help="of a FurFun release: the test models of this split alone"
+    )
     parser.add_argument("--methods", default=_METHODS, metavar="LIST", help=f"what is compared (default: {_METHODS})")
     parser.add_argument("--tables", default=_TABLES, metavar="LIST", help=f"what is written (default: {_TABLES})")
     parser.add_argument(
@@ -146,7 +149,9 @@ def _plan(options: argparse.Namespace) -> "EvaluationPlan":
     absent = next((method for method in methods if method.folder is not None and not method.folder.is_dir()), None)
     if absent is not None:
         raise OptionError(f"`{absent.folder}` of the method {absent.name} must be a folder with an entry per model id")
-    return EvaluationPlan(options.data, find_models(options.data), methods, _words(options.tables), options.seeds)
+    return EvaluationPlan(
+        options.data, find_models(options.data, options.split), methods, _words(options.tables), options.seeds
+    )
 
 
 def _words(text: str) -> tuple[str, ...]:
@@ -197,7 +202,12 @@ def _named(task: "Task") -> str:
 def _command(options: argparse.Namespace) -> str:
     """Returns the command that gives these tables, whatever it was spelled like."""
     words = ["grafu", "evaluate", "--data", options.data, "--methods", options.methods, "--tables", options.tables]
-    given = [("--weights", options.weights), ("--llm", options.llm), ("--replies", options.replies)]
+    given = [
+        ("--split", options.split or None),
+        ("--weights", options.weights),
+        ("--llm", options.llm),
+        ("--replies", options.replies),
+    ]
     more = [word for name, path in given if path is not None for word in (name, str(path))]
     return shlex.join([*words, "--seeds", str(options.seeds), *more, "--out", str(options.out)])
 
