@@ -14,6 +14,12 @@ SAME, NOTHING = "same", "none"
 GRIPS = [("grip", "Grip that fits"), ("groove", "Groove"), ("edge", "Edge notch"), ("hole", "Hole")]
 _LENGTH = 0.128  # metres: the commonest bow handle, where one is chosen
 _TOP = ("thickness", "front", "side", "back")
+SHAPES = ("rectangle", "rounded", "chamfered", "oval", "capsule")
+_PROFILES = (
+    ("AUTO", "As usual", "Rounded, or as in the settings"),
+    ("rounded", "Rounded", "Rounded ends and bottoms"),
+    ("sharp", "Sharp", "Sharp corners"),
+)
 _items: dict = {}
 
 
@@ -31,6 +37,13 @@ def handle_items(_, __):
         ]
         _items[key] = [(*row, number) for number, row in enumerate(rows)]
     return _items[key]
+
+
+def grip_length(name, description):
+    """Returns a property for a length of a recessed grip, metres."""
+    return FloatProperty(
+        name=name, description=description, default=0.0, min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"}
+    )
 
 
 class Adds(Applies):
@@ -65,6 +78,9 @@ class GRAFU_OT_set_handle(Adds, bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
     own_length: own_switch()
+    width: grip_length("Width", "Across the gripped edge; 0: as suits the front")
+    depth: grip_length("Depth", "Of a groove; 0: as suits the front")
+    profile: EnumProperty(name="Profile", items=_PROFILES, options={"SKIP_SAVE"})
     replaces: BoolProperty(
         name="Replace", description="Take away the handles that it has", default=True, options={"SKIP_SAVE"}
     )
@@ -77,6 +93,7 @@ class GRAFU_OT_set_handle(Adds, bpy.types.Operator):
         choice = settings_of(session).additions.fronts.get(self.part)
         if choice is not None:
             self.style, self.offset, self.replaces = choice.style or SAME, choice.offset, choice.replaces
+            self.width, self.depth, self.profile = choice.width, choice.depth, choice.profile or "AUTO"
         fill(self, "count", choice.count if choice is not None else 0, 1)
         fill(self, "length", choice.length if choice is not None else 0.0, _LENGTH)
         return ask(self, context)
@@ -86,7 +103,11 @@ class GRAFU_OT_set_handle(Adds, bpy.types.Operator):
         layout = split(self)
         draw_part(layout, self.part)
         draw_template(layout, self, "style")
-        if self.style not in (NOTHING, *dict(GRIPS)):  # what is carved takes its size from the front
+        if self.style in dict(GRIPS):
+            draw_number(layout, self, "length", "Length")
+            for name in ("width", "depth", "profile"):
+                layout.prop(self, name)
+        elif self.style != NOTHING:
             draw_number(layout, self, "count", "Handles")
             draw_number(layout, self, "length", "Length")
             layout.prop(self, "offset", index=0, text="To the right")
@@ -100,7 +121,11 @@ class GRAFU_OT_set_handle(Adds, bpy.types.Operator):
         style = "" if self.style == SAME else self.style
         across, up = (round(v, 6) for v in self.offset)
         count, length = chosen_or(self, "count", 0), chosen_or(self, "length", 0.0)
-        choice = HandleChoice(style, count, (across, up), length, self.replaces)
+        grip = {}
+        if style in dict(GRIPS):
+            profile = "" if self.profile == "AUTO" else self.profile
+            grip = {"width": round(self.width, 6), "depth": round(self.depth, 6), "profile": profile}
+        choice = HandleChoice(style, count, (across, up), length, self.replaces, **grip)
         return settings.with_front(self.part, choice)
 
 
@@ -127,9 +152,7 @@ class GRAFU_OT_set_top(Adds, bpy.types.Operator):
     replaces: BoolProperty(
         name="Replace", description="Put it in the place of the top that is there", options={"SKIP_SAVE"}
     )
-    shape: EnumProperty(
-        name="Shape", items=[(s, s.title(), "") for s in ("rectangle", "rounded", "chamfered")], options={"SKIP_SAVE"}
-    )
+    shape: EnumProperty(name="Shape", items=[(s, s.title(), "") for s in SHAPES], options={"SKIP_SAVE"})
     thickness: FloatProperty(name="Thickness", default=0.025, min=0.001, subtype="DISTANCE", options={"SKIP_SAVE"})
     front: FloatProperty(name="Overhang in front", default=0.02, min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"})
     side: FloatProperty(name="Overhang at the sides", default=0.01, min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"})

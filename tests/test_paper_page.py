@@ -1,4 +1,4 @@
-"""docs/paper.md: every row names files that exist, one of four verdicts, and a command that can be given as it stands."""
+"""docs/paper.md: every row names files that exist, one of four verdicts, and a command that is one."""
 
 import re
 import shlex

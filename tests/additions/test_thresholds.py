@@ -95,6 +95,7 @@ REASONS = {
         "ROUNDINGS": TOLERANCE,
         "SHORTEST_EDGE": TOLERANCE,
         "ARC_EDGES": SAMPLES,
+        "ROUND_EDGES": SAMPLES,
     },
     "top/supports.py": {"ALONG_AXES": SHAPE, "CELL_INSET": SAMPLES},
     "top/views.py": {

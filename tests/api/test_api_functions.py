@@ -113,7 +113,7 @@ print(json.dumps(found))
     [
         ({"motion": "magic"}, OptionError, "must be one of auto, annotation, network"),
         ({"motion": "urdf"}, OptionError, "urdf:FILE"),
-        ({"top": "oval"}, OptionError, "`top` must be one of rectangle, rounded, chamfered: got 'oval'"),
+        ({"top": "round"}, OptionError, "rounded, chamfered, oval, capsule: got 'round'"),
         ({"handles": "no-such"}, OptionError, "`handle` must be one of"),
         ({"interior": "many"}, OptionError, "`interior` must be"),
         ({"motions": {"no_part": "left"}}, OptionError, "chest has no no_part"),

@@ -8,12 +8,13 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grafu.articulation import physics
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
-from grafu.articulation.collision_shapes import ShapeBody
+from grafu.articulation.collision_shapes import CollisionShapeConfig, ShapeBody
 from grafu.articulation.finger_room import with_finger_room
 from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.grasp_search import GraspHint, with_grasps
-from grafu.articulation.physics import physics_of
+from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.errors import ArticulationError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
@@ -208,3 +209,15 @@ def test_grasps_of_unknown_links_are_refused():
         replace(whole, grasps=(lost,))
     with pytest.raises(ArticulationError, match="grasp"):
         replace(whole, grasps=whole.grasps * 2)
+
+
+def test_shapes_that_are_cut_for_fingers_stay_as_few_as_allowed(monkeypatch):
+    whole = made(bar(0.12, 0.01, 0.025, True))
+    plate = OrientedBox(vec3(0.0, -0.04, 0.35), vec3(0.3, 0.03, 0.34), np.eye(3))  # fills what is behind the bar
+    monkeypatch.setattr(physics, "chosen_shapes", lambda link, *_: ((plate,) if link.id == "door" else (), ()))
+    few = PhysicsConfig(collision=replace(CollisionShapeConfig(), most_shapes=3))
+
+    assert len(physics_of(whole).shapes["door"]) > 3
+    kept = physics_of(whole, few)
+    assert len(kept.shapes["door"]) == 3
+    assert [note.split(":")[0] for note in kept.notes] == ["door does not collide where it is smallest"]

@@ -1,4 +1,4 @@
-"""The owner of the paper's data gets through: a folder in each exact layout is trained on, evaluated, functionalized."""
+"""A folder in the exact layout of FurFun and of HSSD goes through training, evaluation and functionalization."""
 
 import csv
 import json

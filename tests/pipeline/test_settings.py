@@ -120,6 +120,8 @@ def test_what_is_left_out_is_as_by_default():
         ({"schema": SCHEMA, "reading": {"up": "Q"}}, "`reading` is wrong"),
         ({"schema": SCHEMA, "labels": {"a": "spoon"}}, "`labels.a` is wrong"),
         ({"schema": SCHEMA, "additions": {"fronts": {"d": {"count": 7}}}}, "HandleChoice.count"),
+        ({"schema": SCHEMA, "additions": {"fronts": {"d": {"depth": -0.01}}}}, "HandleChoice.depth"),
+        ({"schema": SCHEMA, "additions": {"fronts": {"d": {"profile": "round"}}}}, "profile"),
     ],
 )
 def test_wrong_settings_are_told_in_one_line(given_values, words):
@@ -189,6 +191,21 @@ def test_a_front_can_be_left_without_or_be_carved(asset):
     assert {j.part: j.grasp for j in report_of(bare).joints}[door] == "none"
     carved = run(asset, BASE.with_front(door, HandleChoice("hole")))
     assert [c.part.id for c in carved.fittings.changes.carved] == [door]
+
+
+def test_a_grip_has_the_sizes_and_the_profile_that_are_chosen_for_its_front(asset):
+    drawer = moving_bodies(run(asset, BASE))["prismatic"]
+    shapes = {}
+    for name, choice in {
+        "usual": HandleChoice("groove"),
+        "small": HandleChoice("groove", length=0.06, width=0.02, depth=0.004),
+        "sharp": HandleChoice("groove", length=0.06, width=0.02, depth=0.004, profile="sharp"),
+    }.items():
+        (made,) = run(asset, BASE.with_front(drawer, choice)).fittings.changes.carved
+        shapes[name] = made
+    assert shapes["small"].size == pytest.approx([0.06, 0.02, 0.004])
+    assert (shapes["usual"].size > shapes["small"].size).all()
+    assert (shapes["small"].profile, shapes["sharp"].profile) == ("rounded", "sharp")
 
 
 def test_a_handle_that_finds_no_room_is_told_with_what_took_its_place():

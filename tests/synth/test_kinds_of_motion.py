@@ -17,7 +17,7 @@ from grafu.synth.tables.drop_leaf import (
 )
 from grafu.synth.tables.drop_leaf_supports import LeafSupports
 from grafu.synth.truth.clashes import articulated_of
-from grafu.vocabulary import JointType
+from grafu.vocabulary import JointType, PartLabel
 from judging import installed, realized
 
 SEEDS = range(6)
@@ -56,6 +56,27 @@ def test_true_joints_are_of_their_types_and_collide_with_nothing(kind):
         assert asset.joints
         colliding = collision_shares(truth, CollisionConfig(poses=12, tolerance=0.0005))
         assert set(colliding.values()) == {0.0}, (kind, asset.name)
+
+
+@pytest.mark.parametrize(
+    ("spec", "direction"),
+    [
+        (Appliance("m", "microwave", 0.5, 0.3, 0.4, 0.02, racks=0, knobs=1, keys=12, edge="left"), (0.0, 0.0, -1.0)),
+        (Appliance("m", "microwave", 0.5, 0.3, 0.4, 0.02, racks=0, buttons=1, edge="right", pull="none"), (0, 0, 1.0)),
+        (Appliance("m", "microwave", 0.6, 0.4, 0.4, 0.02, racks=0, keys=9, pull="long"), (1.0, 0.0, 0.0)),
+        (Appliance("o", "oven", height=0.9, drawer=0.2, burners=4, knobs=4), (1.0, 0.0, 0.0)),
+        (Appliance("o", "oven", height=0.6, knobs=2, racks=1, edge="left"), (0.0, 0.0, -1.0)),
+    ],
+)
+def test_doors_of_appliances_turn_about_the_stated_edge_clear_of_the_panel(spec, direction):
+    asset = make_appliance(spec)
+    joint = next(joint for joint in asset.joints if joint.part == "door")
+    assert np.allclose(joint.axis.direction, direction)
+    assert [p.label for p in asset.parts].count(PartLabel.HANDLE) == (spec.pull != "none") + (spec.drawer > 0)
+    panel, leaf = asset.part("panel").box, asset.part("door").box
+    axis = 0 if spec.has_panel_beside else 2
+    assert leaf.high[axis] < panel.low[axis] or panel.high[axis] < leaf.low[axis]
+    assert set(collision_shares(articulated_of(asset), CollisionConfig(poses=12, tolerance=0.0005)).values()) == {0.0}
 
 
 @pytest.mark.parametrize("kind", ["sliding", "pull-out", "drop leaf", "supported leaf"])

@@ -118,8 +118,10 @@ def functionalize(
             `particulate:FILE`.
         motions: by the id of a part, how it moves, whatever the source states; see `Result.with_motion`.
         weights: a file of trained weights (ONNX) for the network; None: those that came with the package.
-        top: whether a missing top is added, or its shape: `rectangle`, `rounded`, `chamfered`.
-        handles: whether handles or grips are added, or their style: a template's id, `grip`, `groove`, `edge`, `hole`.
+        top: whether a missing top is added, or its shape: `rectangle`, `rounded`, `chamfered`, `oval`, `capsule`; sizes
+            may follow: `oval,thickness=3cm,front=2cm,side=1cm,back=0`.
+        handles: whether handles or grips are added, or their style: a template's id, `grip`, `groove`, `edge`, `hole`;
+            sizes of a grip may follow: `groove,length=12cm,width=3cm,depth=1cm,profile=sharp`.
         drawer_boxes: whether a drawer that is only a front gets a box.
         compartments: whether what is solid behind doors and drawers gets compartments.
         door_frame: whether a door of a building that is drawn alone gets a frame.

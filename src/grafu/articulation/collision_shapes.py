@@ -4,7 +4,7 @@ Hinges and rails carry no shape: their knuckles and channels interlock, and only
 they can be posed and asked whether they meet.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import final
@@ -120,12 +120,22 @@ def chosen_shapes(
     for shape in shapes:
         if not any(_lies_within(shape, other, config.within) for other in distinct):
             distinct.append(shape)
-    if len(distinct) <= config.most_shapes:
-        return tuple(distinct), ()
-    held = np.array([_carries(shape, link, config) for shape in distinct])
-    first = {int(k) for k in np.argsort(~held, kind="stable")[: config.most_shapes]}
-    kept = tuple(shape for k, shape in enumerate(distinct) if k in first)
-    return kept, tuple(shape for k, shape in enumerate(distinct) if k not in first)
+    return as_many_as_allowed(distinct, link, config)
+
+
+def as_many_as_allowed(
+    shapes: Sequence[CollisionShape], link: Link, config: CollisionShapeConfig = DEFAULT_COLLISION_CONFIG
+) -> tuple[tuple[CollisionShape, ...], tuple[CollisionShape, ...]]:
+    """Returns the shapes of a link that are kept, at most `most_shapes`, and those left out, each in their order.
+
+    What stands on the floor or carries a joint is the last to be left out, then the largest.
+    """
+    if len(shapes) <= config.most_shapes:
+        return tuple(shapes), ()
+    order = sorted(range(len(shapes)), key=lambda k: (not _carries(shapes[k], link, config), -extent_of(shapes[k])))
+    first = set(order[: config.most_shapes])
+    kept = tuple(shape for k, shape in enumerate(shapes) if k in first)
+    return kept, tuple(shape for k, shape in enumerate(shapes) if k not in first)
 
 
 def _carries(shape: CollisionShape, link: Link, config: CollisionShapeConfig) -> bool:

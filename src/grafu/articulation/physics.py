@@ -14,6 +14,7 @@ from grafu.articulation.collision_clearance import ShapeClearanceConfig, cleared
 from grafu.articulation.collision_shapes import (
     CollisionShape,
     CollisionShapeConfig,
+    as_many_as_allowed,
     box_of,
     chosen_shapes,
     corners_of,
@@ -100,7 +101,7 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     of_part = WhileTimeLasts(_PIECES, shapes_of, box_of)
     chosen = {link.id: chosen_shapes(link, config.collision, of_part) for link in articulated.links}
     drawn = {link: kept for link, (kept, _) in chosen.items()}
-    left_out = [note for link, (_, left) in chosen.items() for note in _left_out(link, left, config.collision)]
+    left_out = {link: left for link, (_, left) in chosen.items()}
     if measured.spared:
         notes.append(f"{_parts(measured.spared)} got the mass of boards all over the box around: {_NO_TIME}")
     if of_part.spared:
@@ -115,6 +116,9 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
         partial(with_finger_room, shapes, articulated.grasps, config.fingers),
         partial(_noted, notes, "collision shapes were not cut where fingers go", shapes),
     )
+    for link in articulated.links:  # a shape that is cut around a finger comes in pieces
+        shapes[link.id], left = as_many_as_allowed(shapes[link.id], link, config.collision)
+        left_out[link.id] += left
     shapes, short_feet = level_feet(articulated, masses, shapes, config.feet)
     touching = within(
         _CONTACTS,
@@ -124,7 +128,8 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     dynamics = {
         joint.id: joint_dynamics(articulated, joint, masses, config.dynamics) for joint in articulated.moving_joints
     }
-    told = (*left_out, *([short_feet] if short_feet else []), *notes)
+    too_many = [note for link, left in left_out.items() for note in _left_out(link, left, config.collision)]
+    told = (*too_many, *([short_feet] if short_feet else []), *notes)
     return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, touching, told, bool(notes))
 
 

@@ -4,11 +4,11 @@ The option `--limit NAME=NUMBER`: how large an input may be.
 """
 
 import argparse
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 
 from grafu.asset.options import Limits, LoadOptions
+from grafu.geometry.lengths import metres_of
 
 
 def add_limit_option(parser: argparse.ArgumentParser) -> None:
@@ -124,18 +124,12 @@ def _number(text: str) -> float:
         raise argparse.ArgumentTypeError(f"must be a number: got {text!r}") from None
 
 
-_METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "ft": 0.3048}
-
-
 def _length(text: str) -> float:
     """Returns a length in metres: a number of metres, or one with a unit behind it."""
-    parts = re.fullmatch(r"\s*([-+0-9.e]+|[-+]?nan|[-+]?inf)\s*([a-z]*)\s*", text, re.I)
-    unit = parts[2].lower() or "m" if parts else ""
     try:
-        return float(parts[1] if parts else "") * _METRES[unit]
-    except (KeyError, ValueError):
-        units = ", ".join(_METRES)
-        raise argparse.ArgumentTypeError(f"must be a number, or one with a unit of {units}: got {text!r}") from None
+        return metres_of(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def positive_count(text: str) -> int:

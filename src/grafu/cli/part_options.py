@@ -1,6 +1,7 @@
 """Options on parts and the whole: `--motion`, `--move`, `--base`, and those of what is added. They move nothing."""
 
 import argparse
+import re
 from typing import TYPE_CHECKING
 
 from grafu.articulation.base import BaseKind
@@ -86,7 +87,7 @@ def _base(text: str) -> BaseKind:
     return BaseKind(text)
 
 
-TOP_SHAPES = ("rectangle", "rounded", "chamfered")
+TOP_SHAPES = ("rectangle", "rounded", "chamfered", "oval", "capsule")
 GRIPS = ("grip", "groove", "edge", "hole")  # `grip`: whichever of the others fits
 
 
@@ -102,7 +103,10 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--no-door-frame", action="store_true", help="add no frame to a door that is drawn without one")
     group.add_argument(
-        "--top", choices=TOP_SHAPES, metavar="SHAPE", help=f"shape of added tops: {', '.join(TOP_SHAPES)}"
+        "--top",
+        metavar="SHAPE",
+        help=f"shape of added tops: {', '.join(TOP_SHAPES)}; sizes may follow: oval,thickness=3cm,front=2cm,side=1cm,"
+        "back=0",
     )
     group.add_argument(
         "--hinge",
@@ -114,8 +118,9 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--handle",
         metavar="STYLE",
-        help="style of added handles: a template of `grafu templates`, or a carved one: grip, groove, edge, hole "
-        "(default: like the model's other handles)",
+        help="style of added handles: a template of `grafu templates`, or a carved one: grip, groove, edge, hole; its "
+        "sizes may follow: groove,length=12cm,width=3cm,depth=1cm,profile=sharp (default: like the model's other "
+        "handles)",
     )
     group.add_argument(
         "--interior",
@@ -162,7 +167,7 @@ def addition_config(
             carcass=True if options.complete == "carcass" else None,
         )
     except OptionError as error:
-        raise OptionError(str(error).replace("`interior`", "`--interior`").replace("`handle`", "`--handle`")) from None
+        raise OptionError(re.sub("`(interior|handle|top)`", r"`--\1`", str(error))) from None
 
 
 def _require_consistent(options: argparse.Namespace) -> None:

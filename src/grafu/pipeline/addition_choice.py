@@ -2,21 +2,28 @@
 
 from collections.abc import Collection
 from dataclasses import replace
+from typing import Any
 
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.compartment.config import SolidBodyConfig
 from grafu.additions.config import AdditionConfig
 from grafu.additions.door_frame.config import DoorFrameConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
-from grafu.additions.grip.config import GripConfig, GripKind
+from grafu.additions.grip.config import GripConfig, GripKind, GripProfile
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.interior.request import InteriorRequest, parse_interior
 from grafu.additions.top.config import TopConfig
 from grafu.errors import OptionError, did_you_mean
+from grafu.pipeline.sized_words import SizedWord, sized_word
 
-TOP_SHAPES = ("rectangle", "rounded", "chamfered")
+TOP_SHAPES = ("rectangle", "rounded", "chamfered", "oval", "capsule")
+TOP_SIZES = ("thickness", "front", "side", "back")
+"""What may be stated of a top behind its shape: how thick it is, and how far it juts out, metres."""
 GRIPS = ("grip", "groove", "edge", "hole")
 """Recessed grips by name; `grip` is whichever of the others fits."""
+GRIP_SIZES = ("length", "width", "depth")
+"""What may be stated of a grip behind its name: along and across the gripped edge, and how deep a groove is, metres."""
+GRIP_PROFILES = ("sharp", "rounded")
 
 
 def choose_additions(
@@ -36,8 +43,9 @@ def choose_additions(
     Args:
         known_handles: the ids of all handle templates.
         base: what is changed; None: the defaults.
-        top: whether tops are added, or their shape: one of `TOP_SHAPES`.
-        handles: whether handles and grips are added, or their style: a template's id or one of `GRIPS`.
+        top: whether tops are added, or their shape: one of `TOP_SHAPES`, sizes behind it, such as `oval,thickness=3cm`.
+        handles: whether handles and grips are added, or their style: a template's id or one of `GRIPS`, sizes behind
+            the latter, such as `groove,length=12cm,profile=sharp`.
         drawer_boxes: whether a drawer that is only a front gets a box.
         compartments: whether what is solid behind doors and drawers gets compartments.
         door_frame: whether a door of a building that is drawn alone gets a frame.
@@ -76,11 +84,15 @@ def _top(wanted: bool | str, before: TopConfig | None) -> TopConfig | None:
     top = before or TopConfig()
     if wanted is True:
         return top
-    if wanted not in TOP_SHAPES:
+    stated = sized_word(wanted, "top", TOP_SIZES)
+    shape = stated.word
+    if shape not in TOP_SHAPES:
         raise OptionError(
-            f"`top` must be one of {', '.join(TOP_SHAPES)}: got {wanted!r}{did_you_mean(wanted, TOP_SHAPES)}"
+            f"`top` must be one of {', '.join(TOP_SHAPES)}: got {shape!r}{did_you_mean(shape, TOP_SHAPES)}"
         )
-    return replace(top, shape=wanted)  # type: ignore[arg-type]  # it is one of them
+    _require_above_zero(stated, "top", ("thickness",))
+    sizes: dict[str, Any] = {"shape": shape, **stated.lengths}
+    return replace(top, **sizes)
 
 
 def _with_handles(config: AdditionConfig, wanted: bool | str, known: Collection[str]) -> AdditionConfig:
@@ -90,11 +102,26 @@ def _with_handles(config: AdditionConfig, wanted: bool | str, known: Collection[
         usual = AdditionConfig()
         has_any = config.handles is not None or config.grips is not None
         return config if has_any else replace(config, handles=usual.handles, grips=usual.grips)
-    if wanted in GRIPS:
-        kind = GripConfig() if wanted == "grip" else GripConfig(GripKind(wanted))
-        return replace(config, handles=None, grips=kind)
+    name = wanted.split(",")[0].strip()
+    if name in GRIPS:
+        return replace(config, handles=None, grips=_grip(wanted))
     if wanted not in known:
         every = (*known, *GRIPS)
         raise OptionError(f"`handle` must be one of {', '.join(every)}: got {wanted!r}{did_you_mean(wanted, every)}")
     handles, grips = config.handles or HandleConfig(), config.grips or GripConfig()
     return replace(config, handles=replace(handles, style=wanted), grips=grips)
+
+
+def _grip(wanted: str) -> GripConfig:
+    stated = sized_word(wanted, "handle", GRIP_SIZES, {"profile": GRIP_PROFILES})
+    _require_above_zero(stated, "handle", GRIP_SIZES)
+    usual = GripConfig()
+    sizes = usual.sizes.with_lengths(*(stated.lengths.get(name, 0.0) for name in GRIP_SIZES))
+    profile: GripProfile = "sharp" if stated.words.get("profile") == "sharp" else "rounded"
+    return replace(usual, kind="auto" if stated.word == "grip" else GripKind(stated.word), profile=profile, sizes=sizes)
+
+
+def _require_above_zero(stated: SizedWord, option: str, names: Collection[str]) -> None:
+    for name in names:
+        if stated.lengths.get(name) == 0:
+            raise OptionError(f"`{name}` of `{option}` must be above 0: got 0")

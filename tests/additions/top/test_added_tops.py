@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapely.affinity import rotate
 from shapely.geometry import Polygon, box
 from topless import D, H, T, W, board, carcass, drawer, front, lift, merged, slide, swing
 
@@ -21,7 +22,7 @@ from grafu.joints.plan import JointRequest
 from grafu.scene.obstacles import Obstacle
 from grafu.vocabulary import PartLabel
 
-SHAPES: tuple[TopShape, ...] = ("rectangle", "rounded", "chamfered")
+SHAPES: tuple[TopShape, ...] = ("rectangle", "rounded", "chamfered", "oval", "capsule")
 OAK = Material("oak", (0.5, 0.3, 0.1, 1.0))
 CHROME = Material("chrome", (0.9, 0.9, 0.9, 1.0))
 
@@ -86,6 +87,20 @@ def test_shapes_break_the_corners(shape: TopShape, corners: int) -> None:
     outline = with_corners(box(-0.5, -0.3, 0.5, 0.3), shape, TopConfig().corner)
     assert len(outline.exterior.coords) - 1 == corners
     assert outline.bounds == pytest.approx((-0.5, -0.3, 0.5, 0.3))
+
+
+@pytest.mark.parametrize(
+    ("shape", "half", "area"),
+    [("oval", (0.5 * 2**0.5, 0.3 * 2**0.5), np.pi * 0.3), ("capsule", (0.8, 0.3), 0.6 + np.pi * 0.09)],
+)
+@pytest.mark.parametrize("turn", [0.0, 0.4, np.pi / 2])
+def test_ovals_and_capsules_hold_the_rectangle(shape: TopShape, half: tuple, area: float, turn: float) -> None:
+    plain = rotate(box(-0.5, -0.3, 0.5, 0.3), turn, origin=(0.0, 0.0), use_radians=True)
+    outline = with_corners(plain, shape, TopConfig().corner)
+    assert outline.buffer(1e-3).contains(plain)
+    assert outline.area == pytest.approx(area, rel=2e-3)
+    back = rotate(outline, -turn, origin=(0.0, 0.0), use_radians=True)
+    assert back.bounds == pytest.approx((-half[0], -half[1], half[0], half[1]), abs=1e-6)
 
 
 def test_the_top_stands_on_the_sides_with_its_overhang_and_the_bodys_look() -> None:

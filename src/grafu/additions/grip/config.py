@@ -1,6 +1,6 @@
 """Sizes of recessed grips. Lengths are metres, made for hands, and capped by fractions of the front."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Literal, final
 
@@ -66,6 +66,17 @@ class GripSizes:
 
     def __post_init__(self) -> None:
         require_ratios(self, "bottom_radius", "rim_radius", "beyond")
+
+    def with_lengths(self, length: float, width: float, depth: float) -> "GripSizes":
+        """Returns the sizes with these lengths for every kind, metres; 0: each kind's own."""
+        given = {"length": length, "width": width, "depth": depth}
+        stated = {name: value for name, value in given.items() if value}
+        return replace(
+            self,
+            groove=replace(self.groove, **stated),
+            edge=replace(self.edge, **stated),
+            hole=replace(self.hole, **stated),
+        )
 
     def of(self, kind: GripKind) -> GripSize:
         """Returns the size of a kind of grip."""

@@ -1,8 +1,9 @@
 """The sizes and places of handles. Lengths are metres on furniture of a common size (`grafu.scene.scene`)."""
 
 from dataclasses import dataclass
-from typing import final
+from typing import Literal, final, get_args
 
+from grafu.additions.grip.config import GripProfile
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.visible import ShortRepr
 
@@ -162,10 +163,11 @@ class HandleChoice:
 
     `style` is a handle template, a recessed grip (`grip`, `groove`, `edge`, `hole`), `none`, or empty for the style of
     the others; `count` and `offset` are those of `HandleConfig`, `length` metres (0: as it suits). Handles of the input
-    stay beside it unless it `replaces` them.
+    stay beside it unless it `replaces` them. Of a recessed grip, `width` lies across the gripped edge, `depth` is that
+    of a groove, metres (0: as it suits), and `profile` has sharp corners or rounded ones (empty: as the others).
 
     Raises:
-        ValueError: if the count is not in 0..`MOST_HANDLES`, or the length is negative.
+        ValueError: if the count is not in 0..`MOST_HANDLES`, a length is negative, or there is no such profile.
     """
 
     style: str = ""
@@ -173,9 +175,16 @@ class HandleChoice:
     offset: tuple[float, float] = (0.0, 0.0)
     length: float = 0.0
     replaces: bool = True
+    width: float = 0.0
+    depth: float = 0.0
+    profile: GripProfile | Literal[""] = ""
 
     def __post_init__(self) -> None:
         if not 0 <= self.count <= MOST_HANDLES:
             raise ValueError(f"`HandleChoice.count` must be in 0..{MOST_HANDLES}: got {self.count}")
-        if not self.length >= 0:
-            raise ValueError(f"`HandleChoice.length` must not be negative: got {self.length}")
+        for name in ("length", "width", "depth"):
+            if not getattr(self, name) >= 0:
+                raise ValueError(f"`HandleChoice.{name}` must not be negative: got {getattr(self, name)}")
+        if self.profile not in ("", *get_args(GripProfile)):
+            wanted = ", ".join(get_args(GripProfile))
+            raise ValueError(f"`HandleChoice.profile` must be one of {wanted}, or empty: got {self.profile!r}")

@@ -127,8 +127,12 @@ def _fitted(scene: Scene, moving: str, choice: HandleChoice, request: StepReques
 
 
 def _carved(scene: Scene, moving: str, choice: HandleChoice, config: GripConfig) -> StepResult:
-    if choice.style != ANY_GRIP:
-        config = replace(config, kind=GripKind(choice.style))
+    config = replace(
+        config,
+        kind=config.kind if choice.style == ANY_GRIP else GripKind(choice.style),
+        profile=choice.profile or config.profile,
+        sizes=config.sizes.with_lengths(choice.length, choice.width, choice.depth),
+    )
     made = carve_grip(scene, moving, config)
     if isinstance(made, Carved):
         return StepResult(scene.replaced([made.part]), changes=Changes(carved=(made,)))

@@ -7,7 +7,7 @@ from typing import Literal, final
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.visible import ShortRepr
 
-TopShape = Literal["rectangle", "rounded", "chamfered"]
+TopShape = Literal["rectangle", "rounded", "chamfered", "oval", "capsule"]
 
 
 @final
@@ -255,7 +255,7 @@ class TopConfig(ShortRepr):
     thickness_ratio: float = 0.2
     """... and at most this fraction of its height above the floor."""
     shape: TopShape = "rectangle"
-    """Whether the upper edge and the corners of an added top are sharp, rounded or chamfered."""
+    """Corners and upper edge sharp, rounded, chamfered; or the ellipse or capsule around what a rectangle covers."""
     edge: float = 0.35
     """How far the upper edge of a rounded or chamfered top is broken, as a fraction of its thickness."""
     corner: float = 0.02

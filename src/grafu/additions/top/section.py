@@ -42,6 +42,8 @@ SIDES = 4
 """Sides of a rectangle."""
 ARC_EDGES = 4
 """Straight edges of a quarter round."""
+ROUND_EDGES = 16
+"""Straight edges of a quarter of an oval top, or of a capsule's end."""
 EMPTY = Polygon()
 
 
@@ -139,15 +141,33 @@ Ring = Float[np.ndarray, "n 2"]
 
 
 def with_corners(outline: BaseGeometry, shape: TopShape, radius: float) -> BaseGeometry:
-    """Returns an outline with its outer corners as the shape wants them, broken by up to `radius` metres."""
-    if shape == "rectangle":
+    """Returns an outline with its outer corners as the shape wants them, broken by up to `radius` metres.
+
+    An oval and a capsule are those around the smallest rectangle that holds the outline.
+    """
+    if shape == "rectangle" or outline.is_empty:
         return outline
+    if shape in ("oval", "capsule"):
+        return _around(outline, shape)
     around = (p.minimum_rotated_rectangle.exterior.length for p in polygons_in(outline))
     radius = min(radius, MOST_CORNER * min(around, default=0.0) / SIDES)
     inner = offset(outline, -radius)
     if shape == "rounded":
         return inner.buffer(radius, join_style="round", quad_segs=ARC_EDGES)
     return inner.buffer(radius, join_style="bevel")
+
+
+def _around(outline: BaseGeometry, shape: TopShape) -> BaseGeometry:
+    """Returns the ellipse through the corners of the outline's smallest rectangle, or that with half circles added."""
+    corners = np.asarray(outline.minimum_rotated_rectangle.exterior.coords)[:SIDES, :2]
+    center, along, across = corners.mean(axis=0), 0.5 * (corners[1] - corners[0]), 0.5 * (corners[3] - corners[0])
+    if np.linalg.norm(across) > np.linalg.norm(along):
+        along, across = across, along
+    if shape == "capsule":
+        middle = shapely.linestrings([center - along, center + along])
+        return middle.buffer(float(np.linalg.norm(across)), quad_segs=ROUND_EDGES)
+    circle = np.asarray(shapely.Point(0.0, 0.0).buffer(np.sqrt(2.0), quad_segs=ROUND_EDGES).exterior.coords)
+    return Polygon(center + circle @ np.stack([along, across]))
 
 
 def slab_mesh(

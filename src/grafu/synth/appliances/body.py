@@ -11,20 +11,24 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.graph.edges import Hinge
+from grafu.graph.edges import Hinge, Rail
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, plank, solid
 from grafu.synth.pieces.finish import surface_of
 from grafu.synth.pieces.shapes import framed_opening, prism
 from grafu.vocabulary import PartLabel
 
+Edge = Literal["bottom", "left", "right"]
+Pull = Literal["bar", "long", "none"]
 WIRE = 0.004  # metres
+REACH = {"bar": 0.25, "long": 0.08}  # of the length of a front, at each end: where an upright bar ends
+LEVEL_REACH = {"bar": 0.22, "long": 0.1}  # the same of a level bar
 FRAME = 0.22  # of the shorter side of a door: its frame around a window; handles stand on it
 _SIDES = 24  # of what is round
 _BAR = (0.03, 0.012)  # metres: how far a handle stands out, and how thick it is
 
 
-def hollow(material: Material, span: Span, wall: float) -> PieceDraft:
-    """Returns a body that is open in front: five walls of a thickness, metres."""
+def hollow(material: Material, span: Span, wall: float, drawer: float = 0.0) -> PieceDraft:
+    """Returns a body that is open in front: five walls, and one above a drawer of that height, metres."""
     (x0, y0, z0), (x1, y1, z1) = span
     boards = [
         ((x0, y0, z0), (x0 + wall, y1, z1)),
@@ -33,6 +37,8 @@ def hollow(material: Material, span: Span, wall: float) -> PieceDraft:
         ((x0 + wall, y0, z1 - wall), (x1 - wall, y1, z1)),
         ((x0 + wall, y1 - wall, z0 + wall), (x1 - wall, y1, z1 - wall)),
     ]
+    if drawer:
+        boards.append(((x0 + wall, y0, z0 + drawer), (x1 - wall, y1 - wall, z0 + drawer + wall)))
     return plank(PartLabel.MISC, "body", material, *boards)
 
 
@@ -40,27 +46,25 @@ def door(
     material: Material,
     metal: Material,
     span: Span,
-    edge: Literal["bottom", "left", "right"],
+    edge: Edge,
     window: Material | None = None,
+    pull: Pull = "bar",
+    pin: Literal["back", "front"] = "back",
 ) -> PieceDraft:
     """Returns a door that turns about an edge of its front side's box, with a bar along the opposite edge.
 
-    With a `window` of some material, it is a frame around that.
+    With a `window` of some material, it is a frame around that. A `long` bar is nearly as long as the edge. The `pin`
+    of one that drops down lies at its back, where it needs room below, or at its front, where it needs none.
     """
     (x0, y0, z0), (x1, y1, z1) = span
-    out, thick = _BAR
+    handle: tuple[PieceDraft, ...] = ()
     if edge == "bottom":
-        axis = Axis(vec3((x0 + x1) / 2, y1, z0), vec3(1.0, 0.0, 0.0))
-        bar = ((x0 + 0.06, y0 - out, z1 - 0.06), (x1 - 0.06, y0 - out + thick, z1 - 0.06 + thick))
-        posts = [((x, y0 - out, z1 - 0.06), (x + thick, y0, z1 - 0.06 + thick)) for x in (x0 + 0.06, x1 - 0.06 - thick)]
+        axis = Axis(vec3((x0 + x1) / 2, y1 if pin == "back" else y0, z0), vec3(1.0, 0.0, 0.0))
+        handle = _level_bar(metal, span, z1 - 0.06, pull)
     else:
         sign = -1.0 if edge == "left" else 1.0
         axis = Axis(vec3(x0 if edge == "left" else x1, y0, (z0 + z1) / 2), vec3(0.0, 0.0, sign))
-        x = x1 - 0.05 if edge == "left" else x0 + 0.05 - thick
-        low, high = z0 + 0.25 * (z1 - z0), z1 - 0.25 * (z1 - z0)
-        bar = ((x, y0 - out, low), (x + thick, y0 - out + thick, high))
-        posts = [((x, y0 - out, z), (x + thick, y0, z + thick)) for z in (low, high - thick)]
-    handle = plank(PartLabel.HANDLE, "handle", metal, bar, *posts)
+        handle = _upright_bar(metal, span, x1 - 0.05 if edge == "left" else x0 + 0.05 - _BAR[1], pull)
     surfaces = plank(PartLabel.DOOR, "door", material, span).surfaces
     if window is not None:
         box = Box(vec3(*span[0]), vec3(*span[1]))
@@ -68,7 +72,47 @@ def door(
         pane = Box.from_center(box.center, box.half - vec3(1.0, 0.0, 1.0) * FRAME * min(x1 - x0, z1 - z0))
         panes = surface_of(TriangleMesh.box_mesh(pane), window)
         surfaces = (*(surface_of(bar, material) for bar in bars), panes)
-    return PieceDraft(PartLabel.DOOR, "door", surfaces, PieceMotion(Hinge.joint_type, axis, pi / 2), (handle,))
+    return PieceDraft(PartLabel.DOOR, "door", surfaces, PieceMotion(Hinge.joint_type, axis, pi / 2), handle)
+
+
+def pulled_drawer(material: Material, metal: Material, front: Span, room: Span, pull: Pull) -> PieceDraft:
+    """Returns a drawer with this front, whose box fills a room behind it, 8 mm of air around; it comes out by 70 %."""
+    (x0, y0, z0), (x1, y1, z1) = room
+    x0, x1, z0, z1, thick = x0 + 0.008, x1 - 0.008, z0 + 0.008, z1 - 0.008, 0.012
+    box = [
+        ((x0, y0, z0), (x1, y1, z0 + thick)),
+        ((x0, y0, z0 + thick), (x0 + thick, y1, z1)),
+        ((x1 - thick, y0, z0 + thick), (x1, y1, z1)),
+        ((x0 + thick, y1 - thick, z0 + thick), (x1 - thick, y1, z1)),
+    ]
+    handle = _level_bar(metal, front, (front[0][2] + front[1][2]) / 2, pull)
+    out = Axis(vec3((x0 + x1) / 2, y0, (z0 + z1) / 2), vec3(0.0, -1.0, 0.0))
+    made = plank(PartLabel.DRAWER, "drawer", material, front, *box)
+    return PieceDraft(made.label, made.stem, made.surfaces, PieceMotion(Rail.joint_type, out, 0.7 * (y1 - y0)), handle)
+
+
+def _level_bar(metal: Material, span: Span, z: float, pull: Pull) -> tuple[PieceDraft, ...]:
+    """Returns a level bar on two posts before a front, its lower edge at a height, metres."""
+    if pull == "none":
+        return ()
+    (x0, y0, _), (x1, _, _) = span
+    out, thick = _BAR
+    low, high = x0 + LEVEL_REACH[pull] * (x1 - x0), x1 - LEVEL_REACH[pull] * (x1 - x0)
+    bar = ((low, y0 - out, z), (high, y0 - out + thick, z + thick))
+    posts = [((x, y0 - out, z), (x + thick, y0, z + thick)) for x in (low, high - thick)]
+    return (plank(PartLabel.HANDLE, "handle", metal, bar, *posts),)
+
+
+def _upright_bar(metal: Material, span: Span, x: float, pull: Pull) -> tuple[PieceDraft, ...]:
+    """Returns an upright bar on two posts before a front, its left edge at x, metres."""
+    if pull == "none":
+        return ()
+    (_, y0, z0), (_, _, z1) = span
+    out, thick = _BAR
+    low, high = z0 + REACH[pull] * (z1 - z0), z1 - REACH[pull] * (z1 - z0)
+    bar = ((x, y0 - out, low), (x + thick, y0 - out + thick, high))
+    posts = [((x, y0 - out, z), (x + thick, y0, z + thick)) for z in (low, high - thick)]
+    return (plank(PartLabel.HANDLE, "handle", metal, bar, *posts),)
 
 
 def rack(material: Material, span: Span, mesh: float, is_basket: bool) -> PieceDraft:

@@ -13,7 +13,7 @@ from grafu.synth.openings.window import Kind, WindowSpec, drawn_window
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.synth.sampling.style import draw_finish, draw_style
 
-APPLIANCES: Mapping[ApplianceKind, float] = {"oven": 0.4, "dishwasher": 0.3, "microwave": 0.3}
+APPLIANCES: Mapping[ApplianceKind, float] = {"oven": 0.38, "dishwasher": 0.22, "microwave": 0.4}
 WINDOWS: Mapping[Kind, float] = {"casement": 0.35, "pair": 0.25, "sash": 0.15, "awning": 0.13, "hopper": 0.12}
 LEAVES: Mapping[LeafStyle, float] = {
     "slab": 0.45, "two panels": 0.2, "raised panel": 0.08, "shaker": 0.07, "glass": 0.12, "muntins": 0.08

@@ -78,15 +78,17 @@ def plan_chest(rng: np.random.Generator) -> Cabinet:
 
 
 def fridge(rng: np.random.Generator) -> Cabinet:
-    """Returns a fridge-like box: one thick door or two above each other, or a pair over a drawer."""
+    """Returns a fridge-like box: one thick door, two above each other, a pair, or a pair over one drawer or two."""
     style = draw_style(rng, {"appliance": 1.0})
     style = replace(style, front=max(style.front, between(rng, (0.03, 0.08))), carry="middle", gap=0.006)
     tall = chance(rng, 0.75)
     size = draw_size(rng, (0.5, 0.92), (0.5, 0.65), (1.4, 2.0) if tall else (0.75, 0.95))
-    kind = pick(rng, {"two": 0.6, "pair": 0.2, "one": 0.2}) if tall else "one"
+    kind = pick(rng, {"two": 0.45, "pair": 0.15, "drawers": 0.05, "beside": 0.15, "one": 0.2}) if tall else "one"
     layouts: dict[str, Layout] = {
         "two": Stack((Door(), Door()), (between(rng, (0.5, 1.8)), 1.0), "panel"),
         "pair": Stack((Drawer(), Pair()), (1.0, between(rng, (1.5, 2.2))), "panel"),
+        "drawers": Stack((Drawer(), Drawer(), Pair()), (0.6, 0.6, between(rng, (1.5, 2.2))), "panel"),
+        "beside": Pair(),
         "one": Door(),
     }
     return build_cabinet(rng, "fridge", style, size, layouts[kind], Build(bases=("none", "plinth"), tops=("between",)))
