@@ -33,11 +33,16 @@ means. The command:
 def results_text(out: Path) -> str:
     """Returns the page below its lead; `out` is as given to `grafu evaluate --out`."""
     tables = out / "tables"
-    sections = [_motion(json.loads((tables / "motion.json").read_text("utf-8")))]
+    sections = [motion_text(out)]
     sections += [(tables / f"{name}.md").read_text("utf-8").replace("# ", "## ", 1) for name in ("masking", "static")]
     sections.append((tables / "ood.md").read_text("utf-8").replace("# ", "## ", 1))
     sections.append(_wrong(json.loads((tables / "models.json").read_text("utf-8"))))
     return "\n".join(sections)
+
+
+def motion_text(out: Path) -> str:
+    """Returns the table of motions alone."""
+    return _motion(json.loads((out / "tables" / "motion.json").read_text("utf-8")))
 
 
 def _motion(table: dict[str, Any]) -> str:

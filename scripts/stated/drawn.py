@@ -46,6 +46,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("network.md", "motions"): motions(store),
         ("training.md", "losses"): copied(store["losses"], 0),
         ("training.md", "folds"): copied(store["folds"], 0),
+        ("benchmarks.md", "welded"): copied(store["welded"], 0),
         ("cluster.md", "cluster"): copied(store["cluster"], 0),
         ("synthetic.md", "synthetic and real"): "\n".join(["```text", *store["synthetic and real"].lines, "```"]),
     }

@@ -1,5 +1,7 @@
 """Welded furniture as a test set: its fronts are found again by the reader, under the names of the true parts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -31,6 +33,12 @@ def test_nothing_of_the_truth_is_given_but_ids(how: Weld) -> None:
     assert given.joints == ()
     words = {CABINET.part(name).source.name for name in MOVING}
     assert not words & {part.source.name for part in given.parts}
+
+
+def test_a_mesh_in_which_no_front_is_found_is_given_as_it_is() -> None:
+    board = replace(CABINET, parts=CABINET.parts[:1], joints=())
+    given = welded(board, "all in one mesh")
+    assert [part.id for part in given.parts] == [WELDED]
 
 
 def test_ids_stay_unique() -> None:

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 import torch
-from authors_network import FREE, Authors, authors
 from torch import Tensor
 
+from authors_network import FREE, Authors, authors
 from grafu.errors import WeightsError
 from grafu.graph.arrays import LABELS, NULL
 from grafu.network.batch import Predictions, one_graph

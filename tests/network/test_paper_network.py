@@ -1,21 +1,26 @@
 """The paper's network by its parts: padding slots, the second grouping, edges by direction, the authors' words."""
 
 from dataclasses import replace
+from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 import torch
 
 from grafu.completion.features import group_points
-from grafu.graph.arrays import LABEL_CODES, LABELS
+from grafu.completion.session import onnx_runtime
+from grafu.graph.arrays import LABEL_CODES, LABELS, NULL
+from grafu.network.batch import one_graph
 from grafu.network.config import OFFICIAL, PAPER, GraFuConfig
+from grafu.network.export import GRAPH_OUTPUTS, INPUTS, OUTPUTS, PAIR_OUTPUTS, onnx_bytes
 from grafu.network.grafu import GraFu
 from grafu.network.points import PointEncoder, first_within
 from grafu.network.vocabulary import OFFICIAL_WORDS, as_labels
 from grafu.training.config import CONFIGS
 from grafu.vocabulary import PartLabel
 from joined_batches import join_batches
-from random_graphs import TINY, arrays, graph, tiny_network
+from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, arrays, graph, tiny_network
 
 AUTHORS_PARAMETERS = 9_224_401
 BUDGET = replace(TINY, slots=12)
@@ -135,3 +140,46 @@ def test_labels_are_embedded_by_the_authors_codes() -> None:
     codes = torch.arange(len(LABELS))
     for label, row in zip(LABELS, network.encoder.nodes.category(codes[None])[0], strict=True):
         assert torch.equal(row, weight[OFFICIAL_WORDS.index(label.value)])
+
+
+@pytest.mark.slow  # for the export
+@pytest.mark.parametrize("n", [1, 4, 30])
+def test_the_file_of_such_a_network_answers_as_it_does(n: int) -> None:
+    one = arrays(n)
+    one["edges"] = one["edges"].clamp(max=NULL)
+    found = session().run(list(OUTPUTS), {name: one[name].numpy() for name in INPUTS})
+    wanted = tiny_network(ALL)(one_graph(**one))
+    for name, value in zip(OUTPUTS, found, strict=True):
+        expected = getattr(wanted, name).detach().numpy()
+        slots = n + ALL.free_slots
+        if name in PAIR_OUTPUTS:
+            expected = expected[0, :slots, :slots]
+        elif name not in (*GRAPH_OUTPUTS, "parent_abstain", "hinge_abstain"):
+            expected = expected[0, :slots]
+        assert np.abs(expected.reshape(value.shape) - value).max() < 1e-4, name
+
+
+ALL = replace(
+    PAPER,
+    hidden=16,
+    heads=2,
+    encoder_layers=2,
+    decoder_layers=2,
+    edge=12,
+    category=8,
+    points=6,
+    geometry=4,
+    free_slots=3,
+    slots=12,
+    second_radius=0.5,
+    second_neighbours=3,
+    vocabulary="official",
+)
+
+
+@cache
+def session() -> Any:
+    """Returns the network as ONNX Runtime runs it."""
+    sizes = {"points": POINTS, "anchors": ANCHORS, "neighbours": NEIGHBOURS}
+    file = onnx_bytes(tiny_network(ALL), **sizes, kinds="paper", radius=0.2, half_weights=False)
+    return onnx_runtime().InferenceSession(file, providers=["CPUExecutionProvider"])

@@ -16,6 +16,7 @@ from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset, Part, PartSource
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.settling import settled
+from grafu.errors import UnsegmentedAsset
 from grafu.geometry.box import Box
 from grafu.vocabulary import PartLabel
 
@@ -35,15 +36,19 @@ def weld_of(number: int) -> Weld:
 def welded(asset: Asset, how: Weld) -> Asset:
     """Returns what the reader makes of a piece whose parts are welded, without joints.
 
-    What it finds where a part of the piece was has that part's id, so that motions can be compared; names are told to
-    no one, and labels are those that the reader gives.
+    What it finds where a part of the piece was has that part's id, so that motions can be compared; its name is left
+    out, and labels are those that the reader gives.
 
     Raises:
-        AssetError: if nothing that could move is found in it.
+        AssetError: if the reader refuses it for another reason than that it finds no front.
     """
-    reading = Reading("glb", _welded_parts(asset, how), _CONVENTION, None, None, (), grouped=False)
-    found = settled(reading, asset.name, Path(asset.path), _AS_IT_IS).without_annotation()
-    return _named_alike(_laid_back(found), asset)
+    parts = _welded_parts(asset, how)
+    reading = Reading("glb", parts, _CONVENTION, None, None, (), grouped=False)
+    try:
+        found = settled(reading, asset.name, Path(asset.path), _AS_IT_IS)
+    except UnsegmentedAsset:  # no front is found in it: it is given as it is, and nothing of it will move
+        return replace(asset.without_annotation(), parts=parts)
+    return _named_alike(_laid_back(found.without_annotation()), asset)
 
 
 def _welded_parts(asset: Asset, how: Weld) -> tuple[Part, ...]:

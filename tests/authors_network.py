@@ -5,9 +5,9 @@ One graph at a time. Names, what padding slots see and the order of what is join
 
 from itertools import pairwise
 
-import torch
-from torch import Tensor, nn
-from torch.nn.functional import softplus
+import torch  # noqa: TID251  # for tests of network and training alone
+from torch import Tensor, nn  # noqa: TID251
+from torch.nn.functional import softplus  # noqa: TID251
 
 WORDS, HIDDEN, EDGE, HEADS, SLOTS, FREE = 17, 256, 128, 8, 55, 4
 
