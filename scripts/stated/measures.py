@@ -118,7 +118,7 @@ MEASURES = (
     ),
     Measure(
         "welded",
-        "grafu evaluate --data welded:990002:12 --methods annotation,network --tables motion --out {out} --jobs {jobs}",
+        "grafu evaluate --data welded:990002:40 --methods annotation,network --tables motion --out {out} --jobs {jobs}",
         "grafu evaluate --data welded:990002:2 --methods annotation,network --tables motion --out {out} --jobs {jobs}",
         "furniture whose parts are welded: what the reader and the network find of its motions",
         ("benchmarks.md",),

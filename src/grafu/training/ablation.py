@@ -104,6 +104,11 @@ CHOICES: Mapping[str, tuple[str, Mapping[str, object]]] = MappingProxyType(
             "slots that should exist weigh as much as all others (authors' code)",
             {"exists_balanced": True},
         ),
+        "sharp_count": ("the root in the loss of the count starts at a millionth (paper)", {"count_smoothing": 1e-6}),
+        "whole_count": (
+            "the count is of all missing nodes (paper)",
+            {"count_capped": False},
+        ),
         "light_motions": ("motions weigh .3 (authors' code)", {"border": 0.3, "sign": 0.3, "slide": 0.3}),
     }
 )
