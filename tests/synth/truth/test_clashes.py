@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.sweep import opening_stages
 from grafu.asset.edit import yawed
 from grafu.asset.part import AnnotatedJoint, Asset, Part, PartSource
@@ -135,6 +136,15 @@ def test_a_door_in_the_way_whether_open_or_closed_is_not_waited_for():
     asset = make_cabinet(Cabinet(layout=Door(behind=Stack((Drawer(),) * 2))))
     stuck = replace(asset, joints=tuple(replace(j, upper=0.05) if j.part == "door" else j for j in asset.joints))
     assert all(j.after == () for j in articulated_of(stuck).joints)
+
+
+def test_what_follows_a_part_is_not_waited_for_by_it():
+    tongue = part("half", block([0.1, -0.1, 0.05], [0.2, -0.09, 0.1]), PartLabel.DRAWER)  # in the way while closed
+    away = AnnotatedJoint("half", JointType.PRISMATIC, Axis(vec3(0.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)), 0.0, 0.5)
+    asset = Asset("thing", "", "made", (FRONT, tongue), joints=(SLIDE, away))
+    assert {j.child: j.after for j in articulated_of(asset).joints} == {"drawer": ("half_joint",), "half": ()}
+    led = replace(asset, joints=(SLIDE, replace(away, coupling=Coupling("drawer"))))
+    assert opening_stages(articulated_of(led)) == (("drawer_joint", "half_joint"),)
 
 
 def test_a_part_named_like_the_root_keeps_its_name():

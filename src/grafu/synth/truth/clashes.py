@@ -164,7 +164,7 @@ def articulated_of(whole: Asset) -> ArticulatedObject:
     clashes, waits = clashes_of(whole), dict[str, tuple[str, ...]]()
     free = (joint for joint in whole.joints if joint.coupling is None)
     for joint in sorted(free, key=lambda j: len(clashes.bodies_hit(j.part))):
-        waits[joint.part] = _waits_for(joint.part, clashes, waits)
+        waits[joint.part] = _waits_for(joint.part, frozenset(led_by(whole.joints, joint.part)), clashes, waits)
     links += [Link(j.part, tuple(_visual(p) for p in whole.parts if bodies[p.id] == j.part)) for j in whole.joints]
     made: dict[str, Joint] = {}
     for joint in _leaders_first(whole.joints):
@@ -185,9 +185,12 @@ def _leaders_first(joints: Sequence[AnnotatedJoint]) -> Iterator[AnnotatedJoint]
             yield from (by_part[part] for part in led)
 
 
-def _waits_for(part: str, clashes: Clashes, waits: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """Returns the moving parts that must be open before a part moves, none of which waits for that part itself."""
-    others = [other for other in clashes.bodies_hit(part) if part not in all_before(other, waits)]
+def _waits_for(
+    part: str, led: frozenset[str], clashes: Clashes, waits: Mapping[str, tuple[str, ...]]
+) -> tuple[str, ...]:
+    """Returns the moving parts that must be open before a part moves, none of which waits for it or is `led` by it."""
+    hit = (other for other in clashes.bodies_hit(part) if other not in led)
+    others = [other for other in hit if part not in all_before(other, waits)]
     if not others:
         return ()
     still_hit = {clashes.carrier(hit) for hit in clashes.hits(part, others)}
