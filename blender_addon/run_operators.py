@@ -18,6 +18,11 @@ MOTIONS = [
     ("network", "Network", "The trained network"),
     ("rule", "Rule", "The rule-based baseline: names, boxes and handles"),
 ]
+STATICS = [
+    ("both", "Graph and geometry", "What the completed graph expects and what tests of the geometry find missing"),
+    ("graph", "Graph", "Only what the completed graph expects"),
+    ("geometry", "Geometry", "Only what tests of the geometry find missing"),
+]
 _TICK = 0.1  # seconds between looks at the process
 _active = None
 
@@ -194,6 +199,7 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
     keep: BoolProperty(
         name="Keep settings", description="Keep what was chosen for the model before", options={"SKIP_SAVE"}
     )
+    statics: EnumProperty(name="Missing parts by", items=STATICS, default="both", options={"SKIP_SAVE"})
     small_parts: BoolProperty(
         name="Small parts", description="Knobs, buttons, wheels and casters get joints of their own"
     )
@@ -226,10 +232,13 @@ class GRAFU_OT_functionalize(Applies, bpy.types.Operator):
 
     def changed(self, context, settings):
         """Returns fresh settings, or the ones before."""
+        from grafu.additions.statics import Statics
         from grafu.pipeline.motion_source import MotionSource
         from grafu.pipeline.settings import Settings
 
         base = settings if self.keep else Settings()
+        if not self.keep:
+            base = replace(base, additions=replace(base.additions, statics=Statics(self.statics)))
         small = self.small_parts or base.small_parts
         return replace(base, motion=MotionSource(self.motion), small_parts=small)
 

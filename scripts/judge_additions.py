@@ -4,7 +4,8 @@
 
 FOLDER holds pieces of furniture, one folder each; --made judges synthetic furniture with its true joints and all
 hardware, --kinds the catalogue of hard kinds, its moving bodies' own handles taken away.
-All is measured on the objects that come out, by rays and sweeps that share nothing with what made them. Prints a table
+All is measured on the objects that come out, by `grafu.judging`, which shares nothing with what made them, as in the
+table `static` of `grafu evaluate`; here also what additions cost, and what they replace. Prints a table
 in Markdown, one line per piece (of random furniture only those with a fault), and sums it up. --log keeps each piece's
 figures in a file as they come; started again with the same file, it goes on where it stopped. --only interior (or
 top, grasp, handle, joint) looks at that alone, which is faster.
@@ -20,7 +21,7 @@ from functools import partial
 from pathlib import Path
 
 from judge_additions_body import DEFAULT, Inside, interior_faults, joint_faults, top_faults
-from judge_additions_handles import grasp_faults, handle_faults, new_handles
+from judge_additions_handles import grasp_faults, new_handles, worded_handle_faults
 from judge_additions_table import INTERIORS, KINDS, Verdict, crashed, table
 
 from grafu.additions.config import NO_ADDITIONS, AdditionConfig
@@ -116,7 +117,7 @@ def judge(asset: Asset, source: MotionSource, kinds: Sequence[str] = KINDS) -> V
         handles=sum(a.part.label is PartLabel.HANDLE for a in result.additions),
         grips=len(result.fittings.changes.carved),
         grasp_faults=list(grasp_faults(result)) if "grasp" in kinds else [],
-        handle_faults=list(handle_faults(result)) if "handle" in kinds else [],
+        handle_faults=list(worded_handle_faults(result)) if "handle" in kinds else [],
         panels=inside.panels,
         refusals=inside.refusals,
         rooms=inside.rooms,

@@ -12,17 +12,17 @@ from grafu.additions.interior.turned import furnish_scene
 from grafu.additions.step import StepResult
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
 from grafu.asset.part import Asset
+from grafu.evaluation.completeness import SKIN
+from grafu.evaluation.static_table import OPEN
 from grafu.graph.parse import parse_graph
-from grafu.metrics.bodies import largest_side
-from grafu.metrics.panels import empty_rooms, panel_faults
-from grafu.metrics.tops import lost_tops, open_ratio
+from grafu.judging.panels import empty_rooms, panel_faults
+from grafu.judging.tops import lost_tops, open_ratio
+from grafu.metrics.judged import judged_piece
 from grafu.pipeline.additions import add_before_joints, fitted_object
 from grafu.pipeline.functionalize import MOTIONS, Functionalized, choose_source
 from grafu.pipeline.motion_source import MotionSource
 from grafu.vocabulary import PartLabel
 
-OPEN = 0.5  # fraction of the plan that lies open where there is no top
-SKIN = 0.001  # of the largest side: deeper cuts are cuts
 LEAST_OPENING = 0.999  # of the opening that a joint has without additions; the rest is a sweep's last step
 DEFAULT = AdditionConfig()
 
@@ -104,9 +104,10 @@ def interior_faults(result: Functionalized) -> Inside:
         whole = fitted_object(result.object, StepResult(scene, inside.additions))
         counts.append(len(names))
         refusals += [one.why for one in inside.refused]
-        skin = SKIN * largest_side(whole)
-        faults += [f"{request}: `{a}` {what} `{b}`" for a, what, b in panel_faults(whole, names, skin)]
-    empty = [] if any(counts) else empty_rooms(result.object)
+        piece = judged_piece(whole)
+        found = panel_faults(piece, names, SKIN * piece.largest_side)
+        faults += [f"{request}: `{a}` {what} `{b}`" for a, what, b in found]
+    empty = [] if any(counts) else empty_rooms(judged_piece(result.object))
     rooms = [
         " x ".join(f"{side:.2f}" for side in box.size) + f" m at {np.round(box.center, 2).tolist()}" for box in empty
     ]

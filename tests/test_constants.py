@@ -33,7 +33,8 @@ from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfi
 from grafu.completion.decode_config import FactConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
-from grafu.metrics.panels import RoomSearchConfig
+from grafu.judging.coverage import CoverageTestConfig
+from grafu.judging.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
 from grafu.segmentation.config import (
     CandidateConfig,
@@ -117,7 +118,7 @@ OF_MODULES = {
         "scale.py": {"DOOR": SOLD, "STORAGE": SOLD, "TABLE": SOLD, "WINDOW": SOLD, "UNITS": SOLD},
         "standing.py": {"_PLACES": NUMBERING},
     },
-    "metrics": {"panels.py": {"POSES": SAMPLES}},
+    "judging": {"handles.py": {"POSES": SAMPLES}, "panels.py": {"POSES": SAMPLES}},
     "scene": {
         "border.py": {"SNAP": FRAME, "_THIN_BOARD": FRAME, "_FRONT_RAYS": SAMPLES},
         "front.py": {"_TILTED": FRAME, "_SLIDES": FRAME, "_PANEL": FRAME, "_LYING": FRAME},
@@ -172,8 +173,10 @@ IN_FUNCTIONS = {
         "scale.py": {},
         "standing.py": {},
     },
-    "metrics": {
-        "panels.py": {0.01: TOLERANCE, 0.1: TOLERANCE, 0.99: TOLERANCE, 3: NUMBERING, 5: NUMBERING, 6: NUMBERING}
+    "judging": {
+        "coverage.py": {},
+        "handles.py": {},
+        "panels.py": {0.01: TOLERANCE, 0.1: TOLERANCE, 0.99: TOLERANCE, 3: NUMBERING, 5: NUMBERING, 6: NUMBERING},
     },
     "scene": {"border.py": {}, "front.py": {}, "scene.py": {}},
     "segmentation": {
@@ -199,7 +202,7 @@ IN_FUNCTIONS = {
 }
 CONFIGS = (
     AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
-    DrawnGripConfig,
+    CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
     LooseConfig,

@@ -21,6 +21,7 @@ from grafu.dataset.write import ResultSetPlan
 from grafu.evaluation import bootstrap, distribution, measures, methods, moving_parts, plausible, twins
 from grafu.evaluation.llm.config import LlmConfig
 from grafu.evaluation.programs.config import ProgramConfig
+from grafu.judging.coverage import CoverageTestConfig
 from grafu.metrics.collision import TOLERANT, ConnectivityConfig
 from grafu.network.config import GraFuConfig
 from grafu.network.grafu import GraFu
@@ -35,7 +36,7 @@ from stated.constants_built import Sentence, additions, joints, per_cent
 _MATCH = matching.MatchConfig()
 
 CLUSTER, FETCHED = ClusterConfig(), FetchConfig()
-SEEN, VERDICT, SHAPE = FeatureConfig(), VerdictConfig(), DescriptorConfig()
+SEEN, VERDICT, SHAPE, COVERAGE = FeatureConfig(), VerdictConfig(), DescriptorConfig(), CoverageTestConfig()
 
 
 def millions(config: GraFuConfig) -> float:
@@ -92,7 +93,8 @@ def evaluation() -> Iterator[Sentence]:
     yield page, "lie within {} of the other's surface", (twins.ON,)
     yield page, "what is static are within {}", (plausible.NEAR,)
     yield page, "opens to {:g} % of the reference", (per_cent(plausible.OPENS),)
-    yield page, "`masking`: {:g}, {:g}, {:g} and {:g} % of the labels hidden", tuple(map(per_cent, methods.LEVELS))
+    ends = (*methods.LEVELS[:2], methods.LEVELS[-1])
+    yield page, "`masking`: {:g}, {:g}, ... {:g} % of the labels hidden", tuple(map(per_cent, ends))
     yield (
         page,
         "less the mean of {} synthetic models of seed {}",
@@ -106,6 +108,12 @@ def evaluation() -> Iterator[Sentence]:
         yield page, f"\n{name} = {{}} ", (getattr(llm, name),)
     yield page, "timeout = {}                 # seconds for a model", (run.timeout,)
     yield "metrics.md", "the body cuts deeper than {} of the largest side", (TOLERANT.tolerance,)
+    yield (
+        "metrics.md",
+        "within {:g} % of the greatest height over area at all, by rays on a grid of {} cells; a top is there from {}",
+        (per_cent(COVERAGE.band), COVERAGE.cells, COVERAGE.covered),
+    )
+    yield "metrics.md", "{} and {:g} % are those of its code", (COVERAGE.covered, per_cent(COVERAGE.band))
     yield "metrics.md", "compares it with {} of the largest side", (ConnectivityConfig().tolerance,)
 
 

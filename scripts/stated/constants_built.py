@@ -24,8 +24,8 @@ from grafu.asset.wall_units import WallUnitConfig
 from grafu.completion.features import FeatureConfig
 from grafu.export.usd.config import UsdConfig
 from grafu.joints.config import RealizationConfig
+from grafu.judging.tops import DEFAULT_TOP_MEASURE_CONFIG as TOP_MEASURE
 from grafu.metrics.collision import ConnectivityConfig
-from grafu.metrics.tops import DEFAULT_TOP_MEASURE_CONFIG as TOP_MEASURE
 from grafu.simulation.config import CheckConfig
 from grafu.templates import user
 from grafu.templates.rails import TRAVEL

@@ -4,9 +4,9 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from docs_results import LEAD
+from docs_results import HARD, LEAD
 
-from stated.measures import BY_NAME, MEASURES
+from stated.measures import MEASURES
 from stated.store import Stored, Table, drawn_table
 
 FIGURE = re.compile(r"(<!-- figure: ([^:\n]+): ([^\n]+?) / ([^\n]+?) -->)(.*?)(<!-- end -->)", re.DOTALL)
@@ -44,6 +44,8 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("network.md", "doors"): doors(store),
         ("network.md", "facts"): copied(store["synthetic"], 2),
         ("network.md", "motions"): motions(store),
+        ("additions.md", "statics made"): copied(store["statics"], 0),
+        ("additions.md", "statics real"): copied(store["statics"], 1),
         ("training.md", "losses"): copied(store["losses"], 0),
         ("training.md", "folds"): copied(store["folds"], 0),
         ("benchmarks.md", "welded"): ours(store["welded"]),
@@ -54,11 +56,16 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
 
 def results_page(store: Store) -> str:
     """Returns docs/results.md."""
-    kept = store["results"]
-    lead = LEAD.format(
-        command=BY_NAME["results"].command.replace("{models}", "$GRAFU_MODELS").replace("{out}", "results")
+    parts = [(LEAD, store["results"]), (HARD, store["results of hard models"])]
+    return "\n".join(_section(lead, kept) for lead, kept in parts)
+
+
+def _section(lead: str, kept: Stored) -> str:
+    """Returns what one command printed, below a lead that states the command."""
+    command = (
+        kept.command.replace("{models}", "$GRAFU_MODELS").replace("{out}", "results").replace(" --jobs {jobs}", "")
     )
-    return "\n".join([lead.replace(" --jobs {jobs}", ""), *kept.lines]).rstrip("\n") + "\n"
+    return "\n".join([lead.format(command=command), *kept.lines]).rstrip("\n") + "\n"
 
 
 def copied(kept: Stored, number: int) -> str:

@@ -12,7 +12,7 @@ from typing import final
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from docs_results import motion_text, results_text
+from docs_results import hard_text, motion_text, results_text
 
 Read = Callable[[str, Path], str]
 
@@ -35,6 +35,11 @@ def evaluation_tables(_: str, out: Path) -> str:
 def evaluated_motions(_: str, out: Path) -> str:
     """Returns the table of motions that `grafu evaluate` wrote."""
     return motion_text(out)
+
+
+def hard_model_tables(_: str, out: Path) -> str:
+    """Returns the tables that `grafu evaluate` wrote of the harder models, as docs/results.md has them."""
+    return hard_text(out)
 
 
 @final
@@ -124,6 +129,28 @@ MEASURES = (
         ("benchmarks.md",),
         10,
         read=evaluated_motions,
+        weights=True,
+    ),
+    Measure(
+        "results of hard models",
+        "grafu evaluate --data {models}/pnm {models}/pnm2 --methods network --tables motion,outcomes,static,models,ood "
+        "--pictures --out {out} --jobs {jobs}",
+        "grafu evaluate --data {models}/pnm/46408 --methods network --tables motion,outcomes,static,models,ood "
+        "--out {out} --jobs {jobs}",
+        "the tables of `grafu evaluate` on hard models",
+        ("results.md",),
+        15,
+        read=hard_model_tables,
+        weights=True,
+        whole=True,
+    ),
+    Measure(
+        "statics",
+        "python scripts/judge_statics.py {models}/pnm {models}/pnm2 --made 60 --jobs {jobs}",
+        "python scripts/judge_statics.py {models}/pnm/46408 --made 2 --jobs {jobs}",
+        "static parts that are built where the completed graph, the geometry or both decide",
+        ("additions.md",),
+        5,
         weights=True,
     ),
     Measure(

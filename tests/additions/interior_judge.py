@@ -1,4 +1,4 @@
-"""A scene's shelves and dividers before the judge of `grafu.metrics.panels`, which shares nothing with their maker."""
+"""A scene's shelves and dividers before the judge of `grafu.judging.panels`, which shares nothing with their maker."""
 
 from collections.abc import Sequence
 
@@ -6,7 +6,8 @@ from grafu.additions.step import Addition
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.metrics.panels import PanelFault, panel_faults
+from grafu.judging.panels import PanelFault, panel_faults
+from grafu.metrics.judged import judged_piece
 from grafu.scene.scene import Scene
 from grafu.vocabulary import JointType
 
@@ -14,7 +15,7 @@ from grafu.vocabulary import JointType
 def faults_of_panels(additions: Sequence[Addition], scene: Scene, skin: float | None = None) -> list[PanelFault]:
     """Returns (panel, fault, other part) for all that is wrong; a cut of less than `skin` metres is a touch."""
     skin = 0.001 * scene.extent if skin is None else skin
-    return panel_faults(_standing(additions, scene), {addition.part.id for addition in additions}, skin)
+    return panel_faults(judged_piece(_standing(additions, scene)), {addition.part.id for addition in additions}, skin)
 
 
 def _standing(additions: Sequence[Addition], scene: Scene) -> ArticulatedObject:

@@ -8,7 +8,7 @@ from grafu.articulation.convex_pieces import ConvexPieceConfig, convex_pieces
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.metrics.tops import TopMeasureConfig
+from grafu.judging.tops import TopMeasureConfig
 from module_numbers import named_numbers
 
 SOURCE = Path(__file__).parents[2] / "src" / "grafu"
@@ -54,13 +54,17 @@ REASONS = {
         "collision.py": {"TOLERANT": MEASURE},
         "graph_accuracy.py": {"NEAR": MEASURE, "_DISTANCE_WEIGHT": MEASURE},
         "motion.py": {"ANGLE": MEASURE},
+    },
+    "judging": {
+        "handles.py": {"POSES": SAMPLES},
         "panels.py": {"POSES": SAMPLES},
         "tops.py": {"_DIRECTIONS": SAMPLES, "_CELLS": SAMPLES, "_SIDES": SAMPLES},
     },
     "evaluation": {
         "bootstrap.py": dict.fromkeys(("LEVEL", "RESAMPLES", "SEED", "_BLOCK"), SAMPLES),
-        "completeness.py": {"_ONE_PANEL": MEASURE},
+        "completeness.py": dict.fromkeys(("SKIN", "_PANELS"), MEASURE),
         "config_file.py": {"_MOST_BYTES": TEXT},
+        "curves.py": dict.fromkeys(("_PANEL", "_ROOM", "_TICKS"), UNIT),
         "dataset.py": dict.fromkeys(("TEST_SEED", "_DEEPEST", "_MOST_MADE", "_TEST_COUNT"), SAMPLES),
         "dataset_release.py": {"DRAWER_RANGE": MEASURE, "DOOR_RANGE": MEASURE, "_FITS": TOLERANCE},
         "distribution.py": {"TRAINING_COUNT": SAMPLES, "TRAINING_SEED": SAMPLES},
@@ -71,13 +75,25 @@ REASONS = {
         "llm/reply_json.py": {"_MOST_BYTES": TEXT, "_MOST_STARTS": EFFORT},
         "measures.py": {"OPENS": MEASURE},
         "methods.py": {"LEVELS": MEASURE},
-        "motion_table.py": dict.fromkeys(("(TOPS, HANDLES, INTERIORS)", "MASKING", "MODELS", "MOTION"), UNIT),
+        "motion_table.py": dict.fromkeys(
+            (
+                "(TOPLESS, WITH_ROOMS, WITHOUT_ROOMS)",
+                "(TOPS, HANDLES_BEFORE, HANDLES, INTERIORS)",
+                "MASKING",
+                "MODELS",
+                "MOTION",
+                "OUTCOMES",
+            ),
+            UNIT,
+        ),
         "moving_parts.py": dict.fromkeys(("DEPTH_RATIO", "IN_PLANE", "LARGEST", "WIDEST_TURN"), MEASURE),
         "output.py": {"TOP": UNIT},
+        "pictures.py": dict.fromkeys(("MOST", "SIZE", "_FAULTY", "_LETTERS"), UNIT),
         "plausible.py": dict.fromkeys(("(_LINE_POINTS, _SAMPLES)", "_POSES"), SAMPLES)
         | dict.fromkeys(("HELD", "LEVER", "NEAR"), MEASURE),
         "programs/running.py": {"_SAID": TEXT},
         "records.py": {"_MOST_BYTES": EFFORT},
+        "static_table.py": {"OPEN": MEASURE},
         "statistics.py": dict.fromkeys(
             ("(_LOW, _HIGH)", "_CHANCE", "_GROUP", "_GROUPS", "_INSIDE", "_ROUNDING"), SAMPLES
         ),

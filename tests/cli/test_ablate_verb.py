@@ -7,6 +7,7 @@ import pytest
 
 from grafu.cli import ablate
 from grafu.cli.main import main
+from grafu.evaluation import weights_on_models
 from grafu.training import ablation, ablation_run, workers
 from grafu.training.ablation import KINDS
 
@@ -52,6 +53,25 @@ def test_what_is_finished_is_not_trained_again(
     said = capsys.readouterr().out
     assert "3 runs, 3 of them finished before" in said
     assert "| `folds_17` |" in said
+
+
+def test_networks_are_scored_on_annotated_models_once(
+    done: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ["ablate", "folds", *TINY, "--out", str(done), "--real", "synth:990002:2"]
+    assert main(arguments) == 0
+    said = capsys.readouterr().out
+    assert "| real GT-aligned |" in said
+    weights = list(done.glob("*/seed_1/weights.onnx"))
+    assert len(weights) == len(TRIED) + 1
+    header, first, *_ = (done / "table.csv").read_text().splitlines()
+    assert header.endswith(",real/aligned")
+    assert first.endswith(",")
+    means = [line for line in (done / "table.csv").read_text().splitlines() if ",mean," in line]
+    assert all(0.0 <= float(line.rsplit(",", 1)[1]) <= 1.0 for line in means)
+    monkeypatch.delattr(weights_on_models, "aligned_ratio")
+    assert main(arguments) == 0  # what was scored on the same models is not scored again
+    assert capsys.readouterr().out.split("experiment")[1] == said.split("experiment")[1]
 
 
 def test_a_run_that_fails_is_named(

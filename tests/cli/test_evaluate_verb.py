@@ -9,7 +9,8 @@ from folders import contents
 from grafu.cli.main import main
 from small_assets import write_pnm
 
-FEW = ["--methods", "annotation,rule", "--tables", "motion,masking,static,models", "--seeds", "1", "--jobs", "1"]
+FEW = ["--methods", "annotation,rule", "--tables", "motion,outcomes,masking,static,models", "--seeds", "1"]
+FEW += ["--rates", "50,100", "--jobs", "1"]
 
 
 def command(data: Path, out: Path, *more: str) -> list[str]:
@@ -70,6 +71,37 @@ def test_stopped_in_the_middle_the_same_command_gives_the_same_tables(data: Path
     assert said == expected
 
 
+def test_the_rates_are_those_that_are_asked_for(done: Path) -> None:
+    rows = json.loads((done / "tables" / "masking.json").read_text())["rows"]
+    assert [row["rate"] for row in rows if row["method"] == "rule"] == [0.0, 0.5, 1.0]
+    assert "--rates 50,100" in (done / "tables" / "index.md").read_text()
+
+
+def test_several_folders_are_measured_together(data: Path, done: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "rows.jsonl").write_bytes((done / "rows.jsonl").read_bytes())
+    both = ["evaluate", "--data", str(data / "first"), str(data / "second"), "--out", str(out), *FEW]
+    assert main([*both, "--tables", "motion,outcomes"]) == 0
+    assert figures(out, "rule") == figures(done, "rule")
+    outcomes = json.loads((out / "tables" / "outcomes.json").read_text())["rows"]
+    assert [(row["method"], row["models"], row["aligned"]["value"]) for row in outcomes[:2]] == [
+        ("annotation", 2, 1.0),
+        ("rule", 2, 1.0),
+    ]
+
+
+def test_pictures_are_drawn_where_they_are_asked_for(data: Path, done: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "rows.jsonl").write_bytes((done / "rows.jsonl").read_bytes())
+    assert main(command(data, out, "--pictures")) == 0
+    assert (out / "tables" / "masking.svg").read_bytes().startswith(b"<svg")
+    assert not (out / "tables" / "worst.png").exists()  # nothing is wrong
+    assert "(masking.svg)" in (out / "tables" / "index.md").read_text()
+    assert not (done / "tables" / "masking.svg").exists()
+
+
 def test_what_is_done_is_not_done_again(data: Path, done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("grafu.cli.pool.run_all", lambda *_: pytest.fail("there was nothing left to do"))
     before = contents(done / "tables")
@@ -123,6 +155,9 @@ def test_a_file_in_place_of_the_folder_is_said_before_any_work(
         (["--methods", "rule,urdf:nowhere"], "`nowhere` of the method urdf must be a folder"),
         (["--data", "synth:1:99999999999"], "at most 1,000,000 models are made"),
         (["--data", "nowhere"], "does not exist"),
+        (["--data", "synth:1:2", "synth:1:3"], "must have different ids: got `synth_1_0000000` twice"),
+        (["--methods", "network:nothing.onnx"], "`nothing.onnx` of the method network must be a file"),
+        (["--methods", "rule:nothing.onnx"], "method `rule` must be given as `rule` alone"),
     ],
 )
 def test_bad_options_end_in_one_line(

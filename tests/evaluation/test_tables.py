@@ -21,16 +21,20 @@ from grafu.evaluation.records import (
     EvaluatedMotion,
     EvaluatedPart,
     GraspRecord,
+    HandleRecord,
     MadeFacts,
     MeasureRecord,
     MethodFacts,
     ModelFacts,
+    PanelsRecord,
     ResultRow,
+    TopRecord,
     TruthRecord,
     TwinFacts,
 )
-from grafu.evaluation.result_tables import masking_table, models_table, static_table
+from grafu.evaluation.result_tables import masking_table, models_table, outcomes_table
 from grafu.evaluation.results import Results, collect
+from grafu.evaluation.static_table import static_table
 from grafu.evaluation.table import FORMS, Column, ResultTable, csv_text, json_text, latex, markdown
 from grafu.evaluation.tasks import (
     TABLES,
@@ -80,10 +84,19 @@ def made_of(*measures: MeasureRecord, plausible: bool = False) -> MethodFacts:
         EvaluatedPart(part=f"door_{k}", raw=m, fixed=m, plausible=plausible, skipped="" if m.found else "blocked: by x")
         for k, m in enumerate(measures)
     )
-    grasps = tuple(GraspRecord(part=f"door_{k}", before="none", after="handle") for k in range(len(measures)))
-    return MethodFacts(
-        parts=parts,
-        completeness=CompletenessRecord(topless=True, topped=True, grasps=grasps, compartments=2, filled=1),
+    return MethodFacts(parts=parts, completeness=statics(len(measures)))
+
+
+def statics(parts: int, *, opened: tuple[float, float] = (0.9, 0.0)) -> CompletenessRecord:
+    """Returns the statics of a topless model that is completed; the first of its doors gets a grip, no handle."""
+    names = [f"door_{k}" for k in range(parts)]
+    return CompletenessRecord(
+        top=TopRecord(covered=(0.2, 0.9), opened=opened, added=1),
+        handles=tuple(HandleRecord(part=name, before=False, after=k > 0) for k, name in enumerate(names)),
+        grasps=tuple(GraspRecord(part=name, before="none", after="recess") for name in names),
+        added_handles=parts - 1,
+        blocked=min(1, parts - 1),
+        panels=PanelsRecord(compartments=2, filled=1, asked=5, placed=2, faulty=1, rooms=0),
     )
 
 
@@ -202,13 +215,54 @@ def test_masking_is_steady_unless_a_higher_rate_is_better_for_sure() -> None:
 
 
 def test_statics_are_counted_before_and_after() -> None:
-    found = {(r[0], r[1]): r for r in static_table(results()).rows}
-    top = found["rule", "topless models with a top"]
-    assert (top[2], top[3].value, top[4].value) == (2, 0.0, 1.0)
-    grasps = found["rule", "parts that can be grasped"]
-    assert (grasps[2], grasps[3].value, grasps[4].value) == (5, 0.0, 1.0)
-    assert found["rule", "compartments that take panels"][4].value == 0.5
-    assert found["rule", "models whose every compartment does"][4].value == 0.0
+    found = {(r[0], r[1]): r[2:] for r in static_table(results()).rows}
+    of, before, after = found["rule", "topless models that are covered (coverage)"]
+    assert (of, before.value, after.value) == (2, 0.0, 1.0)
+    assert found["rule", "models open from above that are closed"][2].value == 1.0
+    assert found["rule", "closed models that get no other top"][0] == 0
+    of, before, after = found["rule", "parts with a handle"]
+    assert (of, before.value, after.value) == (5, 0.0, pytest.approx(3 / 5))  # grips are no handles
+    assert found["rule", "models whose every part has a handle"][2].value == 0.0
+    assert found["rule", "models whose every moving body can be grasped"][2].value == 1.0
+    assert found["rule", "added handles in the way of nothing"][2].value == pytest.approx(2 / 3)
+    assert found["rule", "compartments that take panels"][2].value == 0.5
+    assert found["rule", "panels placed of those asked for"][2].value == pytest.approx(2 / 5)
+    assert found["rule", "placed panels that are sound"][2].value == 0.5
+    assert found["rule", "models whose every compartment is furnished, all panels sound"][2].value == 0.0
+    assert found["GraFu (the paper, PN-M)", "models whose every part has a handle"][1:] == (310 / 345, 329 / 345)
+
+
+def test_a_second_top_on_what_is_closed_is_a_fault() -> None:
+    rows = run_of_three()
+    task = MethodTask(MODELS[0], RULE)
+    again = made_of(measure()).model_copy(update={"completeness": statics(1, opened=(0.1, 0.0))})
+    rows[task] = row(task, again)
+    found = {(r[0], r[1]): r[2:] for r in static_table(collect(rows, {r.key: r for r in rows.values()})).rows}
+    assert found["rule", "closed models that get no other top"][0] == 1
+    assert found["rule", "closed models that get no other top"][2].value == 0.0
+    assert found["rule", "models open from above that are closed"][0] == 1
+
+
+def test_a_model_is_as_right_as_its_worst_part() -> None:
+    found = {r[0]: r[1:] for r in outcomes_table(results()).rows}
+    count, aligned, twins, wrong_twins, physical, wrong_physical = found["rule"]
+    assert (count, aligned.value, twins.value, wrong_twins.value) == (3, *(pytest.approx(n / 3) for n in (1, 0, 2)))
+    assert (physical.value, wrong_physical.value) == (0.0, pytest.approx(2 / 3))
+    assert found["GraFu (the paper, PN-M)"][1:4] == (266 / 345, 62 / 345, 17 / 345)
+
+
+def test_outcomes_by_twins_and_by_the_physical_test_differ() -> None:
+    wrong = measure(RIGHT, aligned=False)
+    rows = run_of_three()
+    task = MethodTask(MODELS[1], RULE)
+    rows[task] = row(task, made_of(measure(), measure(), wrong, measure(), plausible=True))
+    task = MethodTask(MODELS[2], RULE)
+    rows[task] = row(task, made_of(measure(), wrong))
+    twins = TwinTask(MODELS[0], MODELS[2])
+    rows[twins] = row(twins, TwinFacts(same=True, for_first={}, for_second={"door_1": RIGHT}))
+    found = {r[0]: r[1:] for r in outcomes_table(collect(rows, {r.key: r for r in rows.values()})).rows}
+    outcomes = [cell.value for cell in found["rule"][1:]]
+    assert outcomes == pytest.approx([1 / 3, 1 / 3, 1 / 3, 2 / 3, 0.0])
 
 
 def test_the_farthest_models_come_first_with_their_nearest() -> None:

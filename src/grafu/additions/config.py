@@ -13,6 +13,7 @@ from grafu.additions.handle.config import HandleChoice, HandleConfig
 from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
+from grafu.additions.statics import Statics
 from grafu.additions.top.config import TopConfig
 from grafu.visible import ShortRepr
 
@@ -26,6 +27,8 @@ class AdditionConfig(ShortRepr):
     once.
     """
 
+    statics: Statics = Statics.BOTH
+    """Whether the completed graph, the geometry or both decide what is missing."""
     top: TopConfig | None = field(default_factory=TopConfig)
     replaces_top: bool = False
     """Whether an added top takes the place of one that is there."""
@@ -56,6 +59,13 @@ class AdditionConfig(ShortRepr):
 
 
 NO_ADDITIONS = AdditionConfig(
-    top=None, solid_bodies=None, door_frame=None, drawer_boxes=None, handles=None, grips=None, interior=NOTHING
+    statics=Statics.GEOMETRY,
+    top=None,
+    solid_bodies=None,
+    door_frame=None,
+    drawer_boxes=None,
+    handles=None,
+    grips=None,
+    interior=NOTHING,
 )
 """Motions alone."""

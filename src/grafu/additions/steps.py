@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import final
 
-from grafu.additions.carcass.complete import add_carcass_boards
+from grafu.additions.carcass.step import add_carcass_boards
 from grafu.additions.compartment.complete import cut_compartments
 from grafu.additions.config import AdditionConfig
 from grafu.additions.door_frame.complete import add_door_frame

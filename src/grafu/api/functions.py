@@ -95,6 +95,7 @@ def functionalize(
     motion: str = "auto",
     motions: Mapping[str, str] | None = None,
     weights: PathLikeStr | None = None,
+    statics: str = "both",
     top: bool | str = True,
     handles: bool | str = True,
     drawer_boxes: bool = True,
@@ -118,6 +119,8 @@ def functionalize(
             `particulate:FILE`.
         motions: by the id of a part, how it moves, whatever the source states; see `Result.with_motion`.
         weights: a file of trained weights (ONNX) for the network; None: those that came with the package.
+        statics: what decides which tops, handles, backs, bottoms, shelves and dividers are missing: `graph` (the
+            completed graph), `geometry` (tests of the meshes) or `both`.
         top: whether a missing top is added, or its shape: `rectangle`, `rounded`, `chamfered`, `oval`, `capsule`; sizes
             may follow: `oval,thickness=3cm,front=2cm,side=1cm,back=0`.
         handles: whether handles or grips are added, or their style: a template's id, `grip`, `groove`, `edge`, `hole`;
@@ -146,6 +149,7 @@ def functionalize(
     choice = parse_motion(require(motion, str, "motion", "a motion source such as `auto`"))
     additions = choose_additions(
         open_handles(folder),
+        statics=require(statics, str, "statics", "`graph`, `geometry` or `both`"),
         top=require_bool_or_word(top, "top", "a shape"),
         handles=require_bool_or_word(handles, "handles", "a style"),
         drawer_boxes=require(drawer_boxes, bool, "drawer_boxes", "True or False"),

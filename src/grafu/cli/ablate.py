@@ -36,7 +36,7 @@ _EXAMPLES = """\
 examples:
   grafu ablate losses --out runs/losses
   grafu ablate losses --seeds 1 2 3 --out runs/losses
-  grafu ablate folds --config paper --data FurFun-233 --out runs/folds
+  grafu ablate folds --config paper --data FurFun-233 --real models --out runs/folds
 """
 
 
@@ -61,6 +61,13 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         help="every experiment once with each: which weights and models (default: 1)",
     )
     add_training_options(parser)
+    parser.add_argument(
+        "--real",
+        nargs="+",
+        default=[],
+        metavar="DATA",
+        help="also count the motions of these annotated models that each network states right (as for grafu evaluate)",
+    )
     parser.add_argument(
         "--jobs", type=positive_count, metavar="J", help="runs at once (default: as many as cores, up to 8)"
     )
@@ -106,6 +113,10 @@ def run_ablation(options: argparse.Namespace) -> int:
     title = _title(options, config, runs)
     say(f"{title} {len(runs)} runs, {len(results)} of them finished before.")
     failed = _train(options, runs, results, title)
+    if options.real:
+        from grafu.cli.ablate_real import scored_on_real
+
+        results = scored_on_real(options.real, runs, results)
     table = _write_tables(options.out, title, runs, results)
     if len(results) + failed < len(runs):
         complain(f"stopped with {len(results)} of {len(runs)} runs finished; the same command goes on")

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 # As in `grafu.evaluation.tasks`; spelled again, so that `grafu --help` answers at once.
-_TABLES = "motion,masking,static,models,ood"
+_TABLES = "motion,outcomes,masking,static,models,ood"
 _METHODS = "annotation,rule,network"
 _SECONDS = 900.0  # for a task: to make a model and to measure it
 
@@ -34,18 +34,20 @@ Finished work is kept in DIR/rows.jsonl: after it was stopped or killed, the sam
 
 data:    a folder of models whose joints are annotated (PartNet-Mobility, HSSD with S2O annotations, URDF, the authors'
          releases), results with decisions made in grafu edit, or synth:SEED:COUNT for synthetic furniture
-methods: annotation, rule, network, and what others predicted: particulate:DIR, singapo:DIR, grafu-pred:DIR, urdf:DIR,
-         where DIR holds one entry per model id; particulate-run:FILE, singapo-run:FILE run an installed copy as a TOML
-         file states; llm:MODEL (completed graphs) and llm-edit:MODEL (edits) ask a language model at OPENAI_BASE_URL
-         with OPENAI_API_KEY, and keep its replies; what cannot be run is a row that states so
-tables:  motion, masking (labels hidden), static (tops, grasps, interiors), models (worst first), ood (farthest from
-         what the network was trained on)
+methods: annotation, rule, network (network:FILE: of other weights), and what others predicted: particulate:DIR,
+         singapo:DIR, grafu-pred:DIR, urdf:DIR, where DIR holds one entry per model id; particulate-run:FILE,
+         singapo-run:FILE run an installed copy as a TOML file states; llm:MODEL (completed graphs) and llm-edit:MODEL
+         (edits) ask a language model at OPENAI_BASE_URL with OPENAI_API_KEY, and keep its replies; what cannot be run
+         is a row that states so
+tables:  motion, outcomes (models that are aligned, reasonable, wrong), masking (labels hidden), static (tops,
+         handles, interiors), models (worst first), ood (farthest from what the network was trained on)
 """
 _EXAMPLES = """\
 examples:
   grafu evaluate --data models --out results
   grafu evaluate --data models --methods network,particulate:predictions --tables motion,models --out results
   grafu evaluate --data synth:990002:100 --methods rule,network --out results
+  grafu evaluate --data models more_models --tables masking,models,ood --rates 10,30,50,100 --pictures --out results
   grafu evaluate --data models --methods network,llm:MODEL --llm llm.toml --tables motion,models --out results
 """
 
@@ -56,7 +58,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "evaluate", help="measure methods on annotated models: the paper's tables", description=_DESCRIPTION,
         epilog=_EXAMPLES,
     )  # fmt: skip
-    parser.add_argument("--data", required=True, metavar="DATA", help="the models: a folder, or synth:SEED:COUNT")
+    parser.add_argument(
+        "--data", nargs="+", required=True, metavar="DATA", help="the models: folders, or synth:SEED:COUNT"
+    )
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where rows and tables go")
     parser.add_argument(
         "--split", default="", metavar="NAME", help="of a FurFun release: the test models of this split alone"
@@ -72,6 +76,17 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         metavar="FILE",
         help="of the method network: an ONNX file, or the authors' checkpoint (.pt)",
     )
+    parser.add_argument(
+        "--rates",
+        type=_rates,
+        metavar="LIST",
+        help="how many labels are hidden, in per cent (default: 10,20,30,40,50,60,70,80,90,100)",
+    )
+    parser.add_argument(
+        "--pictures",
+        action="store_true",
+        help="also draw the curves of hidden labels, the models farthest from training, and the worst ones",
+    )
     parser.add_argument("--jobs", type=positive_count, metavar="J", help="processes (default: one per core)")
     parser.add_argument("--overwrite", action="store_true", help="measure everything anew")
     parser.add_argument(
@@ -86,6 +101,16 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     return parser
 
 
+def _rates(text: str) -> tuple[float, ...]:
+    try:
+        rates = tuple(float(word) / 100 for word in text.split(","))
+    except ValueError:
+        rates = ()
+    if not rates or not all(0 < rate <= 1 for rate in rates):
+        raise argparse.ArgumentTypeError(f"must be rates in per cent, above 0 and at most 100: got {text!r}")
+    return rates
+
+
 EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 _SHOWN = ("aligned", "reasonable", "collision", "collision_fixed", "connected_fixed", "works", "works_fixed")
 
@@ -98,6 +123,7 @@ def run(options: argparse.Namespace) -> int:
     """
     from grafu.cli.evaluation_page import evaluation_page
     from grafu.evaluation.output import build_tables, output_files
+    from grafu.evaluation.pictures import picture_files
     from grafu.evaluation.records import NAME, begin_rows
     from grafu.evaluation.results import collect
     from grafu.export.files import ExportFiles, write_files
@@ -118,7 +144,8 @@ def run(options: argparse.Namespace) -> int:
         return EXIT_INTERRUPTED
     results = collect((*first, *pairs), rows)
     tables = build_tables(plan, results)
-    files = ExportFiles(output_files(plan, results, tables, _command(options)))
+    pictures = picture_files(plan, results, tables) if options.pictures else {}
+    files = ExportFiles({**output_files(plan, results, tables, _command(options), tuple(pictures)), **pictures})
     write_files(files, options.out / "tables", overwrite=True)
     write_whole(evaluation_page(f"Evaluation on {plan.data}", tables), options.out / RUN_PAGE)
     _say(tables, results, options.out)
@@ -137,9 +164,9 @@ def _require_room(out: Path) -> None:
 def _plan(options: argparse.Namespace) -> "EvaluationPlan":
     from grafu.cli.weights_option import usable_weights
     from grafu.evaluation.config_file import read_config
-    from grafu.evaluation.dataset import find_models
+    from grafu.evaluation.dataset import find_all_models
     from grafu.evaluation.llm.config import LlmConfig
-    from grafu.evaluation.methods import MethodOptions, parse_method
+    from grafu.evaluation.methods import LEVELS, MethodOptions, parse_method
     from grafu.evaluation.tasks import EvaluationPlan
 
     llm = read_config(options.llm, LlmConfig) if options.llm else LlmConfig()
@@ -149,9 +176,12 @@ def _plan(options: argparse.Namespace) -> "EvaluationPlan":
     absent = next((method for method in methods if method.folder is not None and not method.folder.is_dir()), None)
     if absent is not None:
         raise OptionError(f"`{absent.folder}` of the method {absent.name} must be a folder with an entry per model id")
-    return EvaluationPlan(
-        options.data, find_models(options.data, options.split), methods, _words(options.tables), options.seeds
-    )
+    untold = next((method.weights for method in methods if method.weights and not method.weights.is_file()), None)
+    if untold is not None:
+        raise OptionError(f"`{untold}` of the method network must be a file that `grafu train` exported")
+    models, tables = find_all_models(options.data, options.split), _words(options.tables)
+    rates = options.rates or LEVELS
+    return EvaluationPlan(" ".join(options.data), models, methods, tables, options.seeds, levels=rates)
 
 
 def _words(text: str) -> tuple[str, ...]:
@@ -201,14 +231,17 @@ def _named(task: "Task") -> str:
 
 def _command(options: argparse.Namespace) -> str:
     """Returns the command that gives these tables, whatever it was spelled like."""
-    words = ["grafu", "evaluate", "--data", options.data, "--methods", options.methods, "--tables", options.tables]
+    words = ["grafu", "evaluate", "--data", *options.data, "--methods", options.methods, "--tables", options.tables]
+    rates = options.rates and ",".join(f"{100 * rate:g}" for rate in options.rates)
     given = [
         ("--split", options.split or None),
         ("--weights", options.weights),
+        ("--rates", rates),
         ("--llm", options.llm),
         ("--replies", options.replies),
     ]
     more = [word for name, path in given if path is not None for word in (name, str(path))]
+    more += ["--pictures"] if options.pictures else []
     return shlex.join([*words, "--seeds", str(options.seeds), *more, "--out", str(options.out)])
 
 

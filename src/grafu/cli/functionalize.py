@@ -11,11 +11,14 @@ from grafu.cli.format_option import add_formats_option
 from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.part_options import (
+    GRASP_HELP,
     MOVE_HELP,
     add_addition_options,
     add_base_option,
     motion_choice,
+    part_grasp,
     part_move,
+    with_grasps,
     with_moves,
 )
 from grafu.cli.stated_settings import MOST_SETTINGS, stated_settings
@@ -66,6 +69,9 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "for each name (default: auto)",
     )
     parser.add_argument("--move", action="append", type=part_move, default=[], metavar="PART=HOW", help=MOVE_HELP)
+    parser.add_argument(
+        "--grasp", action="append", type=part_grasp, default=[], metavar="PART=STYLE[,...]", help=GRASP_HELP
+    )
     add_formats_option(parser)
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     add_cluster_option(parser)
@@ -179,6 +185,8 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     open_gallery(options.templates).preferring(settings.hinge)
     prediction = options.motion if options.motion and options.motion.source.is_foreign else None
     is_whole = settings.reading.pieces == "together" or settings.reading.piece is not None
+    if options.grasp:
+        settings = with_grasps(settings, options.grasp, alone and is_whole)
     if options.move:
         settings = with_moves(settings, options.move, alone and is_whole, prediction)
     return JobOptions(

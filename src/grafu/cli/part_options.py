@@ -70,6 +70,43 @@ def with_moves(
     return settings
 
 
+GRASP_HELP = (
+    "what a door or drawer is grasped by, whatever the others get: none, a handle of `grafu templates`, or a carved "
+    "grip: grip, groove, edge, hole; its sizes may follow: door_1=groove,length=12cm,width=3cm,depth=1cm,"
+    "profile=sharp; once for each part"
+)
+"""The help of `--grasp`."""
+Grasp = tuple[str, str]
+
+
+def part_grasp(text: str) -> Grasp:
+    """Returns a part's id and what it is grasped by, of `PART=STYLE[,SIZE=LENGTH...]`.
+
+    Raises:
+        argparse.ArgumentTypeError: if it is not of that form.
+    """
+    choice, *sizes = text.split(",")
+    part, _, style = choice.rpartition("=")
+    if not part or not style:
+        raise argparse.ArgumentTypeError(f"must be PART=STYLE, sizes behind the style: got {text!r}")
+    return part, ",".join([style, *sizes])
+
+
+def with_grasps(settings: "Settings", grasps: "Sequence[Grasp]", alone: bool) -> "Settings":
+    """Returns the settings in which these parts are grasped so; `alone` states that there is one input only.
+
+    Raises:
+        OptionError: if there are several inputs, or what follows a style is no size.
+    """
+    from grafu.pipeline.addition_choice import front_choice
+
+    if not alone:
+        raise OptionError("`--grasp` names parts of one model: give one input, of split pieces one by --piece")
+    for part, stated in grasps:
+        settings = settings.with_front(part, front_choice(stated))
+    return settings
+
+
 def add_base_option(parser: argparse.ArgumentParser) -> None:
     """Adds --base: what holds the piece in a simulator."""
     parser.add_argument(
@@ -88,6 +125,7 @@ def _base(text: str) -> BaseKind:
 
 
 TOP_SHAPES = ("rectangle", "rounded", "chamfered", "oval", "capsule")
+STATICS = ("graph", "geometry", "both")  # as in `grafu.additions.statics`
 GRIPS = ("grip", "groove", "edge", "hole")  # `grip`: whichever of the others fits
 
 
@@ -95,6 +133,12 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
     """Adds what is said of additions: --only, --no-top, --no-handles, ..., --small-parts and --complete."""
     group = parser.add_argument_group("what is added (by default: tops, handles, drawer boxes, predicted shelves)")
     group.add_argument("--only", choices=("dynamic",), help="dynamic: joints and their hardware, nothing else is added")
+    group.add_argument(
+        "--statics",
+        choices=STATICS,
+        help="what decides which tops, handles, backs, bottoms, shelves and dividers are missing: the completed graph, "
+        "tests of the geometry, or both (default: both)",
+    )
     group.add_argument("--no-top", action="store_true", help="add no top, also where there is none")
     group.add_argument("--no-handles", action="store_true", help="add no handles and carve no grips")
     group.add_argument("--no-drawer-boxes", action="store_true", help="leave drawers that are only a front as they are")
@@ -158,6 +202,7 @@ def addition_config(
         return choose_additions(
             handles,
             base=base,
+            statics=options.statics,
             top=False if options.no_top else options.top,
             handles=False if options.no_handles else options.handle,
             drawer_boxes=False if options.no_drawer_boxes else None,
@@ -178,6 +223,7 @@ def _require_consistent(options: argparse.Namespace) -> None:
         "--handle": options.handle,
         "--interior": options.interior,
         "--complete": options.complete,
+        "--statics": options.statics,
     }
     pairs = [("--only", options.only, name) for name in asked]
     pairs += [("--no-top", options.no_top, "--top"), ("--no-handles", options.no_handles, "--handle")]

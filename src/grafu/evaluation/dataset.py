@@ -6,6 +6,7 @@ furniture that is made on the spot.
 """
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import count
@@ -104,6 +105,20 @@ def find_models(data: str | Path, split: str = "") -> tuple[ModelRef, ...]:
         state = "holds no model" if path.exists() else "does not exist"
         raise UnreadableAsset(f"{path} {state}: expected {EXPECTED}")
     return _with_unique_ids(found)
+
+
+def find_all_models(data: Sequence[str | Path], split: str = "") -> tuple[ModelRef, ...]:
+    """Returns the models of several datasets together, each in the order of `find_models`; of releases, of a split.
+
+    Raises:
+        OptionError: as by `find_models`, or if two of them have models of one id.
+        AssetError: as by `find_models`.
+    """
+    found = [ref for one in data for ref in find_models(one, split)]
+    twice = [name for name, number in Counter(ref.id for ref in found).items() if number > 1]
+    if twice:
+        raise OptionError(f"models of several datasets must have different ids: got `{twice[0]}` twice")
+    return tuple(found)
 
 
 def load_model(ref: ModelRef) -> Asset:

@@ -27,8 +27,8 @@ from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 
-LEVELS = (0.1, 0.3, 0.5, 1.0)
-"""The paper's rates."""
+LEVELS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+"""The paper's rates (0.1, 0.3, 0.5, 1) and those between."""
 
 
 def masked(asset: Asset, ratio: float, seed: int) -> Asset:
@@ -72,7 +72,7 @@ class Method:
     """A source of motions by its name, and where it needs that, from where they come.
 
     Predictions of others have a folder that holds one entry per model id; what is run has a program, what is asked a
-    language model. The network may have other weights than those that ship.
+    language model. The network may have `weights` in a file; None: those that came with the package.
 
     Raises:
         OptionError: if the name is none of those known, or what it needs is missing or superfluous.
@@ -95,11 +95,13 @@ class Method:
             if (self.name in names) != (given is not None):
                 said = f"`{self.name}:{spelled}" if self.name in names else f"`{self.name}` alone"
                 raise OptionError(f"method `{self.name}` must be given as {said}")
+        if self.weights is not None and self.name != "network":
+            raise OptionError(f"weights are for the method network: got `{self.name}`")
 
     @property
     def spelled(self) -> str:
         """The method as the command spells it."""
-        of = self.folder or (self.program and self.program.path) or (self.model and self.model.name)
+        of = self.folder or self.weights or (self.program and self.program.path) or (self.model and self.model.name)
         return f"{self.name}:{of}" if of else self.name
 
     @property
@@ -123,7 +125,7 @@ class MethodOptions:
 
 
 def parse_method(text: str, options: MethodOptions = MethodOptions()) -> Method:
-    """Returns the method that a word of the command line spells: `network`, `particulate:DIR`, `llm:MODEL`.
+    """Returns the method that a word of the command line spells: `network:FILE`, `particulate:DIR`, `llm:MODEL`.
 
     Raises:
         OptionError: if it spells none, or the file that it names cannot be read.
@@ -134,7 +136,9 @@ def parse_method(text: str, options: MethodOptions = MethodOptions()) -> Method:
     if name in RUN and of:
         config = read_config(Path(of), ProgramConfig)
         return Method(name, program=OutsideProgram(Path(of), config, options.outputs, name.removesuffix("-run")))  # type: ignore[arg-type]
-    return Method(name, Path(of) if of else None, weights=options.weights if name == "network" else None)
+    if name == "network":
+        return Method(name, weights=Path(of) if of else options.weights)
+    return Method(name, Path(of) if of else None)
 
 
 def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = False) -> Functionalized:

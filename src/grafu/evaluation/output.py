@@ -5,7 +5,7 @@ Nothing in them depends on the day, the machine's speed or the order of work: th
 The models farthest from what weights are trained on, what is odd about them, and whether distance costs success.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
@@ -16,8 +16,9 @@ from grafu.evaluation.distribution import FEATURE_NAMES, TRAINING_SEED, Distribu
 from grafu.evaluation.figures import by_object
 from grafu.evaluation.methods import FOREIGN
 from grafu.evaluation.motion_table import motion_table
-from grafu.evaluation.result_tables import masking_table, models_table, static_table
+from grafu.evaluation.result_tables import masking_table, models_table, outcomes_table
 from grafu.evaluation.results import Results
+from grafu.evaluation.static_table import static_table
 from grafu.evaluation.table import FORMS, Cell, Column, ResultTable, markdown
 from grafu.evaluation.tasks import EvaluationPlan
 from grafu.evaluation.usage_table import usage_table
@@ -83,8 +84,14 @@ def _correlation(distances: dict[str, float], success: dict[str, float]) -> str:
     return f"{float(spearmanr(far, good).statistic):+.2f}"
 
 
+PICTURES: Final = {
+    "masking.svg": "Curves of hidden labels, with the 95 % interval; points: the paper, PN-M",
+    "ood.png": "Models farthest from the training distribution, and the nearest training model of each",
+    "worst.png": "What is wrong, in red: as annotated, and as built",
+}
 _BUILDERS: Final[dict[str, Callable[[Results], ResultTable]]] = {
     "motion": motion_table,
+    "outcomes": outcomes_table,
     "masking": masking_table,
     "static": static_table,
     "models": models_table,
@@ -123,14 +130,19 @@ def build_tables(plan: EvaluationPlan, results: Results) -> tuple[ResultTable, .
 
 
 def output_files(
-    plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ...], command: str
+    plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ...], command: str, pictures: Sequence[str] = ()
 ) -> dict[str, bytes]:
-    """Returns each file's bytes by its name: `index.md`, and `<table>.md`, `.csv`, `.json` and `.tex` of each table."""
+    """Returns each file's bytes by its name: `index.md`, and `<table>.md`, `.csv`, `.json` and `.tex` of each table.
+
+    `pictures` are the names of those of `PICTURES` that lie beside them.
+    """
     files = {f"{table.name}.{form}": write(table).encode() for table in tables for form, write in FORMS.items()}
-    return {"index.md": _index(plan, results, tables, command).encode(), **files}
+    return {"index.md": _index(plan, results, tables, command, pictures).encode(), **files}
 
 
-def _index(plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ...], command: str) -> str:
+def _index(
+    plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ...], command: str, pictures: Sequence[str]
+) -> str:
     parts = sum(len(facts.parts) for facts in results.models.values())
     counted = sum(bool(facts.parts) for facts in results.models.values())
     lines = [
@@ -159,6 +171,7 @@ def _index(plan: EvaluationPlan, results: Results, tables: tuple[ResultTable, ..
         "",
         _HOW,
         *(markdown(table).replace("# ", "## ", 1) for table in tables if table.name != "models"),
+        *(f"## {PICTURES[name]}\n\n![{PICTURES[name]}]({name})\n" for name in pictures),
         *_not_run(results),
         *_failures(results),
     ]

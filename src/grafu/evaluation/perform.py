@@ -135,7 +135,7 @@ def method_facts(asset: Asset, result: Functionalized) -> MethodFacts:
                 skipped=_why_standing(part, fixed, result, skipped),
             )
         )
-    return MethodFacts(parts=tuple(parts), completeness=CompletenessRecord.of(completeness_of(result)))
+    return MethodFacts(parts=tuple(parts), completeness=CompletenessRecord.of(completeness_of(asset, truth, result)))
 
 
 def mask_facts(task: MaskTask) -> MethodFacts:

@@ -100,26 +100,47 @@ class GraspRecord(EvaluationRecord):
     after: str
 
 
+class HandleRecord(EvaluationRecord):
+    """Whether a part that counts has a handle before and after."""
+
+    part: str
+    before: bool
+    after: bool
+
+
+class TopRecord(EvaluationRecord):
+    """How far a piece is covered from above, and open past its rim, before and after; how many tops were added."""
+
+    covered: tuple[FiniteFloat, FiniteFloat]
+    opened: tuple[FiniteFloat, FiniteFloat]
+    added: int
+
+
+class PanelsRecord(EvaluationRecord):
+    """What becomes of 1 to 3 shelves or dividers at random in each compartment (see `RandomPanels`)."""
+
+    compartments: int
+    filled: int
+    asked: int
+    placed: int
+    faulty: int
+    rooms: int
+
+
 class CompletenessRecord(EvaluationRecord):
     """What of the statics was missing, and what is there now (see `Completeness`)."""
 
-    topless: bool
-    topped: bool
+    top: TopRecord
+    handles: tuple[HandleRecord, ...]
     grasps: tuple[GraspRecord, ...]
-    compartments: int
-    filled: int
+    added_handles: int
+    blocked: int
+    panels: PanelsRecord
 
     @classmethod
     def of(cls, found: Completeness) -> "CompletenessRecord":
         """Returns the record of what was found."""
-        grasps = tuple(GraspRecord(part=g.part, before=g.before, after=g.after) for g in found.grasps)
-        return cls(
-            topless=found.topless,
-            topped=found.topped,
-            grasps=grasps,
-            compartments=found.compartments,
-            filled=found.filled,
-        )
+        return cls.model_validate(asdict(found))
 
 
 class TruthRecord(EvaluationRecord):

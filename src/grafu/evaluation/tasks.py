@@ -125,15 +125,13 @@ def _of_method(method: Method, model: ModelRef) -> dict[str, str]:
         return {"method": method.spelled, "program": program_hash(method.program)}
     if method.model is not None:
         return {"method": method.spelled, "prompt": prompt_hash(method.name, method.model)}
-    return {
-        "method": method.name,
-        "weights": _weights(method.weights or SHIPPED_WEIGHTS) if method.name == "network" else "",
-    }
+    weights = method.weights or SHIPPED_WEIGHTS
+    return {"method": method.name, "weights": _hash_of(weights) if method.name == "network" else ""}
 
 
 @cache
-def _weights(path: Path) -> str:
-    data = path.read_bytes() if path.is_file() else b""
+def _hash_of(weights: Path) -> str:
+    data = weights.read_bytes() if weights.is_file() else b""
     return sha256(data).hexdigest()[:16]
 
 
@@ -158,14 +156,14 @@ def _content(file: Path, given: Path) -> bytes:
         return b""
 
 
-TABLES: Final = ("motion", "masking", "static", "models", "ood")
+TABLES: Final = ("motion", "outcomes", "masking", "static", "models", "ood")
 PREFERRED: Final = ("network", "rule")  # whose labels are hidden, and whose success is set against distance
 
 
 @final
 @dataclass(frozen=True)
 class EvaluationPlan:
-    """A run: the data as it was given, its models, methods and tables, and how many seeds labels are hidden with.
+    """A run: the data as it was given, its models, methods and tables; which fractions of labels are hidden, how often.
 
     Raises:
         OptionError: if there is no model, method or table, one is given twice, or a table needs a method that is
@@ -178,6 +176,7 @@ class EvaluationPlan:
     tables: tuple[str, ...] = TABLES
     seeds: int = 5
     training: int = TRAINING_COUNT
+    levels: tuple[float, ...] = LEVELS
 
     def __post_init__(self) -> None:
         named = ("models", [m.id for m in self.models]), ("methods", [m.spelled for m in self.methods])
@@ -189,13 +188,15 @@ class EvaluationPlan:
             raise OptionError(f"a table must be one of {', '.join(TABLES)}: got `{unknown[0]}`")
         if self.seeds < 1 or self.training < 2:
             raise OptionError(f"seeds must be 1 or more, training models 2: got {self.seeds} and {self.training}")
+        if not all(0 < level <= 1 for level in self.levels) or len(set(self.levels)) < len(self.levels):
+            raise OptionError(f"rates of hidden labels must be above 0, at most 100 %, each once: got {self.levels}")
         if "masking" in self.tables and not self.masked_methods:
             raise OptionError("the table `masking` needs the method network or rule: add one to --methods")
 
     @property
     def masked_methods(self) -> tuple[Method, ...]:
         """The methods whose labels are hidden: the network, or the rule where it is not asked for."""
-        by_name = {method.name: method for method in self.methods}
+        by_name = {method.name: method for method in reversed(self.methods)}
         return tuple(by_name[name] for name in PREFERRED if name in by_name)[:1]
 
     @property
@@ -209,7 +210,7 @@ class EvaluationPlan:
         found += [MethodTask(model, method) for method in self.methods for model in self.models]
         if "masking" in self.tables:
             for method in self.masked_methods:
-                found += mask_tasks(self.models, method, LEVELS, self.seeds)
+                found += mask_tasks(self.models, method, self.levels, self.seeds)
         if "ood" in self.tables:
             found += [MadeTask(TRAINING_SEED, number) for number in range(self.training)]
         return tuple(found)

@@ -10,8 +10,9 @@ from grafu.additions.config import AdditionConfig
 from grafu.additions.door_frame.config import DoorFrameConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripKind, GripProfile
-from grafu.additions.handle.config import HandleConfig
+from grafu.additions.handle.config import HandleChoice, HandleConfig
 from grafu.additions.interior.request import InteriorRequest, parse_interior
+from grafu.additions.statics import Statics
 from grafu.additions.top.config import TopConfig
 from grafu.errors import OptionError, did_you_mean
 from grafu.pipeline.sized_words import SizedWord, sized_word
@@ -30,6 +31,7 @@ def choose_additions(
     known_handles: Collection[str],
     *,
     base: AdditionConfig | None = None,
+    statics: str | None = None,
     top: bool | str | None = None,
     handles: bool | str | None = None,
     drawer_boxes: bool | None = None,
@@ -43,6 +45,7 @@ def choose_additions(
     Args:
         known_handles: the ids of all handle templates.
         base: what is changed; None: the defaults.
+        statics: who decides what is missing: `graph`, `geometry` or `both`.
         top: whether tops are added, or their shape: one of `TOP_SHAPES`, sizes behind it, such as `oval,thickness=3cm`.
         handles: whether handles and grips are added, or their style: a template's id or one of `GRIPS`, sizes behind
             the latter, such as `groove,length=12cm,profile=sharp`.
@@ -56,6 +59,8 @@ def choose_additions(
         OptionError: if there is no such shape, style or interior.
     """
     config = base or AdditionConfig()
+    if statics is not None:
+        config = replace(config, statics=_statics(statics))
     if top is not None:
         config = replace(config, top=_top(top, config.top))
     if drawer_boxes is not None:
@@ -69,6 +74,13 @@ def choose_additions(
     if interior is not None:
         config = replace(config, interior=_interior(interior))
     return config if handles is None else _with_handles(config, handles, known_handles)
+
+
+def _statics(wanted: str) -> Statics:
+    words = tuple(word.value for word in Statics)
+    if wanted not in words:
+        raise OptionError(f"`statics` must be one of {', '.join(words)}: got {wanted!r}{did_you_mean(wanted, words)}")
+    return Statics(wanted)
 
 
 def _interior(wanted: str) -> InteriorRequest:
@@ -119,6 +131,18 @@ def _grip(wanted: str) -> GripConfig:
     sizes = usual.sizes.with_lengths(*(stated.lengths.get(name, 0.0) for name in GRIP_SIZES))
     profile: GripProfile = "sharp" if stated.words.get("profile") == "sharp" else "rounded"
     return replace(usual, kind="auto" if stated.word == "grip" else GripKind(stated.word), profile=profile, sizes=sizes)
+
+
+def front_choice(stated: str) -> HandleChoice:
+    """Returns what one door or drawer is grasped by: `knob-round`, `none`, or a grip as `groove,depth=8mm`.
+
+    Raises:
+        OptionError: if what follows the style is no length or profile.
+    """
+    found = sized_word(stated, "grasp", GRIP_SIZES, {"profile": GRIP_PROFILES})
+    _require_above_zero(found, "grasp", GRIP_SIZES)
+    sizes: dict[str, Any] = {**found.lengths, **found.words}
+    return HandleChoice(found.word, **sizes)
 
 
 def _require_above_zero(stated: SizedWord, option: str, names: Collection[str]) -> None:

@@ -1,10 +1,12 @@
 """What a run adds, before its joints are built and after: the request to the steps, and their results on the object."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from grafu.additions.carcass.step import BOARDS
 from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.compartments import compartments_found
+from grafu.additions.statics import Statics
 from grafu.additions.step import PanelHint, StepRequest, StepResult
 from grafu.additions.steps import BEFORE_JOINTS, INSIDE, ON_FRONTS, run_steps
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
@@ -12,6 +14,7 @@ from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.intersection import forget_large_shapes
 from grafu.graph.completion import GraphCompletion
+from grafu.graph.functional_graph import PartNode
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.joints.realize import Realized
@@ -35,13 +38,15 @@ def add_before_joints(
 ) -> StepResult:
     """Returns the asset with the tops, boards and drawer boxes that it lacks and may have: joints must respect them."""
     nodes = completion.completed.nodes
-    expected = (completion.completed.node(name) for name in completion.added)
+    expected = _expected(completion, config.statics)
     request = StepRequest(
         plan,
         drawers,
         (asset.name, *(part.source.name for part in asset.parts)),
         frozenset(node.id for node in nodes if node.label is PartLabel.TOP_PANEL),
         next((node.box for node in expected if node.label is PartLabel.TOP_PANEL), None),
+        boards=frozenset(node.label for node in expected) & BOARDS,
+        only_expected=config.statics is Statics.GRAPH,
     )
     made = run_steps(BEFORE_JOINTS, planned_scene(asset, plan), request, config)
     return replace(made, scene=made.scene.afresh())
@@ -59,23 +64,35 @@ def add_after_joints(
     Raises:
         TemplateError: if the config names a handle that there is not.
     """
-    request = StepRequest(plan, handles=_handle_hints(completion), panels=_panel_hints(completion), own_handles=own)
+    expected = _expected(completion, config.statics)
+    request = StepRequest(
+        plan,
+        handles=_handle_hints(completion, expected),
+        panels=_panel_hints(expected),
+        only_expected=config.statics is Statics.GRAPH,
+        own_handles=own,
+    )
     fronts = run_steps(ON_FRONTS, scene, request, config)
     made = fronts.then(run_steps(INSIDE, fronts.scene, request, config))
     forget_large_shapes()
     return replace(made, scene=made.scene.afresh()), fronts.scene.afresh(compartments_found)
 
 
-def _handle_hints(completion: GraphCompletion) -> dict[str, Vec3]:
+def _expected(completion: GraphCompletion, statics: Statics) -> tuple[PartNode, ...]:
+    """Returns the nodes that the completed graph adds, where it is asked."""
+    asked = statics is not Statics.GEOMETRY
+    return tuple(completion.completed.node(name) for name in completion.added) if asked else ()
+
+
+def _handle_hints(completion: GraphCompletion, expected: Sequence[PartNode]) -> dict[str, Vec3]:
     """Returns where handles were predicted, by the part that they are for."""
-    graph, new = completion.completed, set(completion.added)
-    return {edge.parent: graph.node(edge.child).box.center for edge in graph.attachments if edge.child in new}
+    new = {node.id: node for node in expected}
+    return {edge.parent: new[edge.child].box.center for edge in completion.completed.attachments if edge.child in new}
 
 
-def _panel_hints(completion: GraphCompletion) -> tuple[PanelHint, ...]:
-    nodes = (completion.completed.node(name) for name in completion.added)
+def _panel_hints(expected: Sequence[PartNode]) -> tuple[PanelHint, ...]:
     inner = (PartLabel.SHELF, PartLabel.DIVIDER)
-    return tuple(PanelHint(node.id, node.label, node.box) for node in nodes if node.label in inner)
+    return tuple(PanelHint(node.id, node.label, node.box) for node in expected if node.label in inner)
 
 
 def without_idle(made: StepResult, realized: Realized) -> tuple[StepResult, Realized]:

@@ -1,4 +1,4 @@
-"""A word with sizes, as options state it: `oval,thickness=3cm,front=0`. It knows no shapes and no styles."""
+"""A word with sizes, as options state it: `oval,thickness=3cm,front=0`; which words there are, others know."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass

@@ -190,6 +190,8 @@ _COLUMNS = {
     "added_centre": "added off ↓",
     "score": "score",
 }
+REAL = "real/aligned"
+"""The figure of a run on annotated models: the mean of their fractions of motions that are as annotated."""
 _BETTER_LESS = ("centre", "half", "added_centre")
 
 
@@ -218,9 +220,10 @@ def markdown_table(results: Sequence[AblationResult]) -> str:
     rows: dict[str, list[AblationResult]] = {}
     for result in results:
         rows.setdefault(result.experiment.name, []).append(result)
-    figures = {name: {column: _seen(ones, column) for column in _COLUMNS} for name, ones in rows.items()}
-    best = {column: _best([row[column] for row in figures.values()], column) for column in _COLUMNS}
-    lines = [_line(["experiment", *_COLUMNS.values()]), _line(["---", *["---:"] * len(_COLUMNS)])]
+    shown = _COLUMNS | ({REAL: "real GT-aligned"} if any(REAL in one.figures for one in results) else {})
+    figures = {name: {column: _seen(ones, column) for column in shown} for name, ones in rows.items()}
+    best = {column: _best([row[column] for row in figures.values()], column) for column in shown}
+    lines = [_line(["experiment", *shown.values()]), _line(["---", *["---:"] * len(shown)])]
     for name, row in figures.items():
         lines.append(_line([f"`{name}`", *(_cell(values, best[column]) for column, values in row.items())]))
     meanings = [f"- `{name}`: {ones[0].experiment.states}" for name, ones in rows.items()]
@@ -231,10 +234,12 @@ def csv_table(results: Sequence[AblationResult]) -> str:
     """Returns a line for each run and kind of input, and one for their mean, with every figure there is."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["experiment", "seed", "input", *_NAMES])
+    with_real = any(REAL in one.figures for one in results)
+    writer.writerow(["experiment", "seed", "input", *_NAMES, *([REAL] if with_real else [])])
     for result in results:
         for variant in (*VARIANTS, MEAN):
-            values = result.of(variant).values()
+            real = [result.figures.get(REAL, math.nan) if variant == MEAN else math.nan] if with_real else []
+            values = (*result.of(variant).values(), *real)
             cells = ["" if math.isnan(value) else f"{value:.6g}" for value in values]
             writer.writerow([result.experiment.name, result.seed, variant, *cells])
     return text.getvalue()
@@ -242,7 +247,10 @@ def csv_table(results: Sequence[AblationResult]) -> str:
 
 def _seen(results: Sequence[AblationResult], column: str) -> list[float]:
     """Returns a figure of every seed that has it."""
-    values = [result.figures["score"] if column == "score" else result.of(MEAN)[column] for result in results]
+    if column in ("score", REAL):
+        values = [result.figures.get(column, math.nan) for result in results]
+    else:
+        values = [result.of(MEAN)[column] for result in results]
     return [value for value in values if not math.isnan(value)]
 
 

@@ -1,7 +1,7 @@
 """Boards that close a carcass: a thin back between the walls or planted on their rear edges, a bottom between them.
 
-They are added on request only. Each fits the real meshes: rays say where walls end, and a board that would pierce
-anything, at rest or as a drawer runs, is not added. Boards are static and look like the body.
+They are added where they are requested or predicted. Each fits the real meshes: rays say where walls end, and a board
+that would pierce anything, at rest or as a drawer runs, is not added. Boards are static and look like the body.
 
 The room that boards have in a carcass, in a view: walls about a spot, what a board pierces, what holds it.
 """
@@ -15,10 +15,10 @@ import numpy as np
 
 from grafu.additions.carcass.bays import Bay, FrontsView
 from grafu.additions.carcass.config import CarcassConfig
-from grafu.additions.carcass.missing_panels import MissingPanel, missing_panels, panels_missing
+from grafu.additions.carcass.missing_panels import MissingPanel, panels_missing
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.additions.likeness import surface_like
-from grafu.additions.step import Addition, Deficiency, DeficiencyKind, StepRequest, StepResult, added_part, free_ids
+from grafu.additions.step import Addition, added_part, free_ids
 from grafu.geometry.arrays import Points, Scalars, Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.cells import meeting, pieces_in
@@ -150,35 +150,24 @@ class CarcassCompletion:
     refused: tuple[Refusal, ...] = ()
 
 
-def add_carcass_boards(scene: Scene, request: StepRequest, config: CarcassConfig | None) -> StepResult:
-    """Returns the scene with the backs and bottoms that it lacks; without a config it is only said which."""
-    made = (
-        CarcassCompletion(missing_panels(scene, request.plan, drawers=request.drawers))
-        if config is None
-        else complete_carcass(scene, request.plan, config, request.drawers)
-    )
-    return StepResult(
-        scene.with_parts(addition.part for addition in made.additions),
-        made.additions,
-        refusals=made.refused,
-        deficiencies=tuple(Deficiency(DeficiencyKind(one.what.value), "", one.why) for one in made.missing),
-    )
-
-
 def complete_carcass(
     scene: Scene,
     plan: RealizationPlan,
     config: CarcassConfig = CarcassConfig(),
     drawers: DrawerConfig = DrawerConfig(),
+    kinds: Collection[PartLabel] = (PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL),
 ) -> CarcassCompletion:
-    """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan."""
+    """Returns the backs and bottoms that close the bodies behind the doors and drawers of a plan; only those `kinds`.
+
+    `missing` of the outcome are all that lack.
+    """
     closed = closed_scene(scene, plan, drawers)
     config = at_scale(config, closed.scene.metre)
     missing = panels_missing(closed, config)
     additions, refused = list[Addition](), list[Refusal]()
     taken = set(scene.parts)
     rooms = {id(panel.view): _room(panel.view, closed, config) for panel in {id(k.view): k for k in missing}.values()}
-    for group in _groups(missing, config):
+    for group in _groups((panel for panel in missing if panel.what in kinds), config):
         room = rooms[id(group[0].view)]
         whole = _whole(group)
         together = _board(whole, room, config) is not None

@@ -48,14 +48,14 @@ def clear_fronts(scene: Scene, _: StepRequest, config: FrontConfig) -> StepResul
 def add_grasps(scene: Scene, request: StepRequest, config: FrontConfig) -> StepResult:
     """Returns the scene with handles, else grips, on what cannot be grasped, and how all could be grasped before.
 
-    Fronts for which something was chosen are left alone.
+    Fronts for which something was chosen are left alone, and with `only_expected` those for which nothing is expected.
 
     Raises:
         TemplateError: if the config names a handle that there is not.
     """
     reliefs = Reliefs(scene, config.grasp.relief)
     grasps = find_grasps(scene, config.grasp, reliefs) | _supports(scene, request)
-    free = {moving: grasp for moving, grasp in grasps.items() if moving not in config.fronts}
+    free = {moving: grasp for moving, grasp in grasps.items() if _may_get_one(moving, request, config)}
     made = StepResult(scene, grasps=grasps)
     wanting: dict[str, Refusal | None] = {}
     if config.handles is not None:
@@ -65,6 +65,10 @@ def add_grasps(scene: Scene, request: StepRequest, config: FrontConfig) -> StepR
     elif config.grips is not None:
         wanting = dict.fromkeys(bodies_without(scene, free))
     return made.then(_gripped(made.scene, wanting, config.grips))
+
+
+def _may_get_one(moving: str, request: StepRequest, config: FrontConfig) -> bool:
+    return moving not in config.fronts and (moving in request.handles or not request.only_expected)
 
 
 def _supports(scene: Scene, request: StepRequest) -> dict[str, Grasp]:

@@ -72,8 +72,10 @@ def _chosen(scene: Scene, request: StepRequest, choice: TopChoice) -> ReplacedTo
     unwanted = _unwanted(request) if top.additions else ""
     if unwanted:
         return ReplacedTop(replace(top, covered=True, why=unwanted, addition=None, others=()))
-    if choice.config is None:
+    if choice.config is None or (request.only_expected and request.top is None):
         return ReplacedTop(replace(top, addition=None, others=()))
+    if request.only_expected:
+        top = replace(top, others=())
     return ReplacedTop(top, frozenset(), no_top(top.why) if top.missing and top.addition is None else None)
 
 

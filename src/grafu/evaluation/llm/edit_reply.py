@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING
+from grafu.additions.statics import Statics
 from grafu.errors import ReplyError, did_you_mean
 from grafu.evaluation.llm.reply_json import first_fault, object_in_reply
 from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
@@ -77,7 +78,7 @@ class _Edits(_Edit):
     edits: tuple[Annotated[_Any, Field(discriminator="do")], ...]
 
 
-_NOT_ASKED: Final = AdditionConfig(top=None, handles=None, grips=None, interior=NOTHING)
+_NOT_ASKED: Final = AdditionConfig(statics=Statics.GEOMETRY, top=None, handles=None, grips=None, interior=NOTHING)
 """What no edit asks for is not added; what joints need, such as room behind a drawer, is made as for every method."""
 
 

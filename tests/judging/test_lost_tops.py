@@ -5,7 +5,7 @@ import pytest
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.metrics.tops import lost_tops, open_ratio
+from grafu.judging.tops import lost_tops, open_ratio
 
 Point = tuple[float, float, float]
 W, D, H, T = 0.8, 0.5, 0.8, 0.018

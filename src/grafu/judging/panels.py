@@ -1,8 +1,8 @@
 """Whether shelves and dividers that were added stand and leave all motions free, and which rooms could hold some.
 
-They are measured on an articulated object and share nothing with what makes panels and finds compartments; they know
-no scene. trimesh's collision manager looks for panels that float (an end does not rest on anything that is static),
-pierce (cut into anything at rest) or block (are in the path of what moves).
+They are measured on a finished piece and share nothing with what makes panels and finds compartments. trimesh's
+collision manager looks for panels that float (an end does not rest on anything that is static), pierce (cut into
+anything at rest) or block (are in the path of what moves).
 
 Empty rooms are found by rays: points in a grid look along the axes at what is at rest. A room has walls on both sides,
 a floor, a ceiling and a back that are static; in front of it is nothing, or a door. Its middle, a cube, must be empty,
@@ -10,21 +10,20 @@ and half of all faces but the front be covered. What a drawer takes of a room, w
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from typing import Any, Literal, final
 
 import numpy as np
 import trimesh
 
-from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual
-from grafu.geometry.arrays import Mat4, Points, vec3
+from grafu.geometry.arrays import Points, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, heading_of, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, rotation_matrix
-from grafu.metrics.bodies import largest_side
+from grafu.judging.piece import JudgedBody, JudgedPart, JudgedPiece
 from grafu.vocabulary import PartLabel
 
 _MANAGER: Any = trimesh.collision.CollisionManager  # untyped
@@ -65,23 +64,22 @@ class RoomSearchConfig:
         require_ratios(self, "least_ratio", "middle", "span", "covered", "leaf")
 
 
-def empty_rooms(articulated: ArticulatedObject, config: RoomSearchConfig = RoomSearchConfig()) -> list[Box]:
+def empty_rooms(piece: JudgedPiece, config: RoomSearchConfig = RoomSearchConfig()) -> list[Box]:
     """Returns rooms that nothing furnishes, as boxes in metres (object frame), the largest first; none overlap."""
-    extent = largest_side(articulated)
-    still = articulated.link(articulated.root).mesh
-    moving = [articulated.link(joint.child).mesh for joint in articulated.joints]
+    extent, still = piece.largest_side, piece.still_mesh
+    moving = [body.mesh for body in piece.bodies]
     if extent <= 0 or not len(still.faces):
         return []
     least = min(config.least, config.least_ratio * extent)
     whole = merge_meshes([still, *moving])
     points = _points(whole.box, extent / config.steps)
-    points = points[~_taken(points, articulated, config.leaf)]
+    points = points[~_taken(points, piece, config.leaf)]
     rooms = _seen_from(points, RayCaster(still), RayCaster(merge_meshes(moving)), whole.box, least)
     manager, everything = _MANAGER(), RayCaster(whole)
     manager.add_object("", whole.to_trimesh())
     found: list[Box] = []
     for room in sorted(rooms, key=lambda box: -float(box.size.prod()))[: config.tried]:
-        if any(room.overlaps(other) for other in found) or _taken(room.center[None], articulated, config.leaf).any():
+        if any(room.overlaps(other) for other in found) or _taken(room.center[None], piece, config.leaf).any():
             continue
         half = np.full(3, config.middle * least)
         cube = TriangleMesh.box_mesh(Box.from_center(room.center, half)).to_trimesh()
@@ -109,16 +107,17 @@ def _points(box: Box, step: float) -> Points:
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
-def _taken(points: Points, articulated: ArticulatedObject, leaf: float) -> np.ndarray:
-    zones = [_taken_by(points, joint, articulated.link(joint.child).mesh, leaf) for joint in articulated.joints]
+def _taken(points: Points, piece: JudgedPiece, leaf: float) -> np.ndarray:
+    zones = [_taken_by(points, body, leaf) for body in piece.bodies]
     return np.any(zones, axis=0) if zones else np.zeros(len(points), dtype=bool)
 
 
-def _taken_by(points: Points, joint: Joint, mesh: TriangleMesh, leaf: float) -> np.ndarray:
+def _taken_by(points: Points, body: JudgedBody, leaf: float) -> np.ndarray:
     """Returns which points lie in a drawer or anywhere before or behind it; none for doors, sliding ones too."""
-    if not joint.kind.slides or not len(mesh.faces):
+    mesh = body.mesh
+    if body.motion is None or body.motion.turns or not len(mesh.faces):
         return np.zeros(len(points), dtype=bool)
-    axis = int(np.abs(joint.axis.direction).argmax())
+    axis = int(np.abs(body.motion.axis.direction).argmax())
     size = mesh.box.size
     across = [k for k in range(3) if k != axis]
     is_leaf = min(size[across]) < leaf * np.sort(size)[1] and int(np.argmin(size)) in across
@@ -155,41 +154,28 @@ PanelFault = tuple[str, Literal["floats", "pierces", "blocks"], str]
 POSES = 60  # of each joint, from closed to wide open
 
 
-def panel_faults(articulated: ArticulatedObject, panels: Collection[str], skin: float) -> list[PanelFault]:
-    """Returns (panel, fault, the end or the other part) for all that is wrong with panels of the static link.
+def panel_faults(piece: JudgedPiece, panels: Collection[str], skin: float) -> list[PanelFault]:
+    """Returns (panel, fault, the end or the other part) for all that is wrong with static panels, by their names.
 
-    `panels` are names of visuals; a cut of less than `skin` metres is a touch, a gap of twice as much none. Ends and
-    halves are those along the panels' own level axes.
+    A cut of less than `skin` metres is a touch, a gap of twice as much none. Ends and halves are those along the
+    panels' own level axes.
     """
-    angle = heading_of(v.mesh for v in articulated.link(articulated.root).visuals if v.name in panels)
+    angle = heading_of(part.mesh for part in piece.still if part.name in panels)
     if angle:
-        articulated = _turned(articulated, from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), -angle)))
-    root = [v for v in articulated.link(articulated.root).visuals if len(v.mesh.faces)]
-    standing = {v.name: v.mesh for v in root}
-    moving = {link.id: link.mesh for link in articulated.links if link.id != articulated.root}
-    joints = articulated.moving_joints
+        piece = piece.seen_after(from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), -angle)))
+    root = [part for part in piece.still if len(part.mesh.faces)]
+    standing = {part.name: part.mesh for part in root}
+    moving = {body.id: body.mesh for body in piece.bodies}
     found: list[PanelFault] = []
-    for panel in (v for v in root if v.name in panels):
+    for panel in (part for part in root if part.name in panels):
         others = {name: mesh for name, mesh in standing.items() if name != panel.name}
         found += [(panel.name, "floats", end) for end in _loose_ends(panel, others, 2 * skin)]
         found += [(panel.name, "pierces", other) for other in _pierced(panel.mesh, {**others, **moving}, skin)]
-        blocked = (joint for joint in joints if _is_blocked(panel.mesh, joint, moving[joint.child], skin))
-        found += [(panel.name, "blocks", joint.child) for joint in blocked]
+        found += [(panel.name, "blocks", body.id) for body in piece.moving if _is_blocked(panel.mesh, body, skin)]
     return found
 
 
-def _turned(articulated: ArticulatedObject, T: Mat4) -> ArticulatedObject:
-    """Returns the object, hardware and joints, as it stands after T."""
-
-    def moved(visual: Visual) -> Visual:
-        return replace(visual, surfaces=tuple(surface.transformed(T) for surface in visual.surfaces))
-
-    links = tuple(replace(link, visuals=tuple(map(moved, link.visuals))) for link in articulated.links)
-    joints = tuple(replace(joint, axis=joint.kind.mapped_axis(joint.axis, T)) for joint in articulated.joints)
-    return replace(articulated, links=links, joints=joints, grasps=())
-
-
-def _loose_ends(panel: Visual, others: Mapping[str, TriangleMesh], reach: float) -> Sequence[str]:
+def _loose_ends(panel: JudgedPart, others: Mapping[str, TriangleMesh], reach: float) -> Sequence[str]:
     """A panel rests with the front and the back half of both its ends: of one pair of opposite sides at least."""
     mesh = panel.mesh
     thin = 2 if panel.label is PartLabel.SHELF else int(np.argmin(mesh.box.size))
@@ -229,14 +215,14 @@ def _pierced(panel: TriangleMesh, others: Mapping[str, TriangleMesh], skin: floa
     return sorted(names) if hit else []
 
 
-def _is_blocked(panel: TriangleMesh, joint: Joint, body: TriangleMesh, skin: float) -> bool:
-    if not len(body.faces):
+def _is_blocked(panel: TriangleMesh, body: JudgedBody, skin: float) -> bool:
+    if not len(body.mesh.faces) or body.motion is None:
         return False
     shrunk = _shrunk(panel, skin)
     manager = _MANAGER()
-    manager.add_object("moving body", body.to_trimesh())
-    for value in np.linspace(joint.limits.lower, joint.limits.upper, POSES):
-        manager.set_transform("moving body", joint.motion(float(value)))
+    manager.add_object("moving body", body.mesh.to_trimesh())
+    for value in np.linspace(body.motion.lower, body.motion.upper, POSES):
+        manager.set_transform("moving body", body.motion.at(float(value)))
         if manager.in_collision_single(shrunk):
             return True
     return False

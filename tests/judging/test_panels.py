@@ -13,7 +13,9 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.metrics.panels import empty_rooms
+from grafu.judging.panels import empty_rooms
+from grafu.judging.piece import JudgedPiece
+from grafu.metrics.judged import judged_piece
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings
@@ -27,13 +29,13 @@ def box(name: str, low: Point, high: Point) -> Visual:
     return Visual(name, (Surface(TriangleMesh.box_mesh(Box(vec3(*low), vec3(*high)))),))
 
 
-def still(*visuals: Visual) -> ArticulatedObject:
-    return ArticulatedObject("still", "body", (Link("body", visuals),))
+def still(*visuals: Visual) -> JudgedPiece:
+    return judged_piece(ArticulatedObject("still", "body", (Link("body", visuals),)))
 
 
 def rooms(asset: Asset, config: AdditionConfig = NO_ADDITIONS):
     made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), PipelineConfig(Settings(additions=config)))
-    return empty_rooms(made.object)
+    return empty_rooms(judged_piece(made.object))
 
 
 @pytest.mark.parametrize(
