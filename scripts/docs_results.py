@@ -65,6 +65,11 @@ def results_text(out: Path) -> str:
     return "\n".join(sections)
 
 
+def motion_text(out: Path) -> str:
+    """Returns the table of motions alone."""
+    return _motion(json.loads((out / "tables" / "motion.json").read_text("utf-8")))
+
+
 def hard_text(out: Path) -> str:
     """Returns the tables of the harder models; `out` is as given to `grafu evaluate --out`."""
     tables = out / "tables"

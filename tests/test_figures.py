@@ -89,8 +89,8 @@ def test_a_run_that_changes_is_another_table(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_departures_are_listed_until_there_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert "| `free_boxes` | pointed | absolute |" in configs.paper_departures()
-    monkeypatch.setattr(configs, "PAPER", replace(configs.PAPER, network=configs.PAPER_NETWORK))
+    assert "| `free_boxes` | `network.free_boxes` | pointed | absolute |" in configs.paper_departures()
+    monkeypatch.setattr(configs, "PAPER", configs.BASE)
 
     assert len(configs.paper_departures().splitlines()) == 2
 

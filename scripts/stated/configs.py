@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from typing import Any
 
-from grafu.network.config import PAPER as PAPER_NETWORK
 from grafu.network.config import GraFuConfig
 from grafu.training.config import BASE, CONFIGS, PAPER
+from grafu.training.departures import DEPARTURES
 from grafu.training.loss_config import OFFICIAL
 from grafu.training.loss_config import PAPER as PAPER_LOSS
 from stated.store import drawn_table
@@ -25,10 +25,23 @@ def loss_choices() -> str:
 
 
 def paper_departures() -> str:
-    """Returns in what the network of `--config paper` is not the paper's, by field and value."""
-    ours, theirs = flat(PAPER.network), flat(PAPER_NETWORK)
-    rows = [[f"`{name}`", ours[name], theirs[name]] for name in ours if ours[name] != theirs[name]]
-    return drawn_table([["field of `GraFuConfig`", "`--config paper`", "the paper (`network.config.PAPER`)"], *rows])
+    """Returns where `base` departs from `--config paper`: name, fields, both values, what the paper's choice is."""
+    ours, theirs = flat(BASE), flat(PAPER)
+    rows: list[list[str]] = []
+    for one in DEPARTURES:
+        named = [inner for name in one.fields for inner in _fields_of(name, ours, theirs)]
+        for place, field in enumerate(named):
+            values = [config.get(field, "the paper's") for config in (ours, theirs)]
+            first = place == 0
+            rows.append([f"`{one.name}`" if first else "", f"`{field}`", *values, one.taken_back if first else ""])
+    heads = ["departure", "field", "`base`", "`paper`", "taken back, it is"]
+    return drawn_table([heads, *rows])
+
+
+def _fields_of(name: str, ours: Flat, theirs: Flat) -> list[str]:
+    """Returns a field or, of weights by name, each that differs."""
+    inner = [key for key in ours if key == name or key.startswith(f"{name}.")]
+    return [key for key in inner if ours[key] != theirs.get(key)]
 
 
 def network_config() -> str:

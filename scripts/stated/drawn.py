@@ -48,6 +48,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("additions.md", "statics real"): copied(store["statics"], 1),
         ("training.md", "losses"): copied(store["losses"], 0),
         ("training.md", "folds"): copied(store["folds"], 0),
+        ("benchmarks.md", "welded"): ours(store["welded"]),
         ("cluster.md", "cluster"): copied(store["cluster"], 0),
         ("synthetic.md", "synthetic and real"): "\n".join(["```text", *store["synthetic and real"].lines, "```"]),
     }
@@ -70,6 +71,11 @@ def _section(lead: str, kept: Stored) -> str:
 def copied(kept: Stored, number: int) -> str:
     """Returns one of the tables that a command printed."""
     return drawn_table(kept.tables[number])
+
+
+def ours(kept: Stored) -> str:
+    """Returns the first table that a command printed without the rows that the paper prints."""
+    return drawn_table([row for row in kept.tables[0] if not row[0].endswith("(the paper)")])
 
 
 def beside(store: Store) -> str:

@@ -12,7 +12,7 @@ from typing import final
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from docs_results import hard_text, results_text
+from docs_results import hard_text, motion_text, results_text
 
 Read = Callable[[str, Path], str]
 
@@ -30,6 +30,11 @@ def ablation_table(_: str, out: Path) -> str:
 def evaluation_tables(_: str, out: Path) -> str:
     """Returns the tables that `grafu evaluate` wrote, as docs/results.md has them."""
     return results_text(out)
+
+
+def evaluated_motions(_: str, out: Path) -> str:
+    """Returns the table of motions that `grafu evaluate` wrote."""
+    return motion_text(out)
 
 
 def hard_model_tables(_: str, out: Path) -> str:
@@ -115,6 +120,16 @@ MEASURES = (
         read=evaluation_tables,
         weights=True,
         whole=True,
+    ),
+    Measure(
+        "welded",
+        "grafu evaluate --data welded:990002:40 --methods annotation,network --tables motion --out {out} --jobs {jobs}",
+        "grafu evaluate --data welded:990002:2 --methods annotation,network --tables motion --out {out} --jobs {jobs}",
+        "furniture whose parts are welded: what the reader and the network find of its motions",
+        ("benchmarks.md",),
+        10,
+        read=evaluated_motions,
+        weights=True,
     ),
     Measure(
         "results of hard models",

@@ -3,8 +3,9 @@
 import pytest
 import torch
 
-from grafu.network.config import PointsFrame
-from grafu.network.encoder import PointEncoder, corners, face_scale, margins
+from grafu.network.config import GraFuConfig, PointsFrame
+from grafu.network.encoder import corners, face_scale, margins
+from grafu.network.points import PointEncoder
 from random_graphs import arrays
 
 # A wall at the left, a plate 10 mm below the top, and padding that is farther out than both
@@ -38,7 +39,7 @@ def test_corners_are_beside_the_middle() -> None:
 
 def encoder(frame: PointsFrame = "part") -> PointEncoder:
     torch.manual_seed(0)
-    return PointEncoder(8, frame)
+    return PointEncoder(GraFuConfig(points=8, points_frame=frame))
 
 
 def test_the_order_of_points_and_groups_does_not_matter() -> None:

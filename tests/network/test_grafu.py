@@ -18,6 +18,10 @@ OPTIONS = [
     replace(TINY, pair_boxes="predicted"),
     replace(TINY, pair_edges=False),
     replace(TINY, free_slots=0),
+    replace(TINY, second_grouping=True, second_radius=0.5, second_neighbours=3),
+    replace(TINY, slots=12),
+    replace(TINY, symmetric_edges=False),
+    replace(TINY, vocabulary="official"),
 ]
 
 
@@ -42,7 +46,7 @@ def test_the_order_of_parts_changes_only_the_order_of_answers(config: GraFuConfi
     network, one, n = tiny_network(config), arrays(6), 6
     order = torch.tensor([3, 0, 5, 1, 4, 2])
     moved = {k: v[order] for k, v in one.items()} | {"edges": one["edges"][order][:, order]}
-    slots = torch.tensor([*order.tolist(), *range(n, n + config.free_slots)])
+    slots = torch.tensor([*order.tolist(), *range(n, max(n + config.free_slots, config.slots or 0))])
     assert max(differences(network(one_graph(**one)), network(one_graph(**moved)), slots).values()) < 1e-5
 
 

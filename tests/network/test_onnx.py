@@ -41,7 +41,8 @@ def test_weights_of_16_bits_take_half_the_space(files: dict[bool, bytes]) -> Non
 
 def test_the_file_says_what_it_holds(files: dict[bool, bytes]) -> None:
     facts = {p.key: json.loads(p.value) for p in onnx.load_from_string(files[True]).metadata_props}
-    assert facts["features"] == {"points": POINTS, "anchors": ANCHORS, "neighbours": NEIGHBOURS, "kinds": "all"}
+    seen = {"points": POINTS, "anchors": ANCHORS, "neighbours": NEIGHBOURS, "kinds": "all", "radius": None}
+    assert facts["features"] == seen
     assert GraFuConfig(**facts["config"]) == TINY
     assert facts["labels"][-1] == "unknown"
 

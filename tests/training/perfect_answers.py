@@ -74,6 +74,7 @@ def _blank(mask: Tensor) -> Predictions:
         ajar=torch.zeros(b, s),
         piece=torch.zeros(b, len(PieceKind)),
         mask=mask,
+        padding=torch.zeros_like(mask),
     )
 
 
@@ -103,4 +104,5 @@ def _answers(truth: SlotTruth, mask: Tensor) -> Predictions:
         ajar=2 * SURE * truth.ajar.clamp(min=0).float() - SURE,
         piece=code(truth.piece, len(PieceKind)),
         mask=mask,
+        padding=torch.zeros_like(mask),
     )

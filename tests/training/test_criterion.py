@@ -20,12 +20,12 @@ SINGLE = {"parent_abstain", "hinge_abstain", "piece"}
 def noisy(predictions: Predictions, seed: int = 0) -> Predictions:
     """Answers that are right, but far from sure."""
     rng = torch.Generator().manual_seed(seed)
-    values = {f.name: getattr(predictions, f.name) for f in fields(predictions) if f.name != "mask"}
+    values = {f.name: getattr(predictions, f.name) for f in fields(predictions) if f.name not in ("mask", "padding")}
     return replace(predictions, **{k: v / 10 + torch.randn(v.shape, generator=rng) for k, v in values.items()})
 
 
 def with_gradients(predictions: Predictions) -> Predictions:
-    values = {f.name: getattr(predictions, f.name) for f in fields(predictions) if f.name != "mask"}
+    values = {f.name: getattr(predictions, f.name) for f in fields(predictions) if f.name not in ("mask", "padding")}
     return replace(predictions, **{k: v.clone().requires_grad_() for k, v in values.items()})
 
 
@@ -57,7 +57,7 @@ def test_every_answer_gets_a_gradient() -> None:
     answers = with_gradients(noisy(perfect(targets)))
     criterion(answers, targets, LossConfig()).total.backward()
     for field in fields(answers):
-        if field.name != "mask":
+        if field.name not in ("mask", "padding"):
             gradient = getattr(answers, field.name).grad
             assert gradient is not None, field.name
             assert gradient.isfinite().all(), field.name
@@ -110,7 +110,7 @@ def test_the_order_of_targets_changes_nothing() -> None:
 def test_half_precision_answers_are_judged_in_full() -> None:
     targets = two_cabinets()
     answers = perfect(targets)
-    values = {f.name: getattr(answers, f.name).bfloat16() for f in fields(answers) if f.name != "mask"}
+    values = {f.name: getattr(answers, f.name).bfloat16() for f in fields(answers) if f.name not in ("mask", "padding")}
     assert criterion(replace(answers, **values), targets, LossConfig()).total.dtype is torch.float32
 
 

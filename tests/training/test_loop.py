@@ -1,6 +1,7 @@
 """The loop: it learns, leaves its files, and a run that was cut ends as if it had not been."""
 
 import json
+import math
 import os
 import signal
 from dataclasses import replace
@@ -12,8 +13,10 @@ import torch
 from little_runs import FewModels, little
 
 from grafu.errors import ExportError, UnreadableAsset
+from grafu.network.grafu import GraFu
 from grafu.training.checkpoint import BEST, LAST, load_best
 from grafu.training.config import TrainingConfig
+from grafu.training.departures import without_departures
 from grafu.training.logbook import STEPS, VALIDATION
 from grafu.training.loop import RunOptions, StepReport, multiplies_bfloat16, train
 from grafu.training.workers import Workers
@@ -104,3 +107,13 @@ def test_files_of_others_stay(tmp_path: Path, name: str) -> None:
     with pytest.raises(ExportError, match="choose another --out"):
         run(little(2), tmp_path)
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [(name, '{"mine": 1}')]
+
+
+def test_the_paper_s_network_and_losses_learn_and_are_judged(tmp_path: Path) -> None:
+    config = without_departures(little(4))
+    assert (config.network.slots, config.network.second_grouping, config.loss.pinned) == (55, True, False)
+    reports = run(config, tmp_path)
+    assert reports[-1].figures["score"] == pytest.approx(load_best(tmp_path).figures["score"])
+    assert all(math.isfinite(value) for report in reports for value in report.means.values())
+    fresh = GraFu(config.network).state_dict()
+    assert weights(tmp_path).keys() == fresh.keys()

@@ -8,7 +8,7 @@ import torch
 from perfect_answers import perfect, truth_of, two_cabinets
 from torch import Tensor
 
-from grafu.graph.arrays import UNKNOWN
+from grafu.graph.arrays import NONE, UNKNOWN
 from grafu.training.criterion import (
     box_errors,
     category_loss,
@@ -19,7 +19,8 @@ from grafu.training.criterion import (
     slot_losses,
     weighted_mean,
 )
-from grafu.training.loss_config import LossConfig
+from grafu.training.loss_config import PAPER, LossConfig
+from grafu.training.matcher import match_slots
 
 TARGETS = two_cabinets()  # 16 + 12 anchored slots, 2 + 1 missing nodes, 4 + 4 free slots
 ANSWERS = perfect(TARGETS)
@@ -95,6 +96,25 @@ def test_padding_neither_exists_nor_not() -> None:
     assert free_exists_loss(exists, TRUTH, 10.0).item() == pytest.approx(0.0, abs=1e-6)
 
 
+def test_padding_slots_must_not_exist_and_count_with_those_that_are_not_anchored() -> None:
+    dull = ~TRUTH.anchored & ~TRUTH.free  # as a network with padding slots would mark them
+    truth = replace(TRUTH, padding=dull)
+    fires = torch.where(dull, 30.0, ANSWERS.exists)
+    slots, padding = int((TRUTH.anchored | TRUTH.free).sum()), int(dull.sum())
+    assert padding > 0
+    assert exists_loss(fires, truth, balanced=False).item() == pytest.approx(30 * padding / (slots + padding))
+    assert free_exists_loss(fires, truth, 10.0).item() == pytest.approx(30 * padding / (FREE + padding), rel=1e-4)
+    assert count_loss(fires, truth, 0.0).item() == pytest.approx(0.0, abs=1e-3)  # of free slots alone
+
+
+def test_padding_slots_answer_for_no_node() -> None:
+    targets = two_cabinets()
+    dull = torch.zeros_like(ANSWERS.mask)
+    dull[:, -2:] = True  # the two last free slots, which answered for what is missing
+    matching = match_slots(replace(ANSWERS, padding=dull), targets, PAPER)
+    assert (matching[:, -2:] == NONE).all()
+
+
 def test_an_anchored_slot_must_exist_even_if_matched_to_nothing() -> None:
     truth = replace(TRUTH, matched=changed(TRUTH.matched, 0, 0, False))
     assert exists_loss(ANSWERS.exists, truth, balanced=False).item() == pytest.approx(0.0, abs=1e-6)
@@ -110,6 +130,9 @@ def test_the_count_asks_for_no_more_than_there_are_free_slots() -> None:
     truth = replace(TRUTH, missing=TRUTH.missing + 10)
     all_fire = torch.where(TRUTH.free, 30.0, ANSWERS.exists)
     assert count_loss(all_fire, truth, 0.01).item() == pytest.approx(0.0, abs=1e-6)
+    missing = [float(n) for n in truth.missing]  # 12 and 11: the paper counts all of them
+    wanted = sum(sqrt(n - 4) for n in missing) / 2
+    assert count_loss(all_fire, truth, 0.0, capped=False).item() == pytest.approx(wanted, rel=1e-4)
 
 
 def test_the_count_has_a_slope_that_ends() -> None:

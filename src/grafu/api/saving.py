@@ -57,7 +57,7 @@ def files_of(
     """
     started = perf_counter()
     with budget.in_force():
-        files = export(made.object, formats)
+        files = export(made.object, formats, made.completion)
     seconds = {**(timings or {}), "export": perf_counter() - started}
     stated = with_stability(report_of(made, name, seconds), made.object)
     report, picture = with_notes(stated, *files.notes), b""

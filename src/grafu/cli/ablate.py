@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from grafu.training.ablation_run import AblationRun
     from grafu.training.config import TrainingConfig
 
-KINDS = ("losses", "folds")
+KINDS = ("losses", "folds", "departures")
 
 _DESCRIPTION = """\
 Trains one network for each experiment, all for the same number of steps, and writes their figures to DIR/table.md and
@@ -27,6 +27,7 @@ trained again, so that another seed may be asked for later.
 
 losses: the paper's six hold-outs of loss terms; then the choices in which paper, authors' code and `base` differ
 folds:  0, 5, 10, 17, 20 corrupted copies of each of 200 synthetic models, and new copies every time
+departures: what `base` does otherwise than the paper, taken back one by one, and all at once
 
 The default, config `small` for 2000 steps, takes about an hour on two cores for `losses`, and shows the
 trend; for the last figure train longer: --config base --steps 20000.
@@ -47,7 +48,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         description=_DESCRIPTION,
         epilog=_EXAMPLES,
     )
-    parser.add_argument("kind", choices=KINDS, metavar="{losses,folds}", help="what is varied")
+    parser.add_argument("kind", choices=KINDS, metavar="{losses,folds,departures}", help="what is varied")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="the folder of all runs and tables")
     parser.add_argument("--config", choices=CONFIGS, default="small", help="what is varied from (default: small)")
     parser.add_argument("--steps", type=positive_count, metavar="N", help="steps of each run (default: the config's)")
@@ -134,7 +135,10 @@ def _planned(options: argparse.Namespace, config: "TrainingConfig") -> "list[Abl
     rows = experiments(options.kind, config)
     seeds = dict.fromkeys(options.seeds)
     points = config.features.points
-    sources = {seed: training_models(options.kind, source_to_train_on(options.data, seed, points)) for seed in seeds}
+    sources = {
+        seed: training_models(options.kind, source_to_train_on(options.data, seed, points, options.split))
+        for seed in seeds
+    }
     return [
         AblationRun(row, seed, sources[seed], options.out / row.name / f"seed_{seed}", options.device)
         for seed in seeds

@@ -62,10 +62,19 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--data", nargs="+", required=True, metavar="DATA", help="the models: folders, or synth:SEED:COUNT"
     )
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where rows and tables go")
+    parser.add_argument(
+        "--split", default="", metavar="NAME", help="of a FurFun release: the test models of this split alone"
+    )
     parser.add_argument("--methods", default=_METHODS, metavar="LIST", help=f"what is compared (default: {_METHODS})")
     parser.add_argument("--tables", default=_TABLES, metavar="LIST", help=f"what is written (default: {_TABLES})")
     parser.add_argument(
         "--seeds", type=positive_count, default=5, metavar="N", help="draws of hidden labels at each rate (default: 5)"
+    )
+    parser.add_argument(
+        "--weights",
+        type=Path,
+        metavar="FILE",
+        help="of the method network: an ONNX file, or the authors' checkpoint (.pt)",
     )
     parser.add_argument(
         "--rates",
@@ -153,6 +162,7 @@ def _require_room(out: Path) -> None:
 
 
 def _plan(options: argparse.Namespace) -> "EvaluationPlan":
+    from grafu.cli.weights_option import usable_weights
     from grafu.evaluation.config_file import read_config
     from grafu.evaluation.dataset import find_all_models
     from grafu.evaluation.llm.config import LlmConfig
@@ -160,7 +170,8 @@ def _plan(options: argparse.Namespace) -> "EvaluationPlan":
     from grafu.evaluation.tasks import EvaluationPlan
 
     llm = read_config(options.llm, LlmConfig) if options.llm else LlmConfig()
-    chosen = MethodOptions(llm, options.replies or options.out / "replies", options.out / "predictions")
+    weights = usable_weights(options.weights, options.out) if options.weights else None
+    chosen = MethodOptions(llm, options.replies or options.out / "replies", options.out / "predictions", weights)
     methods = tuple(parse_method(word, chosen) for word in _words(options.methods))
     absent = next((method for method in methods if method.folder is not None and not method.folder.is_dir()), None)
     if absent is not None:
@@ -168,7 +179,7 @@ def _plan(options: argparse.Namespace) -> "EvaluationPlan":
     untold = next((method.weights for method in methods if method.weights and not method.weights.is_file()), None)
     if untold is not None:
         raise OptionError(f"`{untold}` of the method network must be a file that `grafu train` exported")
-    models, tables = find_all_models(options.data), _words(options.tables)
+    models, tables = find_all_models(options.data, options.split), _words(options.tables)
     rates = options.rates or LEVELS
     return EvaluationPlan(" ".join(options.data), models, methods, tables, options.seeds, levels=rates)
 
@@ -222,7 +233,13 @@ def _command(options: argparse.Namespace) -> str:
     """Returns the command that gives these tables, whatever it was spelled like."""
     words = ["grafu", "evaluate", "--data", *options.data, "--methods", options.methods, "--tables", options.tables]
     rates = options.rates and ",".join(f"{100 * rate:g}" for rate in options.rates)
-    given = [("--rates", rates), ("--llm", options.llm), ("--replies", options.replies)]
+    given = [
+        ("--split", options.split or None),
+        ("--weights", options.weights),
+        ("--rates", rates),
+        ("--llm", options.llm),
+        ("--replies", options.replies),
+    ]
     more = [word for name, path in given if path is not None for word in (name, str(path))]
     more += ["--pictures"] if options.pictures else []
     return shlex.join([*words, "--seeds", str(options.seeds), *more, "--out", str(options.out)])

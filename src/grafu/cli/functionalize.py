@@ -77,7 +77,10 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     add_cluster_option(parser)
     parser.add_argument("--templates", type=Path, metavar="DIR", help="a folder of your own hinges, rails and handles")
     parser.add_argument(
-        "--weights", type=Path, metavar="FILE", help="the network that you trained: a file in ONNX form (`grafu train`)"
+        "--weights",
+        type=Path,
+        metavar="FILE",
+        help="the network that you trained: a file in ONNX form (`grafu train`), or a checkpoint of the authors' (.pt)",
     )
     parser.add_argument(
         "--no-page", action="store_true", help="leave out report.html of each model, and index.html of several"
@@ -203,8 +206,8 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
 
 
 def _require_weights(options: argparse.Namespace) -> None:
-    """Raises FunctionalizationError if `--weights` names no file, or is given for a source that is not the network."""
-    from grafu.errors import WeightsError
+    """Makes sure that `--weights` is a network that runs, and is not given for a source that is not the network."""
+    from grafu.cli.weights_option import usable_weights
     from grafu.pipeline.motion_source import MotionSource
 
     if options.weights is None:
@@ -212,8 +215,7 @@ def _require_weights(options: argparse.Namespace) -> None:
     source = options.motion.source if options.motion else MotionSource.AUTO
     if source not in (MotionSource.AUTO, MotionSource.NETWORK):
         raise OptionError(f"`--weights` and `--motion {source}` exclude each other: leave one of them out")
-    if not options.weights.is_file():
-        raise WeightsError(f"`--weights` must be a file that `grafu train` exported: there is no {options.weights}")
+    options.weights = usable_weights(options.weights, options.out if isinstance(options.out, Path) else Path())
 
 
 def _show_begin(options: argparse.Namespace) -> None:

@@ -29,13 +29,19 @@ _PACKAGES = ("torch", "onnx")  # of the extra `train`; those of the rest are alw
 
 
 def add_training_options(parser: argparse.ArgumentParser) -> None:
-    """Adds `--data` and `--device`."""
+    """Adds `--data`, `--split` and `--device`."""
     parser.add_argument(
         "--data",
         default="synth",
         metavar="DIR",
         help="models to train on: `synth`, made on the spot; or a folder of shards or of a FurFun release "
         "(default: synth)",
+    )
+    parser.add_argument(
+        "--split",
+        default="",
+        metavar="NAME",
+        help="of a FurFun release: the split, such as subset_split (default: full)",
     )
     parser.add_argument(
         "--device", choices=("auto", "cpu", "cuda"), default="auto", help="what computes (default: auto)"
@@ -94,7 +100,8 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "--start",
         type=Path,
         metavar="FILE",
-        help="begin a new run with the weights in FILE (`--export` of another run), not with random ones",
+        help="begin a new run with the weights in FILE (`--export` of another run, or with --config paper a checkpoint "
+        "of the authors', .pt), not with random ones",
     )
     add_training_options(parser)
     parser.add_argument(
@@ -126,11 +133,15 @@ def run(options: argparse.Namespace) -> int:
         FunctionalizationError: if the options are wrong, or files cannot be read or written.
     """
     with training_packages():
-        return export_weights(options.out, options.export, options.data) if options.export else run_training(options)
+        return (
+            export_weights(options.out, options.export, options.data, options.split)
+            if options.export
+            else run_training(options)
+        )
 
 
-def exported(network: "GraFu", features: "FeatureConfig") -> bytes:
-    """Returns an ONNX file; weights are stored in 16 bits and computed with in 32."""
+def exported(network: "GraFu", features: "FeatureConfig", *, half: bool = True) -> bytes:
+    """Returns an ONNX file; weights are stored in 16 bits, if `half`, and computed with in 32."""
     from grafu.network.export import onnx_bytes
     from grafu.processes.lifetime import keep_private
 
@@ -138,7 +149,7 @@ def exported(network: "GraFu", features: "FeatureConfig") -> bytes:
     before = logging.root.manager.disable
     logging.disable(logging.WARNING)  # torch's exporter warns of packages that it does not need
     try:
-        return onnx_bytes(network, **asdict(features), half_weights=True)
+        return onnx_bytes(network, **asdict(features), half_weights=half)
     finally:
         logging.disable(before)
 
@@ -165,7 +176,7 @@ def run_training(options: argparse.Namespace) -> int:
     if not has_device(options.device):
         complain(f"`--device` must be one that is there: torch finds no `{options.device}`")
         return EXIT_BAD_INPUT
-    source = source_to_train_on(options.data, config.seed, config.features.points)
+    source = source_to_train_on(options.data, config.seed, config.features.points, options.split)
     use_threads(options.threads)
     jobs = options.jobs or min(_MOST_JOBS, os.cpu_count() or 1)
     with joined_workers(options.device) as workers:
@@ -191,7 +202,7 @@ def prepare_processor() -> None:
     os.environ.setdefault(ONEDNN_CACHE, "16384")  # code of matrix products, of which each size has its own
 
 
-def export_weights(folder: Path, target: Path, data: str = "synth") -> int:
+def export_weights(folder: Path, target: Path, data: str = "synth", split: str = "") -> int:
     """Writes the best weights of a run as ONNX, calibrated on the data that they were chosen by; returns 0.
 
     Raises:
@@ -206,7 +217,7 @@ def export_weights(folder: Path, target: Path, data: str = "synth") -> int:
 
     best = load_best(folder)
     points = best.config.features.points
-    source = validation_source(source_to_train_on(data, best.config.seed, points), points)
+    source = validation_source(source_to_train_on(data, best.config.seed, points, split), points)
     by_head = temperatures(best.network(), validation_batches(source, best.config), best.config.loss)
     content = exported(calibrated(best.network(), by_head), best.config.features)
     with whole_file(target) as fresh:
@@ -218,10 +229,13 @@ def export_weights(folder: Path, target: Path, data: str = "synth") -> int:
 
 
 def _start(options: argparse.Namespace) -> Mapping[str, Any] | None:
+    from grafu.network.official_weights import SUFFIX, start_weights
     from grafu.network.stored import stored_weights
 
     if options.start is None:
         return None
+    if options.start.suffix.lower() == SUFFIX:
+        return start_weights(options.start, _config(options).network)
     if not options.start.is_file():
         raise WeightsError(f"`--start` must be a file that `grafu train --export` wrote: there is no {options.start}")
     return stored_weights(options.start.read_bytes())

@@ -23,16 +23,18 @@ from grafu.data.furfun.layout import LayoutKind
 from grafu.errors import AssetError, OptionError, UnreadableAsset
 from grafu.evaluation.dataset_decided import files_of_decided, is_decided, read_decided
 from grafu.evaluation.dataset_release import is_release, read_release_model, release_models
+from grafu.evaluation.welded import WELDED, weld_of, welded
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
 
 _RELEASES: Final = get_args(LayoutKind)
 _DECIDED: Final = "decided"
 _KIND_OF: Final = {**{name: name for name in READERS}, "gltf": "glb", "mesh folder": "mesh", "mesh file": "mesh"}
-KINDS: Final = (*dict.fromkeys(_KIND_OF.values()), *_RELEASES, _DECIDED, "made")
-"""The kinds of models: what reads them, `glb`, `mesh`, a release, decided by hand, or made on the spot."""
+KINDS: Final = (*dict.fromkeys(_KIND_OF.values()), *_RELEASES, _DECIDED, "made", WELDED)
+"""The kinds of models: what reads them, `glb`, `mesh`, a release, decided by hand, made on the spot, or that welded."""
 TEST_SEED = 990_002  # of the synthetic furniture that nothing is trained on or chosen by
 _MADE = "synth"
+_ON_THE_SPOT = ("made", WELDED)
 _TEST_COUNT = 100
 _MOST_MADE = 1_000_000  # more are a slip of the pen: a month of work
 _NAMELESS = frozenset({"model", "mobility", "robot", "scene", "object"})  # files that are named by their folder
@@ -42,7 +44,7 @@ EXPECTED = (
     "PartNet-Mobility folders (mobility.urdf, or mobility_v2.json with result.json), HSSD models (<id>.glb with "
     "<id>.artpre.json), URDF or other robot files, GLB or other scenes, folders of meshes, a release "
     "(graphs_unfunctional or graph_unfunc), results with decisions.jsonl, "
-    f"or {_MADE}:SEED:COUNT"
+    f"or {_MADE}:SEED:COUNT, {WELDED}:SEED:COUNT"
 )
 
 
@@ -70,7 +72,7 @@ class ModelRef:
         if self.kind not in KINDS:
             raise OptionError(f"`kind` must be one of {', '.join(KINDS)}: got {self.kind!r}")
         made = (self.seed, self.number)
-        if self.kind == "made":
+        if self.kind in _ON_THE_SPOT:
             if self.path is not None or any(value is None or value < 0 for value in made):
                 raise OptionError(
                     f"a synthetic model has a seed and a number from 0, and no path: got {made}, {self.path}"
@@ -84,15 +86,16 @@ def find_models(data: str | Path, split: str = "") -> tuple[ModelRef, ...]:
 
     Args:
         data: a folder of models, also in folders of their own, or one model; `synth:SEED:COUNT`, or `synth` for the
-            test furniture.
+            test furniture; `welded` in place of `synth` for the same, welded.
         split: the name of a split of a release (`full_split`): only its test models. Other datasets have none.
 
     Raises:
         OptionError: if `synth:...` is not two numbers, or asks for too many.
         AssetError: if there is nothing that is read, or no such split.
     """
-    if str(data) == _MADE or str(data).startswith(f"{_MADE}:"):
-        return _made_models(str(data))
+    for word in (_MADE, WELDED):
+        if str(data) == word or str(data).startswith(f"{word}:"):
+            return _made_models(str(data), word)
     path = Path(data)
     try:
         found = _models_in(path, split, _DEEPEST) if path.is_dir() else _one(path)
@@ -104,14 +107,14 @@ def find_models(data: str | Path, split: str = "") -> tuple[ModelRef, ...]:
     return _with_unique_ids(found)
 
 
-def find_all_models(data: Sequence[str | Path]) -> tuple[ModelRef, ...]:
-    """Returns the models of several datasets together, each in the order of `find_models`.
+def find_all_models(data: Sequence[str | Path], split: str = "") -> tuple[ModelRef, ...]:
+    """Returns the models of several datasets together, each in the order of `find_models`; of releases, of a split.
 
     Raises:
         OptionError: as by `find_models`, or if two of them have models of one id.
         AssetError: as by `find_models`.
     """
-    found = [ref for one in data for ref in find_models(one)]
+    found = [ref for one in data for ref in find_models(one, split)]
     twice = [name for name, number in Counter(ref.id for ref in found).items() if number > 1]
     if twice:
         raise OptionError(f"models of several datasets must have different ids: got `{twice[0]}` twice")
@@ -124,13 +127,25 @@ def load_model(ref: ModelRef) -> Asset:
     Raises:
         AssetError: if it is missing, damaged, or has no mesh that could move.
     """
-    if ref.kind == "made":
+    if ref.kind in _ON_THE_SPOT:
         return _made_asset(_specimen(ref))
     if ref.kind in _RELEASES:
         return read_release_model(_path(ref))
     if ref.kind == _DECIDED:
         return read_decided(_path(ref))
     return load_asset(_path(ref)).as_annotated()
+
+
+def given_model(ref: ModelRef, truth: Asset) -> Asset:
+    """Returns what a method is given of a model: the model, or what the reader finds in it where it is welded.
+
+    Raises:
+        AssetError: if a welded model is not told apart.
+    """
+    if ref.kind != WELDED:
+        return truth
+    assert ref.number is not None
+    return welded(truth, weld_of(ref.number))
 
 
 def files_of_model(ref: ModelRef) -> tuple[Path, ...]:
@@ -144,6 +159,9 @@ def category_of(ref: ModelRef) -> str:
     """Returns the category of a model: what its data set states (`Table`), a made one's family, or its kind."""
     if ref.kind == "made":
         return _specimen(ref).family
+    if ref.kind == WELDED:
+        assert ref.number is not None
+        return weld_of(ref.number)
     stated = _stated_category(_path(ref)) if ref.kind == "partnet-mobility" else ""
     return stated or ref.kind
 
@@ -209,14 +227,15 @@ def _with_unique_ids(refs: list[ModelRef]) -> tuple[ModelRef, ...]:
     return tuple(sorted(named, key=lambda ref: ref.id))
 
 
-def _made_models(data: str) -> tuple[ModelRef, ...]:
-    numbers = data.split(":")[1:] if data != _MADE else [str(TEST_SEED), str(_TEST_COUNT)]
+def _made_models(data: str, word: str) -> tuple[ModelRef, ...]:
+    numbers = data.split(":")[1:] if data != word else [str(TEST_SEED), str(_TEST_COUNT)]
     if len(numbers) != 2 or not all(n.isascii() and n.isdigit() for n in numbers) or int(numbers[1]) < 1:
-        raise OptionError(f"synthetic furniture must be asked for as {_MADE}:SEED:COUNT: got {data!r}")
+        raise OptionError(f"synthetic furniture must be asked for as {word}:SEED:COUNT: got {data!r}")
     seed, size = (int(n) for n in numbers)
     if size > _MOST_MADE:
         raise OptionError(f"at most {_MOST_MADE:,} models are made: got {data!r}")
-    return tuple(ModelRef(f"synth_{seed}_{k:07d}", "made", seed=seed, number=k) for k in range(size))
+    kind = WELDED if word == WELDED else "made"
+    return tuple(ModelRef(f"{word}_{seed}_{k:07d}", kind, seed=seed, number=k) for k in range(size))
 
 
 @lru_cache(maxsize=2)  # asked for its category right after it was read
@@ -244,5 +263,5 @@ def _stated_category(folder: Path) -> str:
 
 
 def _path(ref: ModelRef) -> Path:
-    assert ref.path is not None  # every kind but `made` has one
+    assert ref.path is not None  # every kind but what is made on the spot has one
     return ref.path

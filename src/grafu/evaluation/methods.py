@@ -113,11 +113,15 @@ class Method:
 @final
 @dataclass(frozen=True, slots=True)
 class MethodOptions:
-    """How language models are asked, and the folders in which their replies and what programs wrote are kept."""
+    """How language models are asked, and the folders in which their replies and what programs wrote are kept.
+
+    `weights` are those of the method `network`, where they are not the shipped ones.
+    """
 
     llm: LlmConfig = field(default_factory=LlmConfig)
     replies: Path = Path("replies")
     outputs: Path = Path("predictions")
+    weights: Path | None = None
 
 
 def parse_method(text: str, options: MethodOptions = MethodOptions()) -> Method:
@@ -132,7 +136,9 @@ def parse_method(text: str, options: MethodOptions = MethodOptions()) -> Method:
     if name in RUN and of:
         config = read_config(Path(of), ProgramConfig)
         return Method(name, program=OutsideProgram(Path(of), config, options.outputs, name.removesuffix("-run")))  # type: ignore[arg-type]
-    return Method(name, weights=Path(of)) if name == "network" and of else Method(name, Path(of) if of else None)
+    if name == "network":
+        return Method(name, weights=Path(of) if of else options.weights)
+    return Method(name, Path(of) if of else None)
 
 
 def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = False) -> Functionalized:
@@ -146,8 +152,7 @@ def made_by(method: Method, asset: Asset, model_id: str, joints_alone: bool = Fa
         NotRun: if a program is not installed.
         OptionError: if the method asks a language model, which `grafu.evaluation.llm.baselines` does.
     """
-    settings = Settings(weights=method.weights)
-    config = PipelineConfig(replace(settings, additions=_JOINTS_ALONE) if joints_alone else settings)
+    config = PipelineConfig(_settings(method, joints_alone))
     if method.can_be_masked:
         return functionalize(asset.without_annotation(), MotionSource(method.name), builtin_gallery(), config)
     if method.name == "annotation":
@@ -170,5 +175,10 @@ def made_with_labels_hidden(method: Method, asset: Asset, ratio: float, seed: in
     """
     if not method.can_be_masked:
         raise OptionError(f"labels can be hidden from rule and network alone: got `{method.name}`")
-    config = PipelineConfig(Settings(additions=_JOINTS_ALONE, weights=method.weights))
+    config = PipelineConfig(_settings(method, joints_alone=True))
     return functionalize(masked(asset, ratio, seed), MotionSource(method.name), builtin_gallery(), config)
+
+
+def _settings(method: Method, joints_alone: bool) -> Settings:
+    settings = Settings(weights=method.weights)
+    return replace(settings, additions=_JOINTS_ALONE) if joints_alone else settings

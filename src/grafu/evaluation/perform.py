@@ -8,7 +8,7 @@ from typing import final
 from grafu.asset.part import Asset
 from grafu.errors import FunctionalizationError, NotRun
 from grafu.evaluation.completeness import completeness_of
-from grafu.evaluation.dataset import ModelRef, category_of, load_model
+from grafu.evaluation.dataset import ModelRef, category_of, given_model, load_model
 from grafu.evaluation.distribution import graph_features
 from grafu.evaluation.llm.baselines import asked
 from grafu.evaluation.llm.config import LanguageModel
@@ -88,7 +88,7 @@ def _outcome(task: Task) -> TaskOutcome:
             return _asked_outcome(task, model)
         case MethodTask():
             asset = _asset(task.model)
-            return TaskOutcome(method_facts(asset, made_by(task.method, asset, task.model.id)))
+            return TaskOutcome(method_facts(asset, made_by(task.method, _given(task, asset), task.model.id)))
         case MaskTask():
             return TaskOutcome(mask_facts(task))
         case TwinTask():
@@ -142,7 +142,7 @@ def mask_facts(task: MaskTask) -> MethodFacts:
     """Returns the joints that a method makes where labels are hidden."""
     asset = _asset(task.model)
     truth = counted_parts(asset)
-    result = made_with_labels_hidden(task.method, asset, task.ratio, task.seed)
+    result = made_with_labels_hidden(task.method, _given(task, asset), task.ratio, task.seed)
     measures = measure_parts(result.object, truth, asset.extent, with_touch=False)
     records = (EvaluatedPart(part=part.id, fixed=MeasureRecord.of(m)) for part, m in zip(truth, measures, strict=True))
     return MethodFacts(parts=tuple(records))
@@ -163,6 +163,11 @@ def twin_facts(task: TwinTask) -> TwinFacts:
 @lru_cache(maxsize=2)  # tasks of one model come one after the other
 def _asset(model: ModelRef) -> Asset:
     return load_model(model)
+
+
+def _given(task: MethodTask | MaskTask, truth: Asset) -> Asset:
+    """Returns what the method is given; the annotation is of the parts as they were."""
+    return truth if task.method.name == "annotation" else given_model(task.model, truth)
 
 
 def _why_standing(part: MovingPart, fixed: PartMeasure, result: Functionalized, skipped: dict[str, str]) -> str:

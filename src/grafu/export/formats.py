@@ -16,8 +16,10 @@ from grafu.processes.limits import give_back_unused
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
     from grafu.export.files import ExportFiles
+    from grafu.graph.completion import GraphCompletion
 
-Exporter: TypeAlias = "Callable[[ArticulatedObject], ExportFiles]"
+Exporter: TypeAlias = "Callable[..., ExportFiles]"
+"""Takes an articulated object and, of a format with `graph`, the completed graph that it was built from."""
 
 
 @final
@@ -28,7 +30,8 @@ class Format:
     `name` is what `--formats` takes, `title` what people call it, `about` what is in it and for whom. `files` are the
     names that it writes; a folder ends with `/`. `exporter` and `requirement` are `module:function`; `requirement`
     raises `ExportError` where what the format needs besides is not installed, and `extra` is the extra of the package
-    that brings it (`pip install 'grafu[EXTRA]'`); both are empty where nothing more is needed.
+    that brings it (`pip install 'grafu[EXTRA]'`); both are empty where nothing more is needed. A format with `graph`
+    holds the completed graph, which not every object has.
     """
 
     name: str
@@ -38,6 +41,7 @@ class Format:
     exporter: str
     extra: str = ""
     requirement: str = ""
+    graph: bool = False
 
 
 _ALL = (
@@ -109,6 +113,14 @@ _ALL = (
         "grafu.export.singapo:export_singapo",
     ),
     Format(
+        "grafu-pred",
+        "GraFu prediction",
+        "The completed graph as the paper's authors write predictions: their Blender add-on",
+        ("prediction/",),
+        "grafu.export.prediction:export_prediction",
+        graph=True,
+    ),
+    Format(
         "blend",
         "Blend",
         "A Blender file with every joint on one property",
@@ -143,14 +155,18 @@ def exporter_for(name: str) -> Exporter:
     return exporter
 
 
-def export(articulated: "ArticulatedObject", formats: Sequence[str]) -> "ExportFiles":
+def export(
+    articulated: "ArticulatedObject", formats: Sequence[str], completion: "GraphCompletion | None" = None
+) -> "ExportFiles":
     """Returns the files of all the formats named, together; their `formats` say which are whose.
+
+    `completion` is the graph that the object was built from, for the formats that hold it.
 
     Where the budget in force holds no more, the first is written all the same, and the others are left out: the files'
     `notes` state which.
 
     Raises:
-        ExportError: if a format is unknown or cannot say what the object holds.
+        ExportError: if a format is unknown, cannot say what the object holds, or holds a graph and there is none.
     """
     from grafu.export.files import ExportFiles
 
@@ -160,7 +176,12 @@ def export(articulated: "ArticulatedObject", formats: Sequence[str]) -> "ExportF
         if place and not has_time():
             left_out = ", ".join(dict.fromkeys(name.lower() for name in formats[place:]))
             return files.joined(ExportFiles({}, notes=(f"left out for lack of time: {left_out}; allow more time",)))
-        made = exporter(articulated)
+        if not FORMATS[name.lower()].graph:
+            made = exporter(articulated)
+        elif completion is None:
+            raise ExportError(f"`{name}` holds a completed graph: the object alone has none")
+        else:
+            made = exporter(articulated, completion)
         give_back_unused()
         files = files.joined(ExportFiles(made.contents, {name.lower(): made.names}, made.notes))
     return files

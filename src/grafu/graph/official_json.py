@@ -1,4 +1,4 @@
-"""The authors' graph files: input and functional graphs both ways, predicted graphs in.
+"""The authors' graph files: input, functional and predicted graphs, both ways.
 
 Numbers keep the unit of the file. What our graph cannot hold is left out and named in the notes: a motion that is not
 labelled leaves a contact, a second edge between two parts gives way.
@@ -29,6 +29,7 @@ from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 _DIGITS = 6  # the authors' builder rounds to micrometres
+_THINNEST = 0.005  # half sizes of predicted boxes
 
 
 @final
@@ -96,6 +97,31 @@ def prediction_from_official(data: Json, given: FunctionalGraph) -> GraphComplet
     return GraphCompletion(given, reading.graph, "official prediction", added, (), refused)
 
 
+def prediction_to_official(completion: GraphCompletion) -> dict[str, Any]:
+    """Returns the authors' predicted graph: slot k is the k-th node of the input, new nodes have the slots behind.
+
+    What the authors' four kinds of edges cannot state is a contact.
+    """
+    given = [node.id for node in completion.input.nodes]
+    graph = completion.completed
+    ordered = [graph.node(name) for name in given] + [node for node in graph.nodes if node.id not in completion.input]
+    graph = replace(graph, nodes=tuple(ordered))
+    names: dict[str, str] = {}
+    nodes: dict[str, dict[str, Any]] = {}
+    for slot, node in enumerate(graph.nodes):
+        word = node_to_material(node)
+        names[node.id] = key = f"slot{slot:02d}_{word.replace(' ', '_')}"
+        kind = "dynamic" if node.label.is_movable or node.label is PartLabel.HANDLE else "static"
+        nodes[key] = {"id": key, "slot": slot, "type": kind, "material": word, "obb": _obb(node.box, _THINNEST)}
+    edges = [_edge_to_official(edge, graph) | motion_fields(edge, graph) for edge in paper_edges(graph)]
+    told = [
+        {name: value for name, value in edge.items() if name != "connector"}
+        | {end: names[edge[end]] for end in ("src", "dst")}
+        for edge in edges
+    ]
+    return {"model_id": graph.model_id, "nodes": nodes, "edges": told}
+
+
 def handle_border(door: Box, handle: Box) -> int:
     """Returns the face of the door, within its plane, that the handle sits nearest to (codes 0..5)."""
     offset = (handle.center - door.center) / np.maximum(door.half, 1e-12)
@@ -111,8 +137,8 @@ def _nodes_to_official(graph: FunctionalGraph) -> dict[str, dict[str, Any]]:
     }
 
 
-def _obb(box: Box) -> dict[str, list[float]]:
-    center, half = (np.round(v, _DIGITS).tolist() for v in (box.center, box.half))
+def _obb(box: Box, thinnest: float = 0.0) -> dict[str, list[float]]:
+    center, half = (np.round(v, _DIGITS).tolist() for v in (box.center, np.maximum(box.half, thinnest)))
     return {"center": center, "half": half, "quat": [1.0, 0.0, 0.0, 0.0]}
 
 

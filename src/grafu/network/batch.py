@@ -15,14 +15,15 @@ from torch import Tensor
 @final
 @dataclass(frozen=True)
 class Predictions:
-    """Scores of s = n + K slots: first one for each input node, padding included, then the K free ones.
+    """Scores of s slots: one for each of n input nodes, padding included, then the K free ones, then padding slots.
 
     All scores are logits. Boxes stand in the normalised frame of the input. A pair (i, j) asks about i as the child,
     the door, drawer or handle, and j as what carries it; `edge` is symmetric. `parent_abstain` and `hinge_abstain` are
     the scores that i's parent, or mount, is none of the slots. Borders, signs and slides are official motion codes.
     `body` is that i and j move as one, symmetric; `ajar` that a part is drawn open; `piece` the kind of the whole. A
     network without `facts` answers 0 there.
-    `mask` marks slots that are no padding.
+    `mask` marks the slots of a graph; the others only fill the batch. `padding` marks those among them that belong to
+    no node, given or missing, and must not exist: the paper's padding slots, of a network that has them.
     """
 
     exists: Float[Tensor, "b s"]
@@ -41,6 +42,7 @@ class Predictions:
     ajar: Float[Tensor, "b s"]
     piece: Float[Tensor, "b pieces"]
     mask: Bool[Tensor, "b s"]
+    padding: Bool[Tensor, "b s"]
 
 
 @final

@@ -1,7 +1,7 @@
 """The sizes and choices of the network: the paper's numbers by default, each departure named with its reason."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Literal, final
 
@@ -13,6 +13,7 @@ PointsFrame = Literal["object", "part"]
 PairFeatures = Literal["faces", "signed", "unsigned"]
 PairBoxes = Literal["input", "predicted"]
 FreeBoxes = Literal["pointed", "absolute"]
+Vocabulary = Literal["grafu", "official"]
 
 
 @final
@@ -35,6 +36,14 @@ class GraFuConfig:
             again: a given box is exact, and gaps of a millimetre decide about contact. No gradient runs through them.
         pair_edges: pair heads also see the encoder's last feature of the edge between two input nodes. The paper gives
             them slots and boxes only, so that the kinds of edges in the input reach them through nodes alone.
+        second_grouping: the paper's second stage groups the groups of points once more, each with up to
+            `second_neighbours` within `second_radius` (of the object's size; both are the authors'). Without, it takes
+            all groups at once: of 32 there is little left to group, and a step is shorter by a tenth or two.
+        slots: the paper has a budget of 55 slots (M), most of them padding that must be predicted not to exist. None:
+            as many slots as nodes, and K more; the budget never cuts a graph, larger ones get more slots.
+        symmetric_edges: the kind of an edge is one, whichever end is asked: its logits are the mean of both ways. The
+            paper classifies each pair by itself; where it does, the mean is taken in use alone.
+        vocabulary: "official" has the 17 categories of the authors' code, as their weights do.
         free_boxes: the paper has free slots say their boxes in the object's frame ("absolute"). "pointed" ones point at
             nodes and say theirs in units of those: a handle sits so far along its door, a top as wide as its case.
         visibility: nodes also see how much of their part is visible from each side, and what lies behind it
@@ -50,7 +59,8 @@ class GraFuConfig:
             batches): real surfaces differ more from synthetic ones than boxes and contacts do.
 
     Raises:
-        ValueError: if a size is below 1, a fraction is not in [0, 1), or the heads do not divide `hidden`.
+        ValueError: if a size is below 1, a fraction is not in [0, 1), the heads do not divide `hidden`, or there are
+            fewer slots than free ones.
     """
 
     hidden: int = 256
@@ -75,6 +85,12 @@ class GraFuConfig:
     names: bool = True
     facts: bool = True
     name_dropout: float = 0.3
+    second_grouping: bool = False
+    second_radius: float = 0.4
+    second_neighbours: int = 32
+    slots: int | None = None
+    symmetric_edges: bool = True
+    vocabulary: Vocabulary = "grafu"
 
     @property
     def edge_codes(self) -> int:
@@ -90,12 +106,18 @@ class GraFuConfig:
             raise ValueError(f"`hidden` must be a multiple of `heads`: got {self.hidden} and {self.heads}")
         if self.free_slots < 0:
             raise ValueError(f"`free_slots` must not be negative: got {self.free_slots}")
+        if self.slots is not None and self.slots < max(1, self.free_slots):
+            raise ValueError(f"`slots` must be at least `free_slots`: got {self.slots} and {self.free_slots}")
+        if self.second_neighbours < 1 or self.second_radius <= 0:
+            said = f"{self.second_neighbours}, {self.second_radius}"
+            raise ValueError(f"`second_neighbours` and `second_radius` must be above 0: got {said}")
         for name in ("dropout", "geometry_dropout", "name_dropout"):
             if not 0.0 <= getattr(self, name) < 1.0:
                 raise ValueError(f"`{name}` must be at least 0 and below 1: got {getattr(self, name)}")
 
 
 PAPER = GraFuConfig(
+    geometry_dropout=0.0,
     points_frame="object",
     pair_features="signed",
     margins=False,
@@ -106,8 +128,15 @@ PAPER = GraFuConfig(
     kinds="paper",
     names=False,
     facts=False,
+    name_dropout=0.0,
+    second_grouping=True,
+    slots=55,
+    symmetric_edges=False,
 )
-"""The network without our departures."""
+"""The paper's network, without our departures."""
+
+OFFICIAL = replace(PAPER, geometry_dropout=0.3, vocabulary="official")
+"""The network of the authors' code, into which their weights are read."""
 
 OLDER: Mapping[str, Any] = MappingProxyType({"kinds": "paper", "visibility": False, "names": False, "facts": False})
 """The fields that files of earlier networks do not state, and what they had."""

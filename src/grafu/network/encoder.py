@@ -2,13 +2,8 @@
 
 A node is its category, box and points side by side; an edge its kind and where its boxes stand. Nodes attend along
 edges, then edges are updated from their nodes.
-
-Points go through a lightweight PointNet++ of two stages over groups made beforehand. The first stage looks at each
-group, the second at all groups of a part. The authors' second stage groups once more; here it takes all groups at once:
-of so few there is little left to group, and a step is shorter by a tenth or two.
 """
 
-from itertools import pairwise
 from typing import final
 
 import torch
@@ -16,8 +11,10 @@ from jaxtyping import Bool, Float, Int64
 from torch import Tensor, nn
 
 from grafu.network.batch import GraphBatch
-from grafu.network.config import LABEL_COUNT, GraFuConfig, PairFeatures, PointsFrame
+from grafu.network.config import GraFuConfig, PairFeatures
 from grafu.network.layers import EdgeAttention, PairLinear, perceptron
+from grafu.network.points import PointEncoder
+from grafu.network.vocabulary import CategoryEmbedding
 
 EDGE_TERMS = 8
 FACE_TERMS = 12
@@ -109,42 +106,6 @@ class EdgeEncoder(nn.Module):
         return self.joined(torch.cat([self.kind(batch.edges).to(terms.dtype), terms], dim=-1))
 
 
-FIRST_STAGE = (3, 32, 64)  # widths of the stages and of the head
-SECOND_STAGE = (67, 64, 128)
-POINT_HEAD = 128
-
-
-@final
-class PointEncoder(nn.Module):
-    """From a part's grouped points to `width` numbers."""
-
-    def __init__(self, width: int, frame: PointsFrame) -> None:
-        super().__init__()
-        self.frame = frame
-        self.first = _stage(*FIRST_STAGE)
-        self.second = _stage(*SECOND_STAGE)
-        self.head = perceptron(SECOND_STAGE[-1], POINT_HEAD, width)
-
-    def forward(self, anchors: Float[Tensor, "u g 3"], groups: Float[Tensor, "u g k 3"]) -> Float[Tensor, "u width"]:
-        """Returns a latent of each part; the order of groups and of their points does not matter."""
-        centres = anchors - middles(anchors) if self.frame == "part" else anchors
-        of_groups = self.first(groups).amax(dim=2)
-        of_part = self.second(torch.cat([centres.to(of_groups.dtype), of_groups], dim=2)).amax(dim=1)
-        return self.head(of_part)
-
-
-def middles(anchors: Float[Tensor, "u g 3"]) -> Float[Tensor, "u 1 3"]:
-    """Returns the middle of each part's box of anchors."""
-    return (anchors.amax(dim=1, keepdim=True) + anchors.amin(dim=1, keepdim=True)) / 2
-
-
-def _stage(*widths: int) -> nn.Sequential:
-    layers: list[nn.Module] = []
-    for into, out in pairwise(widths):
-        layers += [nn.Linear(into, out), nn.LayerNorm(out), nn.ReLU()]
-    return nn.Sequential(*layers)
-
-
 BOX_NUMBERS = 9  # centroid and two corners
 MARGIN_NUMBERS = 9
 VISIBILITY_NUMBERS = 18  # those of `grafu.completion.visibility`
@@ -181,11 +142,11 @@ class NodeEncoder(nn.Module):
 
     def __init__(self, config: GraFuConfig) -> None:
         super().__init__()
-        self.category = nn.Embedding(LABEL_COUNT, config.category)  # a linear projection of the one-hot label
+        self.category = CategoryEmbedding(config)
         self.sees_margins = config.margins
         numbers = BOX_NUMBERS + (MARGIN_NUMBERS if config.margins else 0)
         self.box = perceptron(numbers, BOX_HIDDEN, config.geometry)
-        self.points = PointEncoder(config.points, config.points_frame)
+        self.points = PointEncoder(config)
         self.visibility = perceptron(VISIBILITY_NUMBERS, BOX_HIDDEN, config.geometry) if config.visibility else None
         self.names = NameEncoder(config.name_dropout) if config.names else None
         self.hidden_ratio = config.geometry_dropout

@@ -2,7 +2,7 @@
 
 Inputs are the arrays of one graph's features, by their names, without a batch: labels [n], boxes [n,6],
 anchors [n,G,3], groups [n,G,S,3], edges [n,n], visibility [n,18], names [n,32]. Outputs are the
-fields of `Predictions` but `mask`, without a batch.
+fields of `Predictions` but `mask` and `padding`, without a batch and without padding slots.
 """
 
 import json
@@ -27,27 +27,41 @@ from grafu.network.stored import HALF, name_weights
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
 INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names")
-OUTPUTS = tuple(field.name for field in fields(Predictions) if field.name != "mask")
+OUTPUTS = tuple(field.name for field in fields(Predictions) if field.name not in ("mask", "padding"))
 PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide", "body")
 GRAPH_OUTPUTS = ("piece",)
 _SMALLEST = 64  # numbers; a weight with fewer is left as it is: nothing is saved
 
 
 def onnx_bytes(
-    model: GraFu, *, points: int, anchors: int, neighbours: int, kinds: KindSet = "all", half_weights: bool
+    model: GraFu,
+    *,
+    points: int,
+    anchors: int,
+    neighbours: int,
+    kinds: KindSet = "all",
+    radius: float | None = None,
+    half_weights: bool,
 ) -> bytes:
     """Returns an ONNX file; its metadata hold the network's config, what it sees of points, and the labels in order.
 
-    Of the `points` of a part, `anchors` groups of `neighbours` points each are seen, and edges of these `kinds`: the
-    `features` of the file. Weights have their names in the network (`grafu.network.stored`). With `half_weights` they
-    are stored in 16 bits and widened when they are used: half the size, and all is computed in 32 bits as before.
+    Of the `points` of a part, `anchors` groups of `neighbours` points each are seen, those within `radius` if there is
+    one, and edges of these `kinds`: the `features` of the file. Weights have their names in the network
+    (`grafu.network.stored`). With `half_weights` they are stored in 16 bits and widened when they are used: half the
+    size, and all is computed in 32 bits as before.
     """
     proto = _exported(deepcopy(model).cpu(), anchors, neighbours)
     _without_traces(proto)
     name_weights(proto, model)
     facts = {
         "config": asdict(model.config),
-        "features": {"points": points, "anchors": anchors, "neighbours": neighbours, "kinds": kinds},
+        "features": {
+            "points": points,
+            "anchors": anchors,
+            "neighbours": neighbours,
+            "kinds": kinds,
+            "radius": radius,
+        },
         "labels": [label.value for label in LABELS],
     }
     onnx.helper.set_model_props(proto, {key: json.dumps(value) for key, value in facts.items()})

@@ -1,11 +1,11 @@
 """The whole network: graph encoder, slot decoder, heads (paper, figure GraFu pipeline).
 
-The decoder has slots for the input's nodes and free ones for what is missing (supplement, Graph Decoder). The paper's
-budget of 55 slots, most of them padding, is only needed where tensors must have one size: here there are as many slots
-as nodes, and K more.
+The decoder has slots for the input's nodes and free ones for what is missing (supplement, Graph Decoder). With the
+paper's budget of slots (`GraFuConfig.slots`) there are padding slots, too, which begin as zeros; else there are as many
+slots as nodes, and K more.
 """
 
-from typing import final
+from typing import NamedTuple, final
 
 import torch
 from jaxtyping import Bool, Float
@@ -45,28 +45,44 @@ class SlotLayer(nn.Module):
         return slots + self.dropout(self.feed_forward(self.before_forward(slots)))
 
 
+class Slots(NamedTuple):
+    """The decoded slots, which of them belong to a graph, and which of those are its padding."""
+
+    features: Float[Tensor, "b s h"]
+    mask: Bool[Tensor, "b s"]
+    padding: Bool[Tensor, "b s"]
+
+
 @final
 class SlotDecoder(nn.Module):
-    """From the encoded nodes to n + K slots, the K free ones last."""
+    """From the encoded nodes to n + K slots, the K free ones behind the nodes', then padding slots if there are any."""
 
     def __init__(self, config: GraFuConfig) -> None:
         super().__init__()
         hidden = config.hidden
+        self.budget = config.slots
         self.free = nn.Parameter(torch.randn(config.free_slots, hidden) * 0.5)  # apart from each other from the start
         self.summary = nn.Sequential(perceptron(hidden, hidden, hidden), nn.LayerNorm(hidden))
         self.layers = nn.ModuleList([SlotLayer(config) for _ in range(config.decoder_layers)])
         self.norm = nn.LayerNorm(hidden)
 
-    def forward(
-        self, nodes: Float[Tensor, "b n h"], mask: Bool[Tensor, "b n"]
-    ) -> tuple[Float[Tensor, "b s h"], Bool[Tensor, "b s"]]:
-        """Returns the slots and which of them are no padding."""
+    def forward(self, nodes: Float[Tensor, "b n h"], mask: Bool[Tensor, "b n"]) -> Slots:
+        """Returns the slots."""
         free = self.free + self.summary(masked_mean(nodes, mask))[:, None, :]
         slots = torch.cat([nodes, free.to(nodes.dtype)], dim=1)
         slot_mask = torch.cat([mask, torch.ones_like(free[..., 0], dtype=torch.bool)], dim=1)
+        padding = torch.zeros_like(slot_mask)
+        if self.budget is not None:
+            # No more than is missing in a full graph; a file has them all, as its graphs have any size
+            exporting = torch.compiler.is_exporting()
+            more = self.budget if exporting else max(0, self.budget - slots.shape[1])
+            slots, slot_mask = pad(slots * slot_mask[..., None], (0, 0, 0, more)), pad(slot_mask, (0, more))
+            rank = (~slot_mask).cumsum(dim=1)
+            padding = ~slot_mask & (rank <= self.budget - slot_mask.sum(dim=1, keepdim=True))
+            slot_mask = slot_mask | padding
         for layer in self.layers:
             slots = layer(slots, slot_mask, nodes, mask)
-        return self.norm(slots), slot_mask
+        return Slots(self.norm(slots), slot_mask, padding)
 
 
 @final
@@ -80,21 +96,22 @@ class GraFu(nn.Module):
         self.decoder = SlotDecoder(config)
         terms = pair_term_count(config.pair_features) + (config.edge if config.pair_edges else 0)
         self.slot_heads = SlotHeads(config)
-        self.pair_heads = PairHeads(config.hidden, terms, config.edge_codes)
+        self.pair_heads = PairHeads(config.hidden, terms, config.edge_codes, config.symmetric_edges)
         self.motion_heads = MotionHeads(config.hidden, terms)
         self.fact_heads = FactHeads(config.hidden, terms) if config.facts else None
 
     def forward(self, batch: GraphBatch) -> Predictions:
         """Returns the scores of all slots and pairs of slots."""
         nodes, edges = self.encoder(batch)
-        slots, mask = self.decoder(nodes, batch.mask)
+        slots, mask, padding = self.decoder(nodes, batch.mask)
         answers = self.slot_heads(slots, nodes, batch.boxes, batch.mask)
         terms = self._pair_terms(batch.boxes, answers, edges)
         pairs, motions = self.pair_heads(slots, terms), self.motion_heads(slots, terms)
         facts = no_facts(slots, terms)
         if self.fact_heads is not None:
             facts = self.fact_heads(slots, masked_mean(nodes, batch.mask), terms)
-        return Predictions(**answers._asdict(), **pairs._asdict(), **motions._asdict(), **facts._asdict(), mask=mask)
+        scores = answers._asdict() | pairs._asdict() | motions._asdict() | facts._asdict()
+        return Predictions(**scores, mask=mask, padding=padding)
 
     def _pair_terms(
         self, given: Float[Tensor, "b n 6"], answers: SlotAnswers, edges: Float[Tensor, "b n n e"]
@@ -105,5 +122,5 @@ class GraFu(nn.Module):
         terms = pair_terms(boxes, self.config.pair_features)
         if not self.config.pair_edges:
             return terms
-        free = self.config.free_slots
-        return torch.cat([terms.to(edges.dtype), pad(edges, (0, 0, 0, free, 0, free))], dim=-1)
+        more = terms.shape[1] - edges.shape[1]
+        return torch.cat([terms.to(edges.dtype), pad(edges, (0, 0, 0, more, 0, more))], dim=-1)

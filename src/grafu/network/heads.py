@@ -12,8 +12,9 @@ from torch import Tensor, nn
 from torch.nn.functional import gelu, pad, softplus
 
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
-from grafu.network.config import LABEL_COUNT, GraFuConfig
+from grafu.network.config import GraFuConfig
 from grafu.network.layers import PairLinear, attention_weights, perceptron
+from grafu.network.vocabulary import as_labels, category_count
 from grafu.vocabulary import PieceKind
 
 WIDTH = 128
@@ -68,9 +69,10 @@ class SlotHeads(nn.Module):
 
     def __init__(self, config: GraFuConfig) -> None:
         super().__init__()
-        hidden = config.hidden
+        hidden, self.free = config.hidden, config.free_slots
         self.exists = perceptron(hidden, HEAD, 1)
-        self.category = perceptron(hidden, HEAD, LABEL_COUNT)
+        self.vocabulary = config.vocabulary
+        self.category = perceptron(hidden, HEAD, category_count(config.vocabulary))
         self.shift = perceptron(hidden, HEAD, 3)
         self.size = perceptron(hidden, HEAD, 3)
         self.pointing = Pointing(hidden) if config.free_boxes == "pointed" else None
@@ -83,14 +85,15 @@ class SlotHeads(nn.Module):
         mask: Bool[Tensor, "b n"],
     ) -> SlotAnswers:
         """Returns the answers, given the encoded nodes of the input, their boxes, and which are no padding."""
-        count = boxes.shape[1]
+        count, dull = boxes.shape[1], slots.shape[1] - boxes.shape[1] - self.free
         beside, spread = pad(boxes[..., :3], (0, 0, 0, slots.shape[1] - count)), torch.zeros_like(slots[..., :3])
         if self.pointing is not None:
-            centre, half = self.pointing(slots[:, count:], nodes, boxes, mask)
-            beside, spread = torch.cat([boxes[..., :3], centre], dim=1), pad(half, (0, 0, count, 0))
+            centre, half = self.pointing(slots[:, count : count + self.free], nodes, boxes, mask)
+            beside = pad(torch.cat([boxes[..., :3], centre], dim=1), (0, 0, 0, dull))
+            spread = pad(half, (0, 0, count, dull))
         return SlotAnswers(
             exists=self.exists(slots)[..., 0],
-            category=self.category(slots),
+            category=as_labels(self.category(slots), self.vocabulary),
             centre=beside + self.shift(slots),
             half=spread + softplus(self.size(slots).float()),
         )
@@ -125,10 +128,14 @@ class PairHead(nn.Module):
 
 @final
 class PairHeads(nn.Module):
-    """Three heads; an edge has one kind, whichever end is asked, so its logits are the mean of both ways."""
+    """Three heads; an edge has one kind, whichever end is asked, so its logits are the mean of both ways.
 
-    def __init__(self, hidden: int, terms: int, codes: int) -> None:
+    Without `symmetric`, each way learns by itself, and the mean is taken in use.
+    """
+
+    def __init__(self, hidden: int, terms: int, codes: int, symmetric: bool) -> None:
         super().__init__()
+        self.symmetric = symmetric
         self.edge = PairHead(hidden, terms, *EDGE_HEAD, codes)
         self.parent = PairHead(hidden, terms, HEAD, 1)
         self.hinge_target = PairHead(hidden, terms, HEAD, 1)
@@ -139,7 +146,7 @@ class PairHeads(nn.Module):
         """Returns the answers for all pairs (i, j)."""
         edge = self.edge(slots, terms)
         return PairAnswers(
-            edge=(edge + edge.transpose(1, 2)) / 2,
+            edge=(edge + edge.transpose(1, 2)) / 2 if self.symmetric or not self.training else edge,
             parent=self.parent(slots, terms)[..., 0],
             parent_abstain=self.parent_abstain * 1.0,
             hinge_target=self.hinge_target(slots, terms)[..., 0],

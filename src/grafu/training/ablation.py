@@ -1,7 +1,8 @@
 """The experiments of the supplement's two ablations, and the choices beside them: which config each trains by.
 
 `losses` holds terms of the loss out, and takes one by one the choices in which the paper, the authors' code and `base`
-differ. `folds` varies the number of corrupted copies of each model. Here nothing is trained.
+differ. `folds` varies the number of corrupted copies of each model. `departures` takes back, one by one, what `base`
+does otherwise than the paper. Here nothing is trained.
 
 Their tables hold the paper's columns and what else was asked: Markdown to read, CSV to reckon with. A figure of a run
 is the mean over the kinds of input that validation shows: as found, labels hidden, parts taken away.
@@ -21,11 +22,12 @@ from grafu.data.corruption.corrupt import VARIANTS
 from grafu.data.pair import GraphPair
 from grafu.metrics.graph_accuracy import GraphAccuracy
 from grafu.training.config import TrainingConfig
+from grafu.training.departures import DEPARTURES, taken_back, without_departures
 from grafu.training.loss_config import HOLD_OUTS, OFFICIAL, PAPER, LossConfig, held_out
 from grafu.training.sample import CopyMix
 from grafu.training.source import FurFunSource, Source
 
-AblationKind = Literal["losses", "folds"]
+AblationKind = Literal["losses", "folds", "departures"]
 KINDS: tuple[AblationKind, ...] = get_args(AblationKind)
 
 FULL = "full"
@@ -102,6 +104,11 @@ CHOICES: Mapping[str, tuple[str, Mapping[str, object]]] = MappingProxyType(
             "slots that should exist weigh as much as all others (authors' code)",
             {"exists_balanced": True},
         ),
+        "sharp_count": ("the root in the loss of the count starts at a millionth (paper)", {"count_smoothing": 1e-6}),
+        "whole_count": (
+            "the count is of all missing nodes (paper)",
+            {"count_capped": False},
+        ),
         "light_motions": ("motions weigh .3 (authors' code)", {"border": 0.3, "sign": 0.3, "slide": 0.3}),
     }
 )
@@ -113,12 +120,12 @@ def experiments(kind: AblationKind, config: TrainingConfig) -> tuple[Experiment,
 
     The first row of `losses` is the config's own loss; choices that the config makes already are left out.
     """
-    return _losses(config) if kind == "losses" else _folds(config)
+    return {"losses": _losses, "folds": _folds, "departures": _departures}[kind](config)
 
 
 def training_models(kind: AblationKind, source: Source) -> Source:
     """Returns what is trained on: of `folds`, few models of what has no end; a FurFun release is few as it is."""
-    return source if kind == "losses" or isinstance(source, FurFunSource) else FirstModels(source, FOLD_MODELS)
+    return source if kind != "folds" or isinstance(source, FurFunSource) else FirstModels(source, FOLD_MODELS)
 
 
 def _losses(config: TrainingConfig) -> tuple[Experiment, ...]:
@@ -146,6 +153,14 @@ def _folds(config: TrainingConfig) -> tuple[Experiment, ...]:
     ]
     endless = replace(_mix(config, 17), folds=None)
     return (*rows, Experiment("folds_endless", "every corrupted copy is a new one", replace(even, mix=endless)))
+
+
+def _departures(config: TrainingConfig) -> tuple[Experiment, ...]:
+    """Returns the config, each departure of it from the paper taken back, and all of them."""
+    rows = [Experiment(one.name, one.taken_back, taken_back(config, one)) for one in DEPARTURES]
+    full = Experiment(FULL, "the config with its departures", config)
+    every = Experiment("paper", "all of them: the paper's network, losses and training", without_departures(config))
+    return (full, *(row for row in (*rows, every) if row.config != config))
 
 
 def _mix(config: TrainingConfig, count: int) -> CopyMix:

@@ -7,6 +7,7 @@ from typing import Literal, final
 
 from grafu.completion.features import FeatureConfig
 from grafu.data.corruption.config import PAPER as PAPER_CORRUPTION
+from grafu.network.config import PAPER as PAPER_NETWORK
 from grafu.network.config import GraFuConfig
 from grafu.training.loss_config import PAPER as PAPER_LOSS
 from grafu.training.loss_config import LossConfig
@@ -145,7 +146,7 @@ TUNE = replace(BASE, optimiser=replace(BASE.optimiser, matrices="adam", rate=3e-
 bfloat16, a step of Muon takes as long as the forward and the backward pass."""
 
 PAPER = TrainingConfig(
-    network=GraFuConfig(kinds="paper", visibility=False, names=False, facts=False),
+    network=PAPER_NETWORK,
     loss=PAPER_LOSS,
     mix=CopyMix(natural=1 / 18, masked=0.0, corruption=_UNMIRRORED, folds=17),
     sampling=SamplerConfig(models=16, copies=1, reuse=1, spread=16),
@@ -159,7 +160,7 @@ PAPER = TrainingConfig(
         period=94_500,  # 450 epochs (supplement) of 186 models x 18 pairs in batches of 16
         average=0.0,
     ),
-    features=FeatureConfig(kinds="paper"),
+    features=FeatureConfig(anchors=256, neighbours=32, kinds="paper", radius=0.2),
     steps=25_200,  # the authors' 120 epochs
     mirror_axes=(0, 1),
     precision="fp32",

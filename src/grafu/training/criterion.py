@@ -93,7 +93,7 @@ def slot_losses(predictions: Predictions, truth: SlotTruth, config: LossConfig) 
         half=mean_where(off_size, truth.matched),
         exists=exists_loss(exists, truth, config.exists_balanced),
         free_exists=free_exists_loss(exists, truth, config.free_positive),
-        count=count_loss(exists, truth, config.count_smoothing),
+        count=count_loss(exists, truth, config.count_smoothing, config.count_capped),
         anchor_centre=mean_where(box_errors(centre, truth.given[..., :3], error), truth.anchored),
         anchor_half=mean_where(box_errors(half, truth.given[..., 3:], error), truth.anchored),
         free_category=category_loss(categories, truth, added),
@@ -116,24 +116,29 @@ def box_errors(found: Float[Tensor, "b s 3"], wanted: Float[Tensor, "b s 3"], er
 
 def exists_loss(exists: Float[Tensor, "b s"], truth: SlotTruth, balanced: bool) -> Float[Tensor, ""]:
     """Returns the cross-entropy of existence over all slots: those anchored or matched should exist."""
-    should, slots = truth.anchored | truth.matched, truth.anchored | truth.free
+    should, slots = truth.anchored | truth.matched, truth.anchored | truth.free | truth.padding
     ratio = slots.sum() / should.sum().clamp(min=1)
     return mean_where(_existence(exists, should, ratio if balanced else torch.ones_like(ratio)), slots)
 
 
 def free_exists_loss(exists: Float[Tensor, "b s"], truth: SlotTruth, positive: float) -> Float[Tensor, ""]:
-    """Returns the cross-entropy of existence over the free slots, those that should exist weighing `positive`."""
+    """Returns the cross-entropy of existence over the slots of no input node, padding slots too (supplement, L_free).
+
+    Those that should exist weigh `positive`.
+    """
     weight = torch.full((), positive, device=exists.device)
-    return mean_where(_existence(exists, truth.matched, weight), truth.free)
+    return mean_where(_existence(exists, truth.matched, weight), truth.free | truth.padding)
 
 
-def count_loss(exists: Float[Tensor, "b s"], truth: SlotTruth, smoothing: float) -> Float[Tensor, ""]:
-    """Returns the square root of how far the expected number of added nodes is from the number that free slots can add.
+def count_loss(
+    exists: Float[Tensor, "b s"], truth: SlotTruth, smoothing: float, capped: bool = True
+) -> Float[Tensor, ""]:
+    """Returns the square root of how far the expected number of added nodes is from the number of missing ones.
 
-    It is the mean over the graphs that have a free slot.
+    With `capped`, from what free slots can add of them. It is the mean over the graphs that have a free slot.
     """
     expected = torch.where(truth.free, exists.sigmoid(), 0.0).sum(dim=1)
-    wanted = torch.minimum(truth.missing, truth.free.sum(dim=1))
+    wanted = torch.minimum(truth.missing, truth.free.sum(dim=1)) if capped else truth.missing
     roots = ((expected - wanted).abs() + smoothing).sqrt() - smoothing**0.5
     return weighted_mean(roots, truth.free.any(dim=1).float())
 

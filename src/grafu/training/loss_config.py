@@ -31,9 +31,12 @@ class LossConfig(ShortRepr):
       parts were off by a fifth of the object after 2000 steps.
     - `count_smoothing`: the paper's square root has an endless slope where the count is right. With c for it the term
       is sqrt(x + c) - sqrt(c); with 0.01 its slope stays below 5.
-    - The paper's count is of the nodes that free slots should add, however many; a graph may lack more than there are
-      free slots, which are then asked again, so here it is at most the number of free slots.
-    - Padding is not a slot that must not exist, but nothing at all.
+    - `count_capped`: the paper's count is of the nodes that free slots should add, however many; a graph may lack more
+      than there are free slots, which are then asked again, so here it is at most the number of free slots.
+
+    Of a network with padding slots (`GraFuConfig.slots`), these must not exist: they count in `exists` and
+    `free_exists`, whose formulas in the paper go over all slots, and over all that are not anchored; they answer for
+    no node.
 
     Raises:
         ValueError: if a weight is negative, or there are not five weights of edge kinds.
@@ -59,6 +62,7 @@ class LossConfig(ShortRepr):
     """How much more a free slot that should exist weighs than one that should not."""
     count: float = 1.0
     count_smoothing: float = 0.01
+    count_capped: bool = True
     anchor_centre: float = 0.3
     anchor_half: float = 0.3
     free_category: float = 0.0
@@ -91,7 +95,8 @@ class LossConfig(ShortRepr):
             raise ValueError(f"`edge_kinds` must be {EDGE_CODES['all']} weights: got {self.edge_kinds}")
 
 
-PAPER = LossConfig(pinned=False, body=0.0, ajar=0.0, piece=0.0)
+PAPER = LossConfig(pinned=False, count_smoothing=1e-6, count_capped=False, body=0.0, ajar=0.0, piece=0.0)
+"""The paper's losses; its square root has a millionth under it, so that the slope is always a number."""
 OFFICIAL = replace(
     LossConfig(),
     match_cost="probability",

@@ -23,11 +23,15 @@ _HOPELESS = 1e6  # stands for a cost that is not a number, so that the losses, n
 
 @torch.no_grad()
 def match_slots(predictions: Predictions, targets: TargetBatch, config: LossConfig) -> Int64[Tensor, "b s"]:
-    """Returns for each slot the target node that it answers for, `NONE` for padding and for slots left over."""
+    """Returns for each slot the target node that it answers for, `NONE` for padding and for slots left over.
+
+    Padding slots, which must not exist, answer for none.
+    """
     pinned = torch.full_like(predictions.exists, NONE, dtype=torch.int64)
     if config.pinned:
         pinned[:, : targets.anchors.shape[1]] = targets.anchors
-    slots = predictions.mask & ~anchored_slots(predictions, targets) if config.pinned else predictions.mask
+    slots = predictions.mask & ~predictions.padding
+    slots = slots & ~anchored_slots(predictions, targets) if config.pinned else slots
     nodes = targets.mask & ~anchored_nodes(targets) if config.pinned else targets.mask
     costs = assignment_costs(predictions, targets, config)
     found = _assign(costs.cpu().numpy(), slots.cpu().numpy(), nodes.cpu().numpy())
@@ -84,13 +88,15 @@ def _assign(
 class SlotTruth:
     """What s slots should answer; a slot that answers for no node has label `UNKNOWN`, null edges and no motion.
 
-    `matched` marks the slots that answer for a node, `anchored` those of input nodes, `free` the others that are no
-    padding. `given` are the boxes of the anchored slots' own nodes. `missing` counts the nodes that the input lacks.
+    `matched` marks the slots that answer for a node, `anchored` those of input nodes, `free` those that may answer for
+    a missing one, `padding` those that must not exist. `given` are the boxes of the anchored slots' own nodes.
+    `missing` counts the nodes that the input lacks.
     """
 
     matched: Bool[Tensor, "b s"]
     anchored: Bool[Tensor, "b s"]
     free: Bool[Tensor, "b s"]
+    padding: Bool[Tensor, "b s"]
     labels: Int64[Tensor, "b s"]
     boxes: Float32[Tensor, "b s 6"]
     given: Float32[Tensor, "b s 6"]
@@ -119,7 +125,8 @@ def slot_truth(predictions: Predictions, targets: TargetBatch, matching: Int64[T
     return SlotTruth(
         matched=matched,
         anchored=anchored,
-        free=predictions.mask & ~anchored,
+        free=predictions.mask & ~anchored & ~predictions.padding,
+        padding=predictions.padding,
         labels=_nodes(targets.labels, matching, UNKNOWN),
         boxes=_boxes(targets.boxes, matching),
         given=_boxes(targets.boxes, own),

@@ -17,7 +17,7 @@ from grafu.data.pair import GraphPair, record_of, record_pair
 from grafu.data.shards import ShardReader
 from grafu.data.stream import shard_paths
 from grafu.data.write_plan import made_with
-from grafu.errors import AssetError, UnreadableAsset
+from grafu.errors import AssetError, OptionError, UnreadableAsset
 from grafu.synth.generate import make_specimen
 
 VALIDATION_SEED = 990_001
@@ -109,10 +109,15 @@ class ShardSource:
         return record_pair(_reader(shard_paths(self.folder)[shard])[place - starts[shard]])
 
 
+FULL_SPLIT = "full_split"
+
+
 @final
 @dataclass(frozen=True)
 class FurFunSource:
-    """One part of the split of a FurFun release, over and over, in an order drawn with `seed`.
+    """One part of a split of a FurFun release, over and over, in an order drawn with `seed`.
+
+    `split` is the name of the split: `full_split`, or `subset_split` without models that are also in PartNet-Mobility.
 
     Raises:
         UnreadableAsset: if the folder is not laid out like a release, or has no pair in that part of its split.
@@ -121,9 +126,10 @@ class FurFunSource:
     folder: FurFunFolder
     part: SplitName
     seed: int = 0
+    split: str = FULL_SPLIT
 
     def __post_init__(self) -> None:
-        if not _paired(self.folder, self.part):
+        if not _paired(self.folder, self.part, self.split):
             raise UnreadableAsset(
                 f"`{self.folder.path}` has no functional graph in the part `{self.part}` of its split"
             )
@@ -141,20 +147,23 @@ class FurFunSource:
     @property
     def models(self) -> tuple[str, ...]:
         """The ids of the models that it goes through."""
-        return _paired(self.folder, self.part)
+        return _paired(self.folder, self.part, self.split)
 
     def pair(self, number: int) -> GraphPair:
         """Returns the natural pair of model `number` of the endless sequence."""
         return _kept_pair(self.folder, self.models[_place(self.seed, number, len(self.models))])
 
 
-def source_to_train_on(data: str, seed: int, points: int) -> Source:
+def source_to_train_on(data: str, seed: int, points: int, split: str = "") -> Source:
     """Returns furniture made with `seed` for the word `synth`, else what the folder of that name holds.
 
     Raises:
-        AssetError: if the furniture judges the weights, or the folder holds nothing to train on.
+        AssetError: if the furniture judges the weights, the folder holds nothing to train on, or has no such split.
+        OptionError: if a split is named of what has none.
     """
-    source = SynthSource(seed, points) if data == "synth" else source_in(Path(data), seed, points)
+    if split and data == "synth":
+        raise OptionError(f"only a FurFun release has splits: got `{split}` and furniture that is made on the spot")
+    source = SynthSource(seed, points) if data == "synth" else source_in(Path(data), seed, points, split)
     if source.maker_seed in RESERVED_SEEDS:
         raise AssetError(
             f"it must not be trained on {source.name}: made with seed {source.maker_seed}, it judges the weights"
@@ -162,15 +171,18 @@ def source_to_train_on(data: str, seed: int, points: int) -> Source:
     return source
 
 
-def source_in(folder: Path, seed: int, points: int) -> Source:
-    """Returns the models to train on in a folder of shards, or the training part of a FurFun release.
+def source_in(folder: Path, seed: int, points: int, split: str = "") -> Source:
+    """Returns the models to train on in a folder of shards, or the training part of a split of a FurFun release.
 
     Raises:
-        UnreadableAsset: if it is neither.
+        UnreadableAsset: if it is neither, or has no such split.
+        OptionError: if a split is named of shards.
     """
-    if shard_paths(folder):
-        return ShardSource(folder, seed)
-    return FurFunSource(FurFunFolder(folder, points), "train", seed)
+    if not shard_paths(folder):
+        return FurFunSource(FurFunFolder(folder, points), "train", seed, split or FULL_SPLIT)
+    if split:
+        raise OptionError(f"only a FurFun release has splits: got `{split}` and shards in {folder}")
+    return ShardSource(folder, seed)
 
 
 def _place(seed: int, number: int, count: int) -> int:
@@ -195,9 +207,9 @@ def _reader(path: Path) -> ShardReader:
 
 
 @lru_cache(maxsize=8)
-def _paired(folder: FurFunFolder, part: SplitName) -> tuple[str, ...]:
+def _paired(folder: FurFunFolder, part: SplitName, split: str) -> tuple[str, ...]:
     known = frozenset(folder.paired)
-    chosen: tuple[str, ...] = getattr(folder.split(), part)
+    chosen: tuple[str, ...] = getattr(folder.split(split), part)
     return tuple(model for model in chosen if model in known)
 
 

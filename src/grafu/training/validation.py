@@ -45,6 +45,7 @@ _CHILD_OF = {HINGE: DOOR, RAIL: DRAWER, ATTACHED: HANDLE}
 def batch_accuracy(predictions: Predictions, targets: TargetBatch) -> list[GraphAccuracy]:
     """Returns how right the answers are, graph by graph; lengths are fractions of the object's largest side."""
     scores = {name: _array(value) for name, value in vars(predictions).items()}
+    scores["mask"] &= ~scores["padding"]  # what padding slots answer is never used
     wanted = {name: _array(value) for name, value in vars(targets).items()}
     width = wanted["anchors"].shape[1]
     return [

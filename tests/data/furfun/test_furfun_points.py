@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 from releases import functional, put, put_model, unfunctional
 
 from grafu.data.furfun.folder import FurFunFolder
-from grafu.data.furfun.points import drawn_from, drawn_on_box, mesh_to_ply, read_ply
+from grafu.data.furfun.points import drawn_from, drawn_on_box, read_ply
 from grafu.errors import UnreadableAsset
+from grafu.export.ply import mesh_to_ply
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 

@@ -16,10 +16,10 @@ import numpy as np
 
 from grafu.data.furfun.graph_files import MADE_BY
 from grafu.data.furfun.layout import FUNCTIONAL, GEOMETRY, SPLITS, UNFUNCTIONAL
-from grafu.data.furfun.points import mesh_to_ply
 from grafu.data.furfun.split import SPLIT_NAMES, split_models, split_to_json
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
+from grafu.export.ply import mesh_to_ply
 from grafu.geometry.arrays import Points
 from grafu.graph.official_json import functional_to_official, input_to_official
 from grafu.graph.serialize import dump_json
