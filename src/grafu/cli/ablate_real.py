@@ -28,7 +28,7 @@ def scored_on_real(
     Raises:
         FunctionalizationError: if the models cannot be found, or files cannot be read or written.
     """
-    from grafu.cli.terminal import with_progress
+    from grafu.cli.item_bar import with_progress
     from grafu.evaluation.dataset import find_all_models
     from grafu.training.ablation import REAL
 

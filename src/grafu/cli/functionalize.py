@@ -11,13 +11,10 @@ from grafu.cli.format_option import add_formats_option
 from grafu.cli.input_options import add_input_options, add_limit_option, positive_count
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.part_options import (
-    GRASP_HELP,
-    MOVE_HELP,
     add_addition_options,
     add_base_option,
+    add_choices_of_parts,
     motion_choice,
-    part_grasp,
-    part_move,
     with_grasps,
     with_moves,
 )
@@ -68,10 +65,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         "file: particulate:FILE, singapo:FILE, grafu-pred:FILE, urdf:FILE; for several inputs a folder with an entry "
         "for each name (default: auto)",
     )
-    parser.add_argument("--move", action="append", type=part_move, default=[], metavar="PART=HOW", help=MOVE_HELP)
-    parser.add_argument(
-        "--grasp", action="append", type=part_grasp, default=[], metavar="PART=STYLE[,...]", help=GRASP_HELP
-    )
+    add_choices_of_parts(parser)
     add_formats_option(parser)
     parser.add_argument("--jobs", type=positive_count, metavar="N", help="inputs at once (default: one per core)")
     add_cluster_option(parser)
@@ -207,11 +201,12 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
 
 def _require_weights(options: argparse.Namespace) -> None:
     """Makes sure that `--weights` is a network that runs, and is not given for a source that is not the network."""
-    from grafu.cli.weights_option import usable_weights
     from grafu.pipeline.motion_source import MotionSource
 
     if options.weights is None:
         return
+    from grafu.cli.weights_option import usable_weights
+
     source = options.motion.source if options.motion else MotionSource.AUTO
     if source not in (MotionSource.AUTO, MotionSource.NETWORK):
         raise OptionError(f"`--weights` and `--motion {source}` exclude each other: leave one of them out")

@@ -108,6 +108,14 @@ def with_grasps(settings: "Settings", grasps: "Sequence[Grasp]", alone: bool) ->
     return settings
 
 
+def add_choices_of_parts(parser: argparse.ArgumentParser) -> None:
+    """Adds --move and --grasp: what is decided of single parts."""
+    parser.add_argument("--move", action="append", type=part_move, default=[], metavar="PART=HOW", help=MOVE_HELP)
+    parser.add_argument(
+        "--grasp", action="append", type=part_grasp, default=[], metavar="PART=STYLE[,...]", help=GRASP_HELP
+    )
+
+
 def add_base_option(parser: argparse.ArgumentParser) -> None:
     """Adds --base: what holds the piece in a simulator."""
     parser.add_argument(
