@@ -90,7 +90,7 @@ def test_a_run_that_fails_is_named(
 def test_a_stop_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(ablation_run, "do_runs", lambda *_: (event for event in ()))
     assert main(["ablate", "losses", *TINY, "--seeds", "1", "2", "--out", str(tmp_path)]) == 130
-    assert "stopped with 0 of 30 runs finished; the same command goes on" in capsys.readouterr().err
+    assert "stopped with 0 of 34 runs finished; the same command goes on" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
