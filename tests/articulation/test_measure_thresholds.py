@@ -101,6 +101,7 @@ REASONS = {
         | {"_GRID": SAMPLES, "_UP": UNIT},
         "statistics_measures.py": {"_FLAT": TOLERANCE},
         "still_picture.py": {"SIZE": UNIT},
+        "welded.py": {"SAME": MEASURE, "_AS_IT_IS": UNIT, "_FLAT": TOLERANCE},
         "tasks.py": {"_SMALL": EFFORT},
         "twins.py": dict.fromkeys(("ALIKE", "ON", "SAME_BOX"), MEASURE) | {"_POINTS": SAMPLES},
         "usage_table.py": {"_MILLION": UNIT},

@@ -125,7 +125,7 @@ def test_what_cannot_be_run_is_a_row_that_states_why_and_the_rest_goes_on(
         assert (row["objects"], row["aligned"]) == (1, None)
         assert f"{method}: not run on 1 model: " in said
     assert [(row["models"], row["not_run"], row["price"]) for row in table(out, "usage")] == [(0, 1, 0.0), (0, 1, 0.0)]
-    assert {row["method"] for row in table(out, "static")} == {"annotation", "GraFu (the paper)"}
+    assert {row["method"] for row in table(out, "static")} == {"annotation", "GraFu (the paper, PN-M)"}
     assert "## Not run" in (out / "tables" / "index.md").read_text()
     assert "not run" in (out / "index.html").read_text()
 
