@@ -90,3 +90,18 @@ def test_two_doors_never_carry_one_another(logit: float) -> None:
     said.kinds = {("inner", "outer"): {EdgeKind.HINGE: logit}}
     parents = {hinge.child: hinge.parent for hinge in complete(said).completed.hinges}
     assert not (parents.get("inner") == "outer" and parents.get("outer") == "inner")
+
+
+def test_a_door_does_not_hang_on_one_that_nothing_carries() -> None:
+    said = Answers(
+        kinds={
+            ("outer", "left"): {EdgeKind.HINGE: -1.0},
+            ("inner", "outer"): EdgeKind.HINGE,
+            ("inner", "right"): {EdgeKind.HINGE: -2.0},
+        },
+        mounts={("inner", "outer"): SURE},
+    )
+    no_rule = replace(ONCE, sure=0.0, least_edge=0.5)
+    completion = complete(said, no_rule)
+    assert completion.completed.hinges == ()
+    assert {refusal.part for refusal in completion.refused} == {"outer", "inner"}

@@ -5,10 +5,10 @@ before. Edges that the input states are kept as they are.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
-from grafu.completion.answers import move_parts
+from grafu.completion.answers import Motions, move_parts
 from grafu.completion.columns import agreed_borders
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.doors import slide_door
@@ -19,7 +19,7 @@ from grafu.completion.selection import borders_of, choose_hinge, choose_parent, 
 from grafu.completion.slots import NewPart
 from grafu.completion.view import GraphView
 from grafu.graph.completion import Decision, GraphCompletion
-from grafu.graph.edges import Attached
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, Slide
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.refusal import Refusal
@@ -99,15 +99,10 @@ def complete_decoded(
     `labelling` are the decisions of what its unlabelled parts are.
     """
     view = decoded.view
-    scene = RuleScene(view.graph)
-    doors = [node for node in view.graph.labelled(PartLabel.DOOR) if node.id in view.given]
-    agreed = agreed_borders(doors, {door.id: borders_of(door, view, scene) for door in doors}, view.config.columns)
-    motions = move_parts(
-        scene,
-        lambda door: choose_hinge(door, view, scene, agreed.get(door.id, 1.0)),
-        lambda drawer: choose_rails(drawer, view, scene),
-        lambda door, other: slide_door(door, other, scene),
-    )
+    motions = _moved(view)
+    while still := _still_carriers(view.graph, motions.edges) - view.still:
+        view = replace(view, still=view.still | still)
+        motions = _moved(view)
     completed, known = with_edges(view.graph, motions.edges), view.config.facts
     ajar = ajar_decisions(completed, view.probabilities, known)
     return GraphCompletion(
@@ -120,3 +115,23 @@ def complete_decoded(
         piece_guess(view.probabilities, known),
         rides(completed, view.given, view.probabilities, known),
     )
+
+
+def _moved(view: GraphView) -> Motions:
+    """Returns how each door and drawer moves, or why it does not."""
+    scene = RuleScene(view.graph)
+    doors = [node for node in view.graph.labelled(PartLabel.DOOR) if node.id in view.given]
+    agreed = agreed_borders(doors, {door.id: borders_of(door, view, scene) for door in doors}, view.config.columns)
+    return move_parts(
+        scene,
+        lambda door: choose_hinge(door, view, scene, agreed.get(door.id, 1.0)),
+        lambda drawer: choose_rails(drawer, view, scene),
+        lambda door, other: slide_door(door, other, scene),
+    )
+
+
+def _still_carriers(graph: FunctionalGraph, edges: Sequence[Edge]) -> frozenset[str]:
+    """Returns the doors that are to carry another one, though no edge moves them."""
+    moving = {edge.child for edge in (*graph.motions, *edges) if not isinstance(edge, Contact)}
+    carriers = {edge.parent for edge in edges if isinstance(edge, Hinge | Slide)}
+    return frozenset(one for one in carriers if graph.node(one).label is PartLabel.DOOR) - moving

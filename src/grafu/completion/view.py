@@ -20,13 +20,15 @@ from grafu.vocabulary import PartLabel
 class GraphView:
     """A graph whose labels are settled: node k is slot k of the probabilities, and slots beyond the nodes are free.
 
-    Only the nodes of `given` may carry a mechanism: they are there, while what was added may still be left out.
+    Only the nodes of `given` may carry a mechanism: they are there, while what was added may still be left out. Doors
+    that are known to be `still` carry none either: nothing carries them.
     """
 
     graph: FunctionalGraph
     probabilities: Probabilities
     given: frozenset[str]
     config: DecodeConfig
+    still: frozenset[str] = frozenset()
 
     @cached_property
     def place(self) -> dict[str, int]:
@@ -68,7 +70,9 @@ class GraphView:
     def hinged_doors(self, door: PartNode) -> Indices:
         """Returns the slots of the doors that this one likely hangs on: such are held better themselves."""
         slot = self.place[door.id]
-        doors = [k for k, n in enumerate(self.graph.nodes) if n.label is PartLabel.DOOR and n.id in self.given]
+        doors = [
+            k for k, n in enumerate(self.graph.nodes) if n.label is PartLabel.DOOR and n.id in self.given - self.still
+        ]
         likely = (k for k in doors if self.probabilities.edge[slot, k, HINGE] >= self.config.nested)
         return np.array([k for k in likely if (self.held[k], -k) > (self.held[slot], -slot)], dtype=np.int64)
 
