@@ -198,6 +198,14 @@ def joints() -> Iterator[Sentence]:
     yield "exports.md", "A link has at most {}:", (SHAPES.most_shapes,)
     yield "exports.md", "a pull of {:g} N at its far", (MOVES.counterbalance.pull,)
     yield "exports.md", "an armature of {:g} % of what moves", (per_cent(UsdConfig().armature),)
+    catch = MOVES.catch
+    yield "exports.md", "| {:g} N | within {:g} mm of closed", (catch.force, mm(catch.detent))
+    yield "exports.md", "| {:g} N | a drawer within {:g} mm of closed", (catch.force, mm(catch.rail))
+    yield "exports.md", "a door within {:g} mm", (mm(catch.hinge),)
+    yield "exports.md", "falls to nothing over the last {:g} % of that way", (per_cent(catch.fade),)
+    yield "exports.md", "at most {:g} % of the joint's range", (per_cent(catch.most),)
+    yield "exports.md", "a pull of {:g} N at the grip still opens", (MOVES.pull,)
+    yield "exports.md", "take no more than {:g} % of it", (per_cent(catch.ease),)
 
 
 def standing() -> Iterator[Sentence]:

@@ -15,6 +15,7 @@ from typing import Any, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
+from grafu.articulation.catch_kind import CatchKind
 from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.sweep import JointTrack, cycle_tracks, opening_tracks
@@ -235,7 +236,9 @@ def _described_joint(joint: Joint) -> dict[str, Any]:
         "lower": joint.limits.lower,
         "upper": joint.limits.upper,
         "after": list(joint.after),
-    } | ({} if joint.coupling is None else {"coupling": asdict(joint.coupling)})
+        **({} if joint.coupling is None else {"coupling": asdict(joint.coupling)}),
+        **({} if joint.catch is CatchKind.NONE else {"catch": joint.catch.value}),
+    }
 
 
 def _described_grasp(grasp: GraspFrame, origin: Vec3) -> dict[str, Any]:
