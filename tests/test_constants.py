@@ -34,6 +34,7 @@ from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfi
 from grafu.completion.decode_config import FactConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
+from grafu.export.gltf_packing import DracoConfig
 from grafu.judging.coverage import CoverageTestConfig
 from grafu.judging.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
@@ -203,7 +204,7 @@ IN_FUNCTIONS = {
 }
 CONFIGS = (
     AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorRuleConfig,
-    DrawerRuleConfig,
+    DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
