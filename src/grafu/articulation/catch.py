@@ -1,7 +1,7 @@
 """What keeps a door or drawer closed: a catch holds it there, or pulls it there over the last centimetres.
 
 Its force is constant near closed, falls to nothing at the end of its range, and is zero beyond: there the part stays
-where it is left. It knows no formats and no geometry.
+where it is left.
 """
 
 from dataclasses import dataclass
