@@ -11,6 +11,7 @@ from mjcf_reading import compiled, run
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.base import BaseKind
+from grafu.articulation.catch import Catch
 from grafu.articulation.catch_kind import CatchKind
 from grafu.articulation.physics import physics_of
 from grafu.asset.load import load_asset
@@ -145,3 +146,16 @@ def test_a_glb_states_the_kind(cabinet):
     joints = [node["extras"]["grafu"]["joint"] for node in nodes if "joint" in node.get("extras", {}).get("grafu", {})]
 
     assert [joint["catch"] for joint in joints] == ["self-closing"] * 2
+
+
+def test_the_law_that_the_page_states_is_the_law_of_the_catch():
+    page = (Path(__file__).parents[2] / "docs" / "exports.md").read_text()
+    code = next(block for block in page.split("```") if "def catch_force" in block).removeprefix("python\n")
+    scope: dict = {}
+    exec(code, scope)
+    catch = Catch(effort=9.0, reach=0.05, fade=0.01)
+    values = np.linspace(0.0, 0.1, 41)
+
+    assert [scope["catch_force"](v, catch.effort, catch.reach, catch.fade) for v in values] == pytest.approx(
+        catch.effort_at(values)
+    )
