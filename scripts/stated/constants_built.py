@@ -202,7 +202,7 @@ def joints() -> Iterator[Sentence]:
     draco = DracoConfig()
     yield "exports.md", "a grid of {:g} mm, so by at most {:g} mm along", (mm(draco.step), mm(draco.step) / 2)
     yield "exports.md", "Normals have {} bits", (draco.normal_bits,)
-    yield "exports.md", "steps of 1/{:g}, colours", (1 / draco.uv_step,)
+    yield "exports.md", "steps of 1/{:g}; triangles", (1 / draco.uv_step,)
     catch = MOVES.catch
     yield "exports.md", "| {:g} N | within {:g} mm of closed", (catch.force, mm(catch.detent))
     yield "exports.md", "| {:g} N | a drawer within {:g} mm of closed", (catch.force, mm(catch.rail))

@@ -182,3 +182,14 @@ def test_a_mesh_that_the_library_refuses_is_written_as_it_is(cabinet, monkeypatc
 def test_a_config_refuses_what_is_not_above_zero(name: str) -> None:
     with pytest.raises(ValueError, match=f"`DracoConfig.{name}` must be above 0"):
         DracoConfig(**{name: type(getattr(DracoConfig(), name))(0)})
+
+
+def test_triangles_with_two_corners_in_one_place_are_left_out_and_a_mesh_of_them_is_written_as_it_is(tmp_path):
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 0]])
+    whole = painted_cube(mesh=TriangleMesh(points, np.array([[0, 1, 2], [0, 3, 1]])))
+    flat = painted_cube(mesh=TriangleMesh(points, np.array([[0, 3, 1]])))
+    both = [export_draco_glb(made)["model_draco.glb"] for made in (whole, flat)]
+
+    assert [len(one["indices"]) for mesh in decoded(both[0], tmp_path) for one in mesh] == [1]
+    assert both[1] == export_glb(flat)["model.glb"]
+    assert issues_of(both[0], tmp_path)["numErrors"] == 0
