@@ -12,8 +12,8 @@ from grafu.cli.input_options import add_input_options, add_limit_option, positiv
 from grafu.cli.limit_options import add_limit_options, limits_of
 from grafu.cli.part_options import (
     add_addition_options,
-    add_base_option,
     add_choices_of_parts,
+    add_simulator_options,
     motion_choice,
     with_grasps,
     with_moves,
@@ -97,7 +97,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
         action="store_true",
         help="go on where a run was stopped: results that are there stay, and are shown with the new ones",
     )
-    add_base_option(parser)
+    add_simulator_options(parser)
     add_addition_options(parser)
     add_input_options(parser)
     add_limit_option(parser)

@@ -1,10 +1,11 @@
-"""Options on parts and the whole: `--motion`, `--move`, `--base`, and those of what is added. They move nothing."""
+"""Options on parts and the whole: `--motion`, `--move`, `--base`, `--catch`, those of additions. They move nothing."""
 
 import argparse
 import re
 from typing import TYPE_CHECKING
 
 from grafu.articulation.base import BaseKind
+from grafu.articulation.catch_kind import CatchKind
 from grafu.errors import OptionError, did_you_mean
 from grafu.pipeline.motion_source import SourceOption, parse_motion
 from grafu.vocabulary import MOTION_WORDS
@@ -122,8 +123,8 @@ def add_choices_of_parts(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_base_option(parser: argparse.ArgumentParser) -> None:
-    """Adds --base: what holds the piece in a simulator."""
+def add_simulator_options(parser: argparse.ArgumentParser) -> None:
+    """Adds --base and --catch: what holds the piece in a simulator, and what keeps its doors and drawers closed."""
     parser.add_argument(
         "--base",
         type=_base,
@@ -131,6 +132,22 @@ def add_base_option(parser: argparse.ArgumentParser) -> None:
         help="what holds the piece in a simulator: free: nothing, it stands on the floor; fixed: it is fixed to the "
         "world; wall: it hangs on a wall (default: fixed, and what is known to be a wall unit hangs on a wall)",
     )
+
+    parser.add_argument(
+        "--catch",
+        type=_catch,
+        metavar="KIND",
+        help="what keeps doors and drawers closed in a simulator, besides friction: none; detent: they are held where "
+        "they are closed; self-closing: they are pulled closed over the last centimetres and held there "
+        "(default: none)",
+    )
+
+
+def _catch(text: str) -> CatchKind:
+    if text not in {known.value for known in CatchKind}:
+        near = did_you_mean(text, list(CatchKind))
+        raise argparse.ArgumentTypeError(f"must be one of {', '.join(CatchKind)}: got {text!r}{near}")
+    return CatchKind(text)
 
 
 def _base(text: str) -> BaseKind:

@@ -17,6 +17,7 @@ from grafu.geometry.config_checks import at_scale
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.joints.catches import with_catches
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
 from grafu.joints.folding import as_turning, folds_in
@@ -230,7 +231,7 @@ def functionalize(
         MotionSource(completion.source) if stages.gave_up("complete") else chosen,
         graph_built,
         plan,
-        replace(realized.object, base=base_of(asset, settings)),
+        replace(with_catches(realized.object, settings.catch), base=base_of(asset, settings)),
         realized.report,
         body,
         fittings,
