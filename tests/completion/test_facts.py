@@ -28,15 +28,18 @@ def node(name: str, label: PartLabel, low: Corner, high: Corner) -> PartNode:
 
 
 def piece() -> FunctionalGraph:
-    """A side panel, a door, a barrel of its hinge that touches both, a screw in that, and a lamp far off."""
+    """A side panel; a door with a badge and a screw in that; a barrel that touches both, and its cap; a lamp."""
     nodes = (
         node("side", PartLabel.SIDE_PANEL, (-0.3, -0.25, 0.0), (-0.28, 0.25, 0.8)),
         node("door", PartLabel.DOOR, (-0.3, -0.27, 0.0), (0.3, -0.25, 0.8)),
         node("barrel", PartLabel.MISC, (-0.31, -0.28, 0.1), (-0.29, -0.26, 0.2)),
-        node("screw", PartLabel.MISC, (-0.32, -0.29, 0.1), (-0.31, -0.28, 0.11)),
+        node("cap", PartLabel.MISC, (-0.32, -0.29, 0.1), (-0.31, -0.28, 0.11)),
+        node("badge", PartLabel.MISC, (0.1, -0.28, 0.5), (0.2, -0.27, 0.55)),
+        node("screw", PartLabel.MISC, (0.14, -0.29, 0.51), (0.16, -0.28, 0.53)),
         node("lamp", PartLabel.MISC, (0.5, 0.0, 0.9), (0.6, 0.1, 1.0)),
     )
-    touching = (("side", "door"), ("side", "barrel"), ("door", "barrel"), ("barrel", "screw"))
+    touching = (("side", "door"), ("side", "barrel"), ("door", "barrel"), ("barrel", "cap"), ("door", "badge"))
+    touching = (*touching, ("badge", "screw"))
     return FunctionalGraph("piece", nodes, tuple(Contact(a, b) for a, b in touching))
 
 
@@ -52,14 +55,19 @@ def completed(**said: object) -> GraphCompletion:
 
 
 def test_what_the_network_is_sure_to_move_as_one_rides_if_it_touches() -> None:
-    sure = {("barrel", "door"): 6.0, ("screw", "door"): 6.0, ("lamp", "door"): 6.0}
+    sure = {(name, "door"): 6.0 for name in ("badge", "screw", "lamp")}
     found = completed(bodies=sure)
     assert found.completed.moving == {"door"}
-    assert set(found.rides) == {("door", "barrel"), ("door", "screw")}  # the lamp touches nothing that moves
+    assert set(found.rides) == {("door", "badge"), ("door", "screw")}  # the lamp touches nothing that moves
+
+
+def test_what_touches_what_stays_too_does_not_ride_nor_what_holds_on_to_it() -> None:
+    sure = {(name, "door"): 6.0 for name in ("barrel", "cap", "badge")}
+    assert completed(bodies=sure).rides == (("door", "badge"),)  # half of a drawn hinge stays with the case
 
 
 def test_what_it_is_not_sure_of_does_not_ride() -> None:
-    assert completed(bodies={("barrel", "door"): 2.0}).rides == ()
+    assert completed(bodies={("badge", "door"): 2.0}).rides == ()
     assert completed().rides == ()
 
 
@@ -99,14 +107,14 @@ def test_what_rides_is_built_with_its_door() -> None:
 
 
 def test_what_is_replaced_rides_no_more() -> None:
-    found = completed(bodies={("barrel", "door"): 6.0, ("screw", "door"): 6.0})
-    left = without_removed(found, frozenset({"barrel"}))
+    found = completed(bodies={("badge", "door"): 6.0, ("screw", "door"): 6.0})
+    left = without_removed(found, frozenset({"badge"}))
     assert left.rides == (("door", "screw"),)
-    assert "barrel" not in left.completed
+    assert "badge" not in left.completed
 
 
 def test_what_rides_on_a_door_that_does_not_turn_is_static() -> None:
-    found = completed(bodies={("barrel", "door"): 6.0})
+    found = completed(bodies={("badge", "door"): 6.0})
     still = FunctionalGraph("piece", found.completed.nodes, tuple(piece().edges))
     refused = (Refusal("door", Reason.REJECTED, ""),)
     fixed = replace(found, completed=still, decisions=(), refused=refused)

@@ -1,6 +1,6 @@
 """What the network states of the whole piece: what it is, which parts are drawn ajar, and which ride on what moves."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Set
 
 import numpy as np
 
@@ -38,11 +38,14 @@ def rides(
 ) -> tuple[tuple[str, str], ...]:
     """Returns the pairs (moving part, part that moves as one with it), beside attached handles and what moves itself.
 
-    Such a part is a fitting, a bar or a frame, and it touches the moving part, or what rides there, too.
+    Such a part is a fitting, a bar or a frame; it touches the moving part, or what rides there, too, and nothing that
+    stays: one that touches both, such as a drawn hinge, may belong to either, which the meshes decide.
     """
     place = {node.id: k for k, node in enumerate(graph.nodes)}
     held = graph.moving | {edge.child for edge in graph.attachments}
     loose = [node.id for node in graph.nodes if node.id in given - held and node.label in _RIDING]
+    standing = _standing(loose, held, graph)
+    loose = [name for name in loose if name not in standing]
     moving = [name for name in graph.moving if name in given]
     if not loose or not moving:
         return ()
@@ -55,6 +58,17 @@ def rides(
     }
     owner = {name: name for name in moving} | {edge.child: edge.parent for edge in graph.attachments}
     return tuple((body, name) for name, body in _touching(likely, owner, graph).items())
+
+
+def _standing(loose: Collection[str], held: Set[str], graph: FunctionalGraph) -> Set[str]:
+    """Returns the loose parts that touch what stays, such as a panel, directly or through other loose parts."""
+    still = [node.id for node in graph.nodes if node.id not in held and node.id not in loose]
+    found, queue = set[str](), still
+    while queue:
+        new = {name for name in graph.neighbours[queue.pop()] if name in loose} - found
+        found |= new
+        queue += new
+    return found
 
 
 def _touching(likely: Mapping[str, str], owner: Mapping[str, str], graph: FunctionalGraph) -> dict[str, str]:
