@@ -19,7 +19,8 @@ from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import repeated_faces
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.transform import transform_points
+from grafu.geometry.remembered import RememberedByContent
+from grafu.geometry.transform import transform_points, translation
 
 # A mesh is never shrunk to less than this fraction of its side: thin hardware keeps a core.
 _CORE = 0.2
@@ -28,6 +29,8 @@ _ANY_CONTACT = fcl.CollisionRequest()
 _numbers = count()
 LARGE = 5_000  # faces
 _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
+_REMEMBERED = 60_000  # faces of BVHs kept by content: 30 MB
+_SAME = 1e11  # of one metre: meshes whose corners lie alike to so small a step are the same
 
 
 @final
@@ -53,15 +56,25 @@ class _Model:
 
 
 _models: dict[int, _Model] = {}
+_by_content: RememberedByContent[tuple[_Model, Vec3]] = RememberedByContent(_REMEMBERED)
 
 
 def _model(mesh: TriangleMesh) -> _Model:
     """Returns the mesh's BVH, built once in the mesh's life."""
     key = id(mesh)
     if key not in _models:
-        _models[key] = _built(mesh)
+        _models[key] = _built(mesh) if len(mesh.faces) > LARGE or not len(mesh.faces) else _known(mesh)
         finalize(mesh, _models.pop, key, None)
     return _models[key]
+
+
+def _known(mesh: TriangleMesh) -> _Model:
+    """Returns the BVH that was built of the same mesh lately, here or elsewhere, or else builds it."""
+    origin = mesh.vertices[0]
+    steps = np.round((mesh.vertices - origin) * _SAME).astype(np.int64)
+    model, first = _by_content.of(lambda: (_built(mesh), origin), len(mesh.faces), steps, mesh.faces)
+    shift = origin - first
+    return replace(model, pose=translation(shift) if shift.any() else None, number=next(_numbers))
 
 
 def forget_large_shapes() -> None:
@@ -241,6 +254,7 @@ class SweptBody:
         self._poses: dict[bytes, int] = {np.eye(4).tobytes(): 0}
         self._known: dict[tuple[int, int, int], bool] = {}
         self._shifts = [sign * depth * axes[:, k] for k in range(3) for sign in (-1.0, 1.0)]
+        self._latest = 0
 
     def place(self, T: Mat4) -> None:
         """Poses the body at T for the queries that follow."""
@@ -277,17 +291,28 @@ class SweptBody:
 
         They count together: a body wedged between two obstacles comes free of each in some direction, of both in none.
         """
-        if not any(self.touches(obstacle) for obstacle in obstacles):
+        if not self._touches_any(obstacles):
             return []
         self._shrunk.place(self._T)
         met = [k for k, obstacle in enumerate(obstacles) if self._meet(self._shrunk, 0, obstacle)]
         if not met:
             return []
+        order = (*met, *(k for k in range(len(obstacles)) if k not in met))  # what was met is likely met again
         for step, shift in enumerate(self._shifts, 1):
             self._shrunk.place(self._T, shift)
-            if not any(self._meet(self._shrunk, step, obstacle) for obstacle in obstacles):
+            if not any(self._meet(self._shrunk, step, obstacles[k]) for k in order):
                 return []
         return met
+
+    def _touches_any(self, obstacles: Sequence[MeshCollider]) -> bool:
+        """Whether the body, as posed, shares a point with one of them; the one that it touched last is asked first."""
+        if self._latest < len(obstacles) and self.touches(obstacles[self._latest]):
+            return True
+        found = next((k for k, obstacle in enumerate(obstacles) if k != self._latest and self.touches(obstacle)), None)
+        if found is None:
+            return False
+        self._latest = found
+        return True
 
     def cutting_faces(self, obstacles: Sequence[MeshCollider]) -> set[int]:
         """Returns the numbers of the body's faces that, as posed, cut into the obstacles."""

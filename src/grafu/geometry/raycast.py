@@ -13,12 +13,19 @@ from typing import final
 import numpy as np
 from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
-from jaxtyping import Bool, Float, Int
+from embreex.rtcore import EmbreeDevice
+from jaxtyping import Bool, Float, Float32, Int
 
 from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays, median
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+from grafu.geometry.remembered import RememberedByContent
+
+_REMEMBERED = 150_000  # faces of Embree's scenes kept by content: 30 MB
+_LARGE = 50_000  # faces: scenes of larger meshes are not kept
+_DEVICE = EmbreeDevice()  # one for all: each takes as long as the scene of a small mesh
+_by_content: RememberedByContent[rtcore_scene.EmbreeScene] = RememberedByContent(_REMEMBERED)
 
 
 @final
@@ -83,8 +90,11 @@ class RayCaster:
     def __init__(self, mesh: TriangleMesh) -> None:
         self._scene: rtcore_scene.EmbreeScene | None = None
         if len(mesh.faces):
-            self._scene = rtcore_scene.EmbreeScene()
-            EmbreeMesh(self._scene, np.ascontiguousarray(mesh.triangles, dtype=np.float32))
+            triangles = np.ascontiguousarray(mesh.triangles, dtype=np.float32)
+            if len(triangles) > _LARGE:
+                self._scene = _scene(triangles)
+            else:
+                self._scene = _by_content.of(lambda: _scene(triangles), len(triangles), triangles)
 
     def distances(self, origins: Points, directions: Points) -> Scalars:
         """Returns the distance in metres along each unit direction to the first face hit; infinity where none is."""
@@ -115,6 +125,12 @@ class RayCaster:
         )
         distances = _without_misses(found["tfar"])
         return np.where(np.isfinite(distances), found["primID"].astype(np.int64), -1), distances
+
+
+def _scene(triangles: Float32[np.ndarray, "m 3 3"]) -> rtcore_scene.EmbreeScene:
+    scene = rtcore_scene.EmbreeScene(_DEVICE)
+    EmbreeMesh(scene, triangles)
+    return scene
 
 
 def _without_misses(found: np.ndarray) -> Scalars:
