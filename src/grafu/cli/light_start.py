@@ -15,6 +15,7 @@ from reprlib import recursive_repr
 from types import ModuleType
 from typing import Any
 
+Fields = Sequence["dataclasses.Field[Any]"]
 _SHAPES = (
     *("Bool", "Int", "UInt", "Float", "Complex", "Num", "Real", "Inexact", "Integer", "Shaped"),
     *(f"{kind}{bits}" for kind in ("Int", "UInt") for bits in (8, 16, 32, 64)),
@@ -57,53 +58,52 @@ def _values(names: Sequence[str]) -> Callable[[object], tuple[Any, ...]]:
     return (lambda value: (getattr(value, names[0]),)) if names else lambda _: ()
 
 
-def _comparison(name: str, op: str, self_tuple: str, other_tuple: str, globals: Any) -> Callable[..., Any]:
+def _comparison(name: str, op: str, self_tuple: str, other_tuple: str, globals: Any) -> Callable[..., Any]:  # noqa: A002
     if op != "==":
         return _COMPILED(name, op, self_tuple, other_tuple, globals)
     of = _values([each.removeprefix("self.") for each in self_tuple.strip("()").split(",") if each])
 
-    def __eq__(self: Any, other: Any) -> Any:
+    def is_equal(self: Any, other: Any) -> Any:
         return of(self) == of(other) if other.__class__ is self.__class__ else NotImplemented
 
-    return __eq__
+    return _named("__eq__", is_equal)
 
 
-def _hash(fields: Sequence["dataclasses.Field[Any]"], globals: Any) -> Callable[..., Any]:
+def _hash(fields: Fields, _: Any) -> Callable[..., Any]:
     of = _values([field.name for field in fields])
-
-    def __hash__(self: Any) -> int:
-        return hash(of(self))
-
-    return __hash__
+    return _named("__hash__", lambda self: hash(of(self)))
 
 
-def _repr(fields: Sequence["dataclasses.Field[Any]"], globals: Any) -> Callable[..., Any]:
+def _repr(fields: Fields, _: Any) -> Callable[..., Any]:
     names = [field.name for field in fields]
 
     @recursive_repr()
-    def __repr__(self: Any) -> str:
-        stated = ", ".join(f"{name}={getattr(self, name)!r}" for name in names)
-        return f"{self.__class__.__qualname__}({stated})"
+    def stated(self: Any) -> str:
+        values = ", ".join(f"{name}={getattr(self, name)!r}" for name in names)
+        return f"{self.__class__.__qualname__}({values})"
 
-    return __repr__
+    return _named("__repr__", stated)
 
 
-def _refusals(
-    cls: type, fields: Sequence["dataclasses.Field[Any]"], globals: Any
-) -> tuple[Callable[..., None], Callable[..., None]]:
+def _refusals(cls: type, fields: Fields, _: Any) -> tuple[Callable[..., None], Callable[..., None]]:
     names = frozenset(field.name for field in fields)
 
-    def __setattr__(self: Any, name: str, value: Any) -> None:
+    def set_attribute(self: Any, name: str, value: Any) -> None:
         if type(self) is cls or name in names:
             raise FrozenInstanceError(f"cannot assign to field {name!r}")
         super(cls, self).__setattr__(name, value)
 
-    def __delattr__(self: Any, name: str) -> None:
+    def delete_attribute(self: Any, name: str) -> None:
         if type(self) is cls or name in names:
             raise FrozenInstanceError(f"cannot delete field {name!r}")
         super(cls, self).__delattr__(name)
 
-    return __setattr__, __delattr__
+    return _named("__setattr__", set_attribute), _named("__delattr__", delete_attribute)
+
+
+def _named(name: str, method: Callable[..., Any]) -> Callable[..., Any]:
+    method.__name__ = name
+    return method
 
 
 _COMPILED: Callable[..., Any] = getattr(dataclasses, "_cmp_fn", lambda *_: None)

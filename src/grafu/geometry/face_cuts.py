@@ -112,7 +112,7 @@ def half_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
 
 
 def halves_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> tuple[TriangleMesh, TriangleMesh]:
-    """Returns what `half_of` does, and the same of the opposite normal: the rest."""
+    """Returns what `half_of` does, and the rest: the same of the opposite normal."""
     side = _sides(mesh, normal, origin)
     return _half(mesh, side, normal, origin), _half(mesh, -side, -normal, origin)
 
