@@ -85,7 +85,7 @@ def _repr(fields: Fields, _: Any) -> Callable[..., Any]:
     return _named("__repr__", stated)
 
 
-def _refusals(cls: type, fields: Fields, _: Any) -> tuple[Callable[..., None], Callable[..., None]]:
+def _refusals(cls: Any, fields: Fields, _: Any) -> tuple[Callable[..., None], Callable[..., None]]:
     names = frozenset(field.name for field in fields)
 
     def set_attribute(self: Any, name: str, value: Any) -> None:

@@ -4,8 +4,8 @@ Memory is bounded: faces are worked on in batches, and what is clipped of one st
 Split as loose triangles alone it would not: each plane through a corner leaves a triangle without area, and each plane
 that crosses such a one leaves two, so that the many planes of a swept hull made millions of a single face.
 
-Taken away one after another, pieces that overlap would shred what is left: each cuts the shreds that all before it
-left. Taken away together, in the triangle's plane, they leave no more triangles than the outline of what is left needs.
+One after another, pieces that overlap would shred what is left. Taken away together, in the triangle's plane, they
+leave no more triangles than the outline of what is left needs.
 """
 
 from collections import defaultdict
@@ -104,10 +104,7 @@ _ON_PLANE = 1e-8  # metres
 
 
 def half_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
-    """Returns what lies beyond the plane through `origin`, on the side of the unit `normal`; the cut is left open.
-
-    Faces that lie on the plane are kept where they look back across it.
-    """
+    """Returns what lies beyond a plane, on the side of its unit `normal`, left open; faces on it where they look back."""
     return _half(mesh, _sides(mesh, normal, origin), normal, origin)
 
 
@@ -132,9 +129,8 @@ def _half(mesh: TriangleMesh, side: Int[np.ndarray, "m 3"], normal: Vec3, origin
     tips, tip_ends = _cut_around(mesh, lone_beyond, is_beyond, normal, origin)
     ends = len(mesh.vertices) + np.arange(2 * (len(quads) + len(tips))).reshape(-1, 2)
     (into, out), (a, b) = ends[: len(quads)].T, ends[len(quads) :].T
-    lower = np.stack([quads[:, 1], quads[:, 2], into], axis=1)
-    upper = np.stack([into, out, quads[:, 1]], axis=1)
-    faces = np.concatenate([mesh.faces[whole], lower, upper, np.stack([tips[:, 0], a, b], axis=1)])
+    corners = ((quads[:, 1], quads[:, 2], into), (into, out, quads[:, 1]), (tips[:, 0], a, b))
+    faces = np.concatenate([mesh.faces[whole], *(np.stack(three, axis=1) for three in corners)])
     used, index = np.unique(faces, return_inverse=True)
     points = np.concatenate([mesh.vertices, quad_ends[:, ::-1].reshape(-1, 3), tip_ends.reshape(-1, 3)])
     return TriangleMesh(points[used], index.reshape(-1, 3))

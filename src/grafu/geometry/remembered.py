@@ -26,7 +26,7 @@ class RememberedByContent(Generic[Made]):
         """Returns what `make` makes of contiguous arrays, or made of equal ones; it takes `size` of the room."""
         digest = blake2b(digest_size=16)
         for array in arrays:
-            digest.update(array)
+            digest.update(array.data)
             digest.update(b"%d" % len(array))
         key = digest.digest()
         if (known := self._made.get(key)) is not None:
