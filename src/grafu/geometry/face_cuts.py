@@ -104,7 +104,7 @@ _ON_PLANE = 1e-8  # metres
 
 
 def half_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
-    """Returns what lies beyond a plane, on the side of its unit `normal`, left open; faces on it where they look back."""
+    """Returns what lies beyond a plane, on the side of its `normal`; of faces on it, those that look back across it."""
     return _half(mesh, _sides(mesh, normal, origin), normal, origin)
 
 
