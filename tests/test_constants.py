@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from grafu.articulation.build_material import MassConfig
+from grafu.articulation.catch import CatchConfig
 from grafu.articulation.finger_fit import FingerFitConfig
 from grafu.articulation.finger_room import FingerRoomCutConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
@@ -33,6 +34,7 @@ from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfi
 from grafu.completion.decode_config import FactConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
+from grafu.export.gltf_packing import DracoConfig
 from grafu.judging.coverage import CoverageTestConfig
 from grafu.judging.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
@@ -201,7 +203,8 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BodyKindConfig, CandidateConfig, CutConfig, DivisionConfig, DoorRuleConfig, DrawerRuleConfig,
+    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorRuleConfig,
+    DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
@@ -214,7 +217,7 @@ NUMBERS = [
     (kind, f.name)
     for kind in CONFIGS
     for f in fields(kind)
-    if not is_dataclass(f.default) and f.name not in ("build_by_word", "counterbalance")
+    if not is_dataclass(f.default) and f.name not in ("build_by_word", "counterbalance", "catch")
 ]
 
 

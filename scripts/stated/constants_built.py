@@ -22,6 +22,7 @@ from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.articulation.stability import StabilityConfig
 from grafu.asset.wall_units import WallUnitConfig
 from grafu.completion.features import FeatureConfig
+from grafu.export.gltf_packing import DracoConfig
 from grafu.export.usd.config import UsdConfig
 from grafu.joints.config import RealizationConfig
 from grafu.judging.tops import DEFAULT_TOP_MEASURE_CONFIG as TOP_MEASURE
@@ -198,6 +199,18 @@ def joints() -> Iterator[Sentence]:
     yield "exports.md", "A link has at most {}:", (SHAPES.most_shapes,)
     yield "exports.md", "a pull of {:g} N at its far", (MOVES.counterbalance.pull,)
     yield "exports.md", "an armature of {:g} % of what moves", (per_cent(UsdConfig().armature),)
+    draco = DracoConfig()
+    yield "exports.md", "a grid of {:g} mm, so by at most {:g} mm along", (mm(draco.step), mm(draco.step) / 2)
+    yield "exports.md", "Normals have {} bits", (draco.normal_bits,)
+    yield "exports.md", "steps of 1/{:g}; triangles", (1 / draco.uv_step,)
+    catch = MOVES.catch
+    yield "exports.md", "| {:g} N | within {:g} mm of closed", (catch.force, mm(catch.detent))
+    yield "exports.md", "| {:g} N | a drawer within {:g} mm of closed", (catch.force, mm(catch.rail))
+    yield "exports.md", "a door within {:g} mm", (mm(catch.hinge),)
+    yield "exports.md", "falls to nothing over the last {:g} % of that way", (per_cent(catch.fade),)
+    yield "exports.md", "at most {:g} % of the joint's range", (per_cent(catch.most),)
+    yield "exports.md", "a pull of {:g} N at the grip still opens", (MOVES.pull,)
+    yield "exports.md", "take no more than {:g} % of it", (per_cent(catch.ease),)
 
 
 def standing() -> Iterator[Sentence]:

@@ -101,3 +101,50 @@ def test_stays_can_be_refused(more: tuple[str, ...], count: int, tmp_path: Path)
     assert main(command) == 0
     report = json.loads((tmp_path / "chest" / "report.json").read_text())
     assert [joint["stays"] for joint in report["joints"]] == [count]
+
+
+def test_catches_are_those_of_the_option_then_of_the_settings(tmp_path: Path) -> None:
+    sample = str(CHEST.with_name("dresser.glb"))
+
+    def made(name: str, *more: str) -> tuple[dict, str]:
+        command = ["functionalize", sample, *more, "--formats", "mjcf,urdf", "--no-page", "--out", str(tmp_path / name)]
+        assert main(command) == 0
+        folder = tmp_path / name / "dresser"
+        return json.loads((folder / "report.json").read_text()), (folder / "model.xml").read_text()
+
+    report, text = made("closing", "--catch", "self-closing")
+    settings = tmp_path / "closing" / "dresser" / "settings.json"
+    again, same = made("again", "--settings", str(settings))
+    plain, without = made("plain", "--settings", str(settings), "--catch", "none")
+
+    assert [joint["kind"] for joint in report["caught"]["joints"]] == ["self-closing"] * len(report["joints"])
+    assert (report["caught"]["files"], report["caught"]["files_without"]) == (["model.xml"], ["model.urdf"])
+    assert text.count('<general class="catch"') == len(report["joints"])
+    assert report["verdict"] == plain["verdict"]
+    assert same == text
+    assert again["caught"] == report["caught"]
+    assert plain["caught"] is None
+    assert "catch" not in without
+
+
+def test_another_word_for_a_catch_is_refused_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["functionalize", str(CHEST), "--catch", "self-close", "--out", "nowhere"])
+
+    assert end.value.code == 2
+    assert "must be one of none, detent, self-closing: got 'self-close'; did you mean `self-closing`?" in (
+        capsys.readouterr().err
+    )
+
+
+def test_where_no_file_has_the_catches_a_note_states_it_and_the_page_too(tmp_path: Path) -> None:
+    sample = str(CHEST.with_name("dresser.glb"))
+
+    assert main(["functionalize", sample, "--catch", "detent", "--formats", "urdf", "--out", str(tmp_path)]) == 0
+
+    report = json.loads((tmp_path / "dresser" / "report.json").read_text())
+    assert report["verdict"]["colour"] == "yellow"
+    assert [note for note in report["notes"] if "add mjcf to --formats" in note]
+    assert "Catches: 6 joints detent, in no file that was written; model.urdf cannot hold them." in (
+        (tmp_path / "dresser" / "report.html").read_text()
+    )

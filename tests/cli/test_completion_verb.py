@@ -95,6 +95,7 @@ def test_the_shell_completes_verbs_options_choices_formats_and_files(shell: str,
         ("functionalize", "--motion", "ann"): {"annotation"},
         ("functionalize", "--handle", "knob-r"): {"knob-round"},
         ("functionalize", "--base", ""): {"wall", "free"},
+        ("functionalize", "--catch", ""): {"none", "detent", "self-closing"},
         ("inspect", "ward"): {"wardrobe.glb"},
     }.items():
         assert wanted <= offered(list(words), wanted), words

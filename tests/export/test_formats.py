@@ -34,8 +34,8 @@ def test_formats_are_exported_together(cabinet):
 def test_an_unknown_format_names_the_known_ones(cabinet):
     with pytest.raises(
         ExportError,
-        match=r"unknown format `fbx`: known formats are glb, glb-merged, urdf, mjcf, sdf, usd, usdz, particulate, "
-        "singapo, grafu-pred, blend",
+        match=r"unknown format `fbx`: known formats are glb, glb-merged, glb-draco, glb-merged-draco, urdf, mjcf, "
+        "sdf, usd, usdz, particulate, singapo, grafu-pred, blend",
     ):
         export(cabinet, ["glb", "fbx"])
 

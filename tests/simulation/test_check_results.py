@@ -65,6 +65,18 @@ def test_what_works_passes_and_all_is_written_and_listed(result, tmp_path, capsy
     assert "stays at rest" in capsys.readouterr().out
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["detent", "self-closing"])
+def test_what_has_catches_opens_and_closes_all_the_same(tmp_path, kind):
+    command = ["functionalize", str(DRESSER), "--catch", kind, "--formats", "mjcf", "--no-page", "--out", str(tmp_path)]
+    assert main(command) == 0
+    code, report = checked(tmp_path / "dresser")
+
+    assert code == 0
+    assert all(joint.works for joint in report.files[0].joints)
+    assert "_catch" in (tmp_path / "dresser" / "model.xml").read_text()
+
+
 def test_a_joint_that_needs_more_than_a_hand_does_not_open(result, tmp_path):
     from grafu.simulation.check import check_folder
 

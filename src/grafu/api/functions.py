@@ -18,10 +18,11 @@ from grafu.api.request import (
 )
 from grafu.api.result import Result
 from grafu.articulation.base import BaseKind
+from grafu.articulation.catch_kind import CatchKind
 from grafu.asset.load import endings_in, load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
-from grafu.errors import AssetError, OptionError
+from grafu.errors import AssetError, OptionError, did_you_mean
 from grafu.export.output_names import output_name, with_ending
 from grafu.joints.motion_choice import MotionChoice
 from grafu.pipeline.addition_choice import choose_additions
@@ -108,6 +109,7 @@ def functionalize(
     hinge: str = "",
     stays: bool = True,
     base: str | None = None,
+    catch: str = "none",
     templates: PathLikeStr | None = None,
     **reading: Any,
 ) -> Result:
@@ -137,6 +139,8 @@ def functionalize(
         stays: whether lids and flaps get stays where there is room.
         base: what holds the piece in a simulator: `free`, `fixed` or `wall`; None: it is fixed, and what is known to be
             a wall unit hangs on a wall.
+        catch: what keeps doors and drawers closed in a simulator, besides friction: `none`, `detent` (they are held
+            where they are closed) or `self-closing` (they are pulled closed over the last centimetres and held there).
         templates: a folder of your own hinge, rail and handle templates.
         **reading: `up`, `front`, `scale`, `height`, `labels`, `parts`, `pieces` and `piece` of `grafu.load`, where
             `source` is a path.
@@ -170,6 +174,7 @@ def functionalize(
         hinge=require_word(hinge, "hinge", "the id of a hinge template, as str"),
         stays=require(stays, bool, "stays", "True or False"),
         base=_base(base),
+        catch=_catch(catch),
     )
     foreign = prediction_for(choice, asset.name) if choice.source.is_foreign else None
     return Result.of(Request(asset, settings, foreign, folder))
@@ -181,6 +186,12 @@ def _base(word: str | None) -> BaseKind | None:
     if require_word(word, "base", "`free`, `fixed`, `wall` or None") not in {known.value for known in BaseKind}:
         raise OptionError(f"`base` must be one of {', '.join(BaseKind)}: got {word!r}")
     return BaseKind(word)
+
+
+def _catch(word: str) -> CatchKind:
+    if require_word(word, "catch", "`none`, `detent` or `self-closing`") not in {known.value for known in CatchKind}:
+        raise OptionError(f"`catch` must be one of {', '.join(CatchKind)}: got {word!r}{did_you_mean(word, CatchKind)}")
+    return CatchKind(word)
 
 
 def _asset(source: object, reading: Mapping[str, Any]) -> tuple[Asset, LoadOptions]:

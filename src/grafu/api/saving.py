@@ -10,6 +10,7 @@ from grafu.export.files import ExportFiles
 from grafu.export.formats import export
 from grafu.geometry.budget import UNLIMITED, Budget, within
 from grafu.graph.serialize import completion_to_json, dump_json
+from grafu.pipeline.caught import with_caught
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
@@ -59,7 +60,7 @@ def files_of(
     with budget.in_force():
         files = export(made.object, formats, made.completion)
     seconds = {**(timings or {}), "export": perf_counter() - started}
-    stated = with_stability(report_of(made, name, seconds), made.object)
+    stated = with_caught(with_stability(report_of(made, name, seconds), made.object), made.object, files.names)
     report, picture = with_notes(stated, *files.notes), b""
     if page:
         started = perf_counter()

@@ -12,6 +12,7 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.base import BaseKind
+from grafu.articulation.catch_kind import CatchKind
 from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.joint_values import Coupling as Coupling
 from grafu.articulation.joint_values import JointLimits as JointLimits
@@ -99,6 +100,7 @@ class Joint:
 
     `after` names the joints that must be open before this one can move (a door in front of a drawer). With a `coupling`
     the joint does not move by itself: it follows another. A `slip` is what the child is shown to do beside the motion.
+    A `catch` keeps it closed.
     """
 
     id: str
@@ -110,6 +112,7 @@ class Joint:
     after: tuple[str, ...] = ()
     coupling: Coupling | None = None
     slip: Slip | None = None
+    catch: CatchKind = CatchKind.NONE
 
     @property
     def kind(self) -> MotionKind:

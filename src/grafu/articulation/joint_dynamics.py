@@ -6,12 +6,13 @@ opens within three seconds when it is pulled with 20 N. Lids and flaps are held 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.articulation.catch import Catch, CatchConfig, catch_of
 from grafu.articulation.counterbalance import GRAVITY, Counterbalance, CounterbalanceConfig, Holding, held
 from grafu.articulation.coupled_weight import coupled_center
 from grafu.articulation.mass import MassProperties
@@ -25,7 +26,7 @@ class JointDynamics:
     """Damping (N m s/rad or N s/m), dry friction and greatest effort (N m or N), greatest velocity (rad/s or m/s).
 
     `inertia` (kg m2, or kg) is what moves, about the axis or along it. `counterbalance` is the spring that carries a
-    lid or a flap too heavy to be held by friction, for formats with springs.
+    lid or a flap too heavy to be held by friction, for formats with springs. `catch` is what keeps it closed.
     """
 
     damping: float
@@ -34,6 +35,7 @@ class JointDynamics:
     velocity: float
     inertia: float
     counterbalance: Counterbalance | None = None
+    catch: Catch | None = None
 
     @property
     def friction_with_spring(self) -> float:
@@ -76,9 +78,11 @@ class DynamicsConfig:
     """As fast as people pull a drawer (m/s)."""
     counterbalance: CounterbalanceConfig = field(default_factory=CounterbalanceConfig)
     """How lids and flaps are held."""
+    catch: CatchConfig = field(default_factory=CatchConfig)
+    """How strong catches are."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"counterbalance"}))
+        require_positive(self, *(set(self.__dataclass_fields__) - {"counterbalance", "catch"}))
         require_ratios(self, "rail_friction", "braking_ratio")
 
 
@@ -97,8 +101,19 @@ def joint_dynamics(
     """
     carried = [masses[link] for link in _carried(articulated, joint.child)]
     if joint.kind.turns:
-        return _turning(articulated, joint, masses, carried, config)
-    return _sliding(joint, carried, config)
+        return _caught(articulated, joint, _turning(articulated, joint, masses, carried, config), config)
+    return _caught(articulated, joint, _sliding(joint, carried, config), config)
+
+
+def _caught(
+    articulated: ArticulatedObject, joint: Joint, dynamics: JointDynamics, config: DynamicsConfig
+) -> JointDynamics:
+    """Returns the dynamics with the joint's catch, which the greatest effort overcomes, too."""
+    limits = joint.limits.lower, joint.limits.upper
+    arms = (_reach(articulated, joint), _grip_arm(articulated, joint)) if joint.kind.turns else (1.0, 1.0)
+    resists = config.pull, dynamics.friction
+    catch = catch_of(joint.catch, joint.kind.turns, limits, arms, *resists, config.catch)
+    return dynamics if catch is None else replace(dynamics, effort=dynamics.effort + catch.effort, catch=catch)
 
 
 def _turning(
@@ -154,6 +169,12 @@ def _reach(articulated: ArticulatedObject, joint: Joint) -> float:
     """Returns the distance of the child's far edge from the axis (m)."""
     vertices = articulated.link(joint.child).mesh.vertices
     return float(joint.axis.distances_to(vertices).max()) if len(vertices) else 0.0
+
+
+def _grip_arm(articulated: ArticulatedObject, joint: Joint) -> float:
+    """Returns the least distance of a grip of the child from the axis (m); without one, that of its far edge."""
+    grips = (joint.axis.distance_to(grasp.position) for grasp in articulated.grasps if grasp.link == joint.child)
+    return min(grips, default=_reach(articulated, joint))
 
 
 def _carried(articulated: ArticulatedObject, link: str) -> list[str]:

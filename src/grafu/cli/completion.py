@@ -65,6 +65,7 @@ def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
 def _known_values() -> dict[str, Collection[str]]:
     """Returns the first words of options whose values argparse does not list."""
     from grafu.articulation.base import BaseKind
+    from grafu.articulation.catch_kind import CatchKind
     from grafu.cli.part_options import GRIPS, TOP_SHAPES
     from grafu.export.formats import FORMATS
     from grafu.pipeline.motion_source import MotionSource
@@ -78,6 +79,7 @@ def _known_values() -> dict[str, Collection[str]]:
         "hinge": [model.id for model in builtin_gallery().hinges],
         "top": TOP_SHAPES,
         "base": [str(kind) for kind in BaseKind],
+        "catch": [str(kind) for kind in CatchKind],
         "interior": ["none", "predicted", "auto"],
         "up": axes,
         "front": axes,

@@ -1,10 +1,11 @@
-"""Options on parts and the whole: `--motion`, `--move`, `--base`, and those of what is added. They move nothing."""
+"""Options on parts and the whole: `--motion`, `--move`, `--base`, `--catch`, those of additions. They move nothing."""
 
 import argparse
 import re
 from typing import TYPE_CHECKING
 
 from grafu.articulation.base import BaseKind
+from grafu.articulation.catch_kind import CatchKind
 from grafu.errors import OptionError, did_you_mean
 from grafu.pipeline.motion_source import SourceOption, parse_motion
 from grafu.vocabulary import MOTION_WORDS
@@ -74,7 +75,7 @@ def with_moves(
 GRASP_HELP = (
     "what a door or drawer is grasped by, whatever the others get: none, a handle of `grafu templates`, or a carved "
     "grip: grip, groove, edge, hole; its sizes may follow: door_1=groove,length=12cm,width=3cm,depth=1cm,"
-    "profile=sharp; once for each part"
+    "profile=sharp, of a handle its length alone; once for each part"
 )
 """The help of `--grasp`."""
 Grasp = tuple[str, str]
@@ -93,18 +94,24 @@ def part_grasp(text: str) -> Grasp:
     return part, ",".join([style, *sizes])
 
 
-def with_grasps(settings: "Settings", grasps: "Sequence[Grasp]", alone: bool) -> "Settings":
+def with_grasps(settings: "Settings", grasps: "Sequence[Grasp]", alone: bool, handles: "Collection[str]") -> "Settings":
     """Returns the settings in which these parts are grasped so; `alone` states that there is one input only.
 
+    `handles` are the ids of all handle templates.
+
     Raises:
-        OptionError: if there are several inputs, or what follows a style is no size.
+        OptionError: if there are several inputs, no such style, or what follows a style is no size that it has.
     """
+    from grafu.errors import OptionError
     from grafu.pipeline.addition_choice import front_choice
 
     if not alone:
         raise OptionError("`--grasp` names parts of one model: give one input, of split pieces one by --piece")
     for part, stated in grasps:
-        settings = settings.with_front(part, front_choice(stated))
+        try:
+            settings = settings.with_front(part, front_choice(stated, handles))
+        except OptionError as error:
+            raise OptionError(str(error).replace("`grasp`", "`--grasp`")) from None
     return settings
 
 
@@ -116,8 +123,8 @@ def add_choices_of_parts(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_base_option(parser: argparse.ArgumentParser) -> None:
-    """Adds --base: what holds the piece in a simulator."""
+def add_simulator_options(parser: argparse.ArgumentParser) -> None:
+    """Adds --base and --catch: what holds the piece in a simulator, and what keeps its doors and drawers closed."""
     parser.add_argument(
         "--base",
         type=_base,
@@ -125,6 +132,22 @@ def add_base_option(parser: argparse.ArgumentParser) -> None:
         help="what holds the piece in a simulator: free: nothing, it stands on the floor; fixed: it is fixed to the "
         "world; wall: it hangs on a wall (default: fixed, and what is known to be a wall unit hangs on a wall)",
     )
+
+    parser.add_argument(
+        "--catch",
+        type=_catch,
+        metavar="KIND",
+        help="what keeps doors and drawers closed in a simulator, besides friction: none; detent: they are held where "
+        "they are closed; self-closing: they are pulled closed over the last centimetres and held there "
+        "(default: none)",
+    )
+
+
+def _catch(text: str) -> CatchKind:
+    if text not in {known.value for known in CatchKind}:
+        near = did_you_mean(text, list(CatchKind))
+        raise argparse.ArgumentTypeError(f"must be one of {', '.join(CatchKind)}: got {text!r}{near}")
+    return CatchKind(text)
 
 
 def _base(text: str) -> BaseKind:
@@ -172,8 +195,8 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
         "--handle",
         metavar="STYLE",
         help="style of added handles: a template of `grafu templates`, or a carved one: grip, groove, edge, hole; its "
-        "sizes may follow: groove,length=12cm,width=3cm,depth=1cm,profile=sharp (default: like the model's other "
-        "handles)",
+        "sizes may follow: groove,length=12cm,width=3cm,depth=1cm,profile=sharp, of a template its length alone "
+        "(default: like the model's other handles)",
     )
     group.add_argument(
         "--interior",

@@ -37,6 +37,7 @@ def stated_settings(options: argparse.Namespace) -> "Settings":
         hinge=options.hinge or base.hinge,
         stays=base.stays and not options.no_stays,
         base=options.base or base.base,
+        catch=options.catch or base.catch,
     )
     if options.motion is None or options.motion.source.is_foreign:
         return settings

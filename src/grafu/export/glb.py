@@ -15,13 +15,16 @@ from typing import Any, final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
+from grafu.articulation.catch_kind import CatchKind
 from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.sweep import JointTrack, cycle_tracks, opening_tracks
 from grafu.articulation.swing import Swing
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
-from grafu.export.gltf_mesh import GltfBuffer, GltfMaterialWriter, mesh_of, to_y_up
+from grafu.export.gltf_buffer import GltfBuffer
+from grafu.export.gltf_mesh import GltfMaterialWriter, mesh_of, to_y_up
+from grafu.export.gltf_packing import EXTENSION, DracoConfig
 from grafu.export.merged_visuals import merged_visuals
 from grafu.export.names import NameBook
 from grafu.export.shading import CREASE_ANGLE
@@ -41,7 +44,8 @@ class GlbConfig:
     """How a GLB is written; times in seconds, the crease angle in radians.
 
     `stage_seconds` is how long what opens together takes; `pause` how long all stays open. With `merge`
-    each link is one mesh, with one primitive per material: fewer draw calls, and no nodes of parts.
+    each link is one mesh, with one primitive per material: fewer draw calls, and no nodes of parts. With `draco`
+    meshes are compressed.
     """
 
     animate: bool = True
@@ -49,6 +53,7 @@ class GlbConfig:
     pause: float = 0.5
     crease_angle: float = CREASE_ANGLE
     merge: bool = False
+    draco: DracoConfig | None = None
 
     def __post_init__(self) -> None:
         if self.stage_seconds <= 0 or self.pause <= 0:
@@ -104,6 +109,7 @@ class _GlbWriter:
         data = self._buffer.to_bytes()
         tables: dict[str, Any] = {
             "asset": {"version": "2.0", "generator": f"grafu {__version__}"},
+            **dict.fromkeys(("extensionsUsed", "extensionsRequired"), self._extensions()),
             "scene": 0,
             "scenes": [{"name": self._object.name, "nodes": [root]}],
             "nodes": self._nodes,
@@ -115,6 +121,10 @@ class _GlbWriter:
             "buffers": [{"byteLength": len(data)}] if data else [],
         }
         return {name: table for name, table in tables.items() if table != []}
+
+    def _extensions(self) -> list[str]:
+        primitives = (primitive for mesh in self._meshes for primitive in mesh["primitives"])
+        return [EXTENSION] if any("extensions" in primitive for primitive in primitives) else []
 
     def _add_link(self, link: Link) -> int:
         joint = self._object.joint_of.get(link.id)
@@ -144,7 +154,8 @@ class _GlbWriter:
     def _add_visual(self, visual: Visual, origin: Vec3) -> int:
         """Adds a part of a link whose frame stands at an origin; one that swings has a node on its own pin."""
         stands = origin if visual.swing is None else visual.swing.axis.closest_point(visual.mesh.box.center)
-        mesh = mesh_of(visual, stands, (self._buffer, self._materials), self._config.crease_angle)
+        writer = self._buffer, self._materials
+        mesh = mesh_of(visual, stands, writer, self._config.crease_angle, self._config.draco)
         node: dict[str, Any] = {"name": visual.name}
         if visual.swing is not None:
             node["translation"] = _plain(to_y_up((stands - origin)[None])[0])
@@ -235,7 +246,9 @@ def _described_joint(joint: Joint) -> dict[str, Any]:
         "lower": joint.limits.lower,
         "upper": joint.limits.upper,
         "after": list(joint.after),
-    } | ({} if joint.coupling is None else {"coupling": asdict(joint.coupling)})
+        **({} if joint.coupling is None else {"coupling": asdict(joint.coupling)}),
+        **({} if joint.catch is CatchKind.NONE else {"catch": joint.catch.value}),
+    }
 
 
 def _described_grasp(grasp: GraspFrame, origin: Vec3) -> dict[str, Any]:

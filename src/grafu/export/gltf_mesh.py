@@ -1,74 +1,20 @@
-"""Visuals as glTF tables: meshes, materials, images, and the binary half of the file.
+"""Visuals as glTF tables: meshes, materials and images.
 
 A visual is one mesh with one primitive per surface; each material and each image is written once. Arrays become
-accessors over one aligned buffer.
+accessors over one aligned buffer, or a primitive of them is compressed.
 """
 
+from collections.abc import Mapping
 from typing import Any, final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual
+from grafu.export.gltf_buffer import VERTEX_DATA, GltfBuffer
+from grafu.export.gltf_packing import DracoConfig, add_packed
 from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Material, Surface, Texture
-from grafu.geometry.arrays import Points, Vec3, extremes
-
-_COMPONENT = {"uint8": 5121, "uint16": 5123, "uint32": 5125, "float32": 5126}
-_TYPE = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
-
-VERTEX_DATA = 34962
-INDEX_DATA = 34963
-
-
-@final
-class GltfBuffer:
-    """Collects arrays and encoded images; every one starts at a multiple of four bytes."""
-
-    def __init__(self) -> None:
-        self.accessors: list[dict[str, Any]] = []
-        self.views: list[dict[str, Any]] = []
-        self._chunks: list[bytes] = []
-        self._length = 0
-
-    def add_bytes(self, data: bytes, target: int | None = None) -> int:
-        """Appends raw bytes as a new buffer view and returns its index."""
-        view = {"buffer": 0, "byteOffset": self._length, "byteLength": len(data)}
-        self.views.append(view if target is None else {**view, "target": target})
-        padded = data + b"\0" * (-len(data) % 4)
-        self._chunks.append(padded)
-        self._length += len(padded)
-        return len(self.views) - 1
-
-    def add_array(self, array: np.ndarray, target: int | None = None, bounds: bool = False) -> int:
-        """Appends an array of scalars or rows of up to 4 and returns the index of its accessor.
-
-        `bounds` adds the least and largest value of each column, which positions and key times must have. Bytes are
-        colours, read as 0..1.
-        """
-        rows = array.reshape(len(array), -1)
-        accessor: dict[str, Any] = {
-            "bufferView": self.add_bytes(np.ascontiguousarray(array).tobytes(), target),
-            "componentType": _COMPONENT[str(array.dtype)],
-            "count": len(array),
-            "type": _TYPE[rows.shape[1]],
-        }
-        if array.dtype == np.uint8:
-            accessor["normalized"] = True
-        if bounds:
-            low, high = extremes(rows)
-            accessor |= {"min": low.tolist(), "max": high.tolist()}
-        self.accessors.append(accessor)
-        return len(self.accessors) - 1
-
-    def add_indices(self, indices: np.ndarray) -> int:
-        """Appends vertex indices as 16-bit numbers where these suffice (65535 is reserved), else 32-bit ones."""
-        narrow = not len(indices) or int(indices.max()) < 65535
-        return self.add_array(indices.astype(np.uint16 if narrow else np.uint32), INDEX_DATA)
-
-    def to_bytes(self) -> bytes:
-        """Returns the whole buffer."""
-        return b"".join(self._chunks)
-
+from grafu.geometry.arrays import Points, Vec3
 
 _REPEATING = {"wrapS": 10497, "wrapT": 10497}
 
@@ -147,34 +93,49 @@ def to_y_up(vectors: Points) -> Points:
 
 
 def mesh_of(
-    visual: Visual, origin: Vec3, writer: tuple[GltfBuffer, GltfMaterialWriter], crease: float
+    visual: Visual,
+    origin: Vec3,
+    writer: tuple[GltfBuffer, GltfMaterialWriter],
+    crease: float,
+    draco: DracoConfig | None = None,
 ) -> dict[str, Any]:
-    """Returns the glTF mesh of a visual relative to `origin` (metres, object frame); it may have no primitives."""
-    primitives = [_primitive(s, origin, writer, crease) for s in visual.surfaces if not s.is_empty]
+    """Returns the glTF mesh of a visual relative to `origin` (metres, object frame); it may have no primitives.
+
+    With `draco` its primitives are compressed.
+    """
+    primitives = [_primitive(s, origin, writer, crease, draco) for s in visual.surfaces if not s.is_empty]
     return {"name": visual.name, "primitives": primitives}
 
 
 def _primitive(
-    surface: Surface, origin: Vec3, writer: tuple[GltfBuffer, GltfMaterialWriter], crease: float
+    surface: Surface,
+    origin: Vec3,
+    writer: tuple[GltfBuffer, GltfMaterialWriter],
+    crease: float,
+    draco: DracoConfig | None,
 ) -> dict[str, Any]:
     buffer, materials = writer
     shading = corner_normals(surface, crease)
     vertex, normal, corners = _split(surface, np.asarray(shading.corners), len(shading.normals))
-    attributes = {
-        "POSITION": buffer.add_array(_floats(to_y_up(surface.mesh.vertices[vertex] - origin)), VERTEX_DATA, True),
-        "NORMAL": buffer.add_array(_floats(to_y_up(shading.normals[normal])), VERTEX_DATA),
+    arrays = {
+        "POSITION": _floats(to_y_up(surface.mesh.vertices[vertex] - origin)),
+        "NORMAL": _floats(to_y_up(shading.normals[normal])),
     }
     if surface.uv is not None:
         uv = np.clip(np.nan_to_num(surface.uv[vertex], posinf=0.0, neginf=0.0), -1e6, 1e6)
-        flipped = uv * [1.0, -1.0] + [0.0, 1.0]  # glTF's origin is the top left
-        attributes["TEXCOORD_0"] = buffer.add_array(_floats(flipped), VERTEX_DATA)
+        arrays["TEXCOORD_0"] = _floats(uv * [1.0, -1.0] + [0.0, 1.0])  # glTF's origin is the top left
     if surface.colors is not None:
-        attributes["COLOR_0"] = buffer.add_array(np.ascontiguousarray(surface.colors[vertex]), VERTEX_DATA)
+        arrays["COLOR_0"] = np.ascontiguousarray(surface.colors[vertex])
+    packed = None if draco is None else add_packed(arrays, corners, buffer, draco)
     return {
-        "attributes": attributes,
-        "indices": buffer.add_indices(corners.ravel()),
+        **(_plain(arrays, corners, buffer) if packed is None else packed),
         "material": materials.index_of(surface.material, surface.uv is not None),
     }
+
+
+def _plain(arrays: Mapping[str, np.ndarray], corners: np.ndarray, buffer: GltfBuffer) -> dict[str, Any]:
+    attributes = {name: buffer.add_array(values, VERTEX_DATA, name == "POSITION") for name, values in arrays.items()}
+    return {"attributes": attributes, "indices": buffer.add_indices(corners.ravel())}
 
 
 def _split(surface: Surface, corners: np.ndarray, normals: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -21,6 +21,7 @@ from grafu.articulation.open_together import open_together
 from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.articulation.sweep import JointValues
 from grafu.export.files import ExportFiles
+from grafu.export.mjcf_catches import MjcfCatches
 from grafu.export.mjcf_materials import MjcfMaterials, drawn_meshes
 from grafu.export.mjcf_springs import MjcfSprings, add_spring_defaults
 from grafu.export.names import NameBook, number, numbers, printable
@@ -96,6 +97,7 @@ class _MjcfWriter:
         self._joints = _names([joint.id for joint in articulated.joints], taken=_FREE_JOINT if self._is_free else "")
         self._moving: list[Joint] = []
         self._springs = MjcfSprings(articulated, self._physics, self._joints)
+        self._catches = MjcfCatches(articulated.moving_joints, self._physics, self._joints)
         self._notes: list[str] = []
 
     def to_files(self) -> ExportFiles:
@@ -103,7 +105,7 @@ class _MjcfWriter:
         model = ET.Element("mujoco", model=name)
         ET.SubElement(model, "compiler", angle="radian", meshdir=MESHES, texturedir=MESHES, autolimits="true")
         ET.SubElement(model, "option", integrator="implicitfast")
-        _add_defaults(model)
+        self._catches.add_defaults(_add_defaults(model), GRASP_GROUP)
         model.append(self._asset)
         root = self._body(self._object.link(self._object.root))
         root.set("childclass", "furniture")
@@ -111,7 +113,7 @@ class _MjcfWriter:
         self._add_contacts(model)
         self._add_couplings(model)
         self._springs.add_tendons(model)
-        if self._config.actuators and self._moving:
+        if (self._config.actuators and self._moving) or self._catches:
             self._add_actuators(ET.SubElement(model, "actuator"))
         if self._config.keyframes and self._moving:
             self._add_keyframes(ET.SubElement(model, "keyframe"))
@@ -219,14 +221,18 @@ class _MjcfWriter:
             ET.SubElement(equality, "joint", names | {"polycoef": polynomial, "solref": _IN_STEP})
 
     def _add_actuators(self, element: ET.Element) -> None:
-        """A servo on each joint that moves by itself; coupled ones follow."""
-        for joint in (joint for joint in self._moving if joint.coupling is None):
+        """A servo on each joint that moves by itself, where they are wanted (coupled ones follow); then catches."""
+        for joint in self._served():
             effort = self._physics.dynamics[joint.id].effort
             name = self._joints[joint.id]
             attributes = {"name": name, "joint": name, "dampratio": "1"}
             attributes |= {"kp": number(effort / (self._config.servo_error * joint.limits.range))}
             attributes |= {"ctrlrange": numbers([joint.limits.lower, joint.limits.upper])}
             ET.SubElement(element, "position", attributes | {"forcerange": numbers([-effort, effort])})
+        self._catches.add_actuators(element)
+
+    def _served(self) -> list[Joint]:
+        return [joint for joint in self._moving if joint.coupling is None] if self._config.actuators else []
 
     def _add_keyframes(self, element: ET.Element) -> None:
         free = {joint.id: joint.limits.lower for joint in self._object.free_joints}
@@ -235,7 +241,8 @@ class _MjcfWriter:
             values = [*(_AT_REST if self._is_free else ()), *(pose[joint.id] for joint in self._moving)]
             key = ET.SubElement(element, "key", name=name, qpos=numbers(values))
             if self._config.actuators:
-                key.set("ctrl", numbers(pose[joint.id] for joint in self._moving if joint.coupling is None))
+                controls = (*(pose[joint.id] for joint in self._served()), *[0.0] * len(self._catches))
+                key.set("ctrl", numbers(controls))
 
     def _open_pose(self) -> list[tuple[str, JointValues]]:
         """Returns the pose `open`; none where there is no time to find out how far all can be open together."""
@@ -266,7 +273,8 @@ def _names(ids: list[str], taken: str = "") -> dict[str, str]:
     return {own: book.unique(printable(own)) for own in ids}
 
 
-def _add_defaults(model: ET.Element) -> None:
+def _add_defaults(model: ET.Element) -> ET.Element:
+    """Adds the classes of all that a model has, and returns the one above them."""
     top = ET.SubElement(ET.SubElement(model, "default"), "default", {"class": "furniture"})
     ET.SubElement(top, "joint", solimpfriction=_STIFF)
     visual = ET.SubElement(top, "default", {"class": "visual"})
@@ -277,6 +285,7 @@ def _add_defaults(model: ET.Element) -> None:
     grasp = ET.SubElement(top, "default", {"class": "grasp"})
     ET.SubElement(grasp, "site", group=GRASP_GROUP, size="0.01")
     add_spring_defaults(top, GRASP_GROUP)
+    return top
 
 
 def _add_inertial(body: ET.Element, mass: MassProperties, origin: Vec3) -> None:

@@ -1,10 +1,11 @@
-"""What all records of a report have in common, and those of how the piece stands."""
+"""What all records of a report have in common, those of how the piece stands, and of catches."""
 
 from typing import Any
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field
 
 from grafu.articulation.base import BaseKind
+from grafu.articulation.catch_kind import CatchKind
 from grafu.visible import short_repr
 
 
@@ -50,3 +51,23 @@ class BaseRecord(ReportRecord):
     stability: StabilityRecord | None = Field(
         default=None, description="null: no format with masses was written, or it has no base to stand on"
     )
+
+
+class CaughtJointRecord(ReportRecord):
+    """A joint with a catch."""
+
+    joint: str = Field(description="the joint's id")
+    kind: CatchKind = Field(description="detent: held where it is closed; self-closing: pulled closed, and held there")
+    effort: float | None = Field(
+        description="the force towards closed, newtons; of a hinge newton metres; null: none, or no format with masses "
+        "was written"
+    )
+    reach: float | None = Field(description="the value of the joint, metres or radians, from which on there is none")
+
+
+class CaughtRecord(ReportRecord):
+    """The catches of doors and drawers."""
+
+    joints: tuple[CaughtJointRecord, ...] = Field(description="the joints that have one")
+    files: tuple[str, ...] = Field(description="the files that were written in which simulators find their forces")
+    files_without: tuple[str, ...] = Field(description="those that were written and whose formats cannot hold them")

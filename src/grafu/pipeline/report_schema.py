@@ -11,7 +11,7 @@ from grafu.additions.step import DeficiencyKind
 from grafu.graph.completion import Question
 from grafu.joints.report import LIFT_ARMS
 from grafu.pipeline.motion_source import MotionSource
-from grafu.pipeline.report_record import BaseRecord, ReportRecord, schema_field
+from grafu.pipeline.report_record import BaseRecord, CaughtRecord, ReportRecord, schema_field
 from grafu.pipeline.words import Colour, FaultKind
 from grafu.refusal import Asked, Reason
 from grafu.vocabulary import JointType, MechanismClass, PartLabel, PieceKind
@@ -157,9 +157,7 @@ class JointRecord(ReportRecord):
         description="how it can be grasped (`itself`: a knob or button is held, `driven`: a drive, or the whole piece, "
         "moves it); a follower without a grasp: how its leader can be"
     )
-    grasp_frames: tuple[GraspFrameRecord, ...] = Field(
-        default=(), description="its grips: each handle, else at most one"
-    )
+    grasp_frames: tuple[GraspFrameRecord, ...] = Field(default=(), description="its grips: handles, else one or none")
     small: bool = Field(default=False, description="whether it is a knob, a button, a wheel or a caster")
     clearances: tuple[ClearanceRecord, ...] = Field(description="what was cut for it")
     notes: tuple[str, ...] = Field(description="what the user should check")
@@ -277,6 +275,7 @@ class Report(ReportRecord):
     base: BaseRecord | None = Field(
         default=None, description="what holds it, and what tips it over; null: written by an earlier version"
     )
+    caught: CaughtRecord | None = Field(default=None, description="catches of doors and drawers; null: there are none")
     piece: PieceRecord | None = Field(
         default=None, description="what the whole piece is; null: not known, or another motion source was used"
     )

@@ -16,6 +16,7 @@ from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
 from grafu.articulation.base import BaseKind
+from grafu.articulation.catch_kind import CatchKind
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
 from grafu.asset.regrouping import Regroup, Regrouping
@@ -39,9 +40,9 @@ class Settings(ShortRepr):
     `joints` by those of moving parts. `weights` is a file of trained weights (ONNX) for the network; None: those that
     came with the package. `hinge` is the template that doors get where it finds room. With `stays` lids and flaps get
     stays where there is room. `base` is what holds the piece: None, it is fixed, and a known wall
-    unit hangs on a wall. `regrouped` states which parts are joined or split, in this order, before all
-    else; the other choices go by the ids of the parts after that. A motion source that reads another system's file is
-    no setting: it needs the file.
+    unit hangs on a wall. `catch` is what keeps doors and drawers closed. `regrouped` states which parts are joined
+    or split, in this order, before all else; the other choices go by the ids of the parts after that. A motion source
+    that reads another system's file is no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO
@@ -56,6 +57,7 @@ class Settings(ShortRepr):
     hinge: str = ""
     stays: bool = True
     base: BaseKind | None = None
+    catch: CatchKind = CatchKind.NONE
     regrouped: tuple[Regrouping, ...] = ()
 
     def __post_init__(self) -> None:

@@ -29,7 +29,7 @@ from grafu.viewer.report_tables import (
 )
 from grafu.viewer.scene_data import scene_data
 from grafu.viewer.shell import Html, joined, json_block, light_of, section, tag, whole_page
-from grafu.viewer.wording import facts, size_words, standing_words, unused_joints
+from grafu.viewer.wording import catch_words, facts, size_words, standing_words, unused_joints
 
 _LEAD = "A click copies an option: give it to the same command, with --overwrite."
 
@@ -173,7 +173,7 @@ def report_sections(report: Report, completion: GraphCompletion, lead: str) -> l
         section("What was missing", deficiencies_table(report)),
         section("What was added", added_table(report)),
         section("What was not built", not_built_table(report)),
-        section("How it stands", lines(standing_words(report))),
+        section("How it stands", lines([*standing_words(report), *catch_words(report)])),
         section("Functional graph", _graph(completion), _legend(), name="graph"),
         section("How it was read", lines([*report.frame.assumed, *report.input.notes])),
         section("Time", tag("p", timing_words(report))),

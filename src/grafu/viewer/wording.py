@@ -157,3 +157,14 @@ def standing_words(report: Report) -> list[str]:
         return [held]
     words = stability_words(found)
     return [held, f"On its own feet: {words}."]
+
+
+def catch_words(report: Report) -> list[str]:
+    """Returns how many joints have catches and which files do; nothing where there are none."""
+    if report.caught is None:
+        return []
+    kinds = Counter(joint.kind for joint in report.caught.joints)
+    said = ", ".join(f"{counted(count, 'joint')} {kind}" for kind, count in kinds.items())
+    places = f"in {listed(report.caught.files)}" if report.caught.files else "in no file that was written"
+    lost = f"; {listed(report.caught.files_without)} cannot hold them" if report.caught.files_without else ""
+    return [f"Catches: {said}, {places}{lost}."]

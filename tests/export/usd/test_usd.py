@@ -11,6 +11,7 @@ from small_cabinet import board, make_cabinet, painted_cube, png
 from test_swings import with_bar
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
+from grafu.articulation.catch_kind import CatchKind
 from grafu.articulation.grasp_search import GraspHint, with_grasps
 from grafu.articulation.kinematics import link_origins, link_poses
 from grafu.articulation.mass import mass_of_link
@@ -21,6 +22,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points, translation
+from grafu.joints.catches import with_catches
 from grafu.synth.generate import make_specimen
 from grafu.synth.truth.clashes import articulated_of
 from grafu.vocabulary import JointType
@@ -203,6 +205,18 @@ def test_the_drive_of_a_heavy_lid_is_a_spring_that_balances_it_at_rest(tmp_path)
     assert torque == pytest.approx(spring.stiffness * spring.target, rel=1e-5)
     assert drive.GetTargetPositionAttr().Get() > 45
     assert prim.GetAttribute("physxJointAxis:angular:staticFrictionEffort").Get() == pytest.approx(spring.friction)
+    require_valid(stage)
+
+
+def test_a_catch_is_stated_on_its_joint_for_whoever_applies_it(cabinet, tmp_path):
+    caught = with_catches(cabinet, CatchKind.SELF_CLOSING)
+    stage, catch = opened(export_usd(caught), tmp_path / "caught"), physics_of(caught).dynamics["drawer_1_rail"].catch
+    prim = stage.GetPrimAtPath("/cabinet/joints/drawer_1_rail")
+
+    assert prim.GetAttribute("grafu:catch:kind").Get() == "self-closing"
+    found = [prim.GetAttribute(f"grafu:catch:{name}").Get() for name in ("effort", "reach", "fade")]
+    assert found == [catch.effort, catch.reach, catch.fade]
+    assert UsdPhysics.DriveAPI(prim, "linear").GetStiffnessAttr().Get() == 0.0
     require_valid(stage)
 
 

@@ -12,6 +12,8 @@ from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade
 
 from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint, Link, Visual
 from grafu.articulation.base import BaseKind
+from grafu.articulation.catch import Catch
+from grafu.articulation.catch_kind import CatchKind
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.motion_kind import MotionKind
@@ -156,6 +158,7 @@ class _StageBuilder:
         self._add_resistance(prim, self._physics.dynamics[joint.id], joint.kind)
         if joint.coupling is not None:
             self._add_coupling(prim, joint, joint.coupling)
+        _add_catch(prim, joint.catch, self._physics.dynamics[joint.id].catch)
         if joint.after:
             before = prim.CreateRelationship("grafu:after")
             before.SetTargets([self._joints[other] for other in joint.after])
@@ -211,6 +214,15 @@ class _StageBuilder:
         }
         for name, value in values.items():
             prim.CreateAttribute(f"physxJointAxis:{instance}:{name}", Sdf.ValueTypeNames.Float, False).Set(value)
+
+
+def _add_catch(prim: Usd.Prim, kind: CatchKind, catch: Catch | None) -> None:
+    """States a joint's catch for whoever applies its force: drives pull harder the further a joint is open."""
+    if catch is None:
+        return
+    prim.CreateAttribute("grafu:catch:kind", Sdf.ValueTypeNames.Token).Set(kind.value)
+    for name in ("effort", "reach", "fade"):
+        prim.CreateAttribute(f"grafu:catch:{name}", Sdf.ValueTypeNames.Double).Set(getattr(catch, name))
 
 
 def _label_of(link: Link) -> PartLabel:
