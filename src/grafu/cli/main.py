@@ -12,7 +12,7 @@ from importlib import import_module
 from typing import Final, NoReturn, final
 
 from grafu.cli.input_options import join_directions
-from grafu.cli.light_start import with_shared_methods, without_shape_checks
+from grafu.cli.light_start import without_shape_checks
 from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, one_line, prepare_verb
 from grafu.errors import did_you_mean
@@ -64,7 +64,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     if arguments is None:
         without_shape_checks()
-        with_shared_methods()
     words = join_directions(sys.argv[1:] if arguments is None else arguments)
     parser = build_parser(words)
     if not words:
