@@ -89,7 +89,7 @@ OF_MODULES = {
         "grasp_search.py": {},
         "coupled_weight.py": {"_STEP": TOLERANCE, "_EXACT": TOLERANCE, "_AT": SAMPLES},
         "build_material.py": {"_BY_WORD": MATERIALS, "_GLASS": MATERIALS, "_STEEL": MATERIALS, "_TEXTILE": MATERIALS},
-        "mass.py": {"NO_MOMENTS": FORMULA, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA},
+        "mass.py": {"NO_MOMENTS": FORMULA, "_IN_ORDER": FORMULA, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA},
     },
     "asset": {
         "bodies.py": {},

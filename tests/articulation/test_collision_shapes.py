@@ -3,6 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
 
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
 from grafu.articulation.collision_shapes import (
@@ -12,12 +14,13 @@ from grafu.articulation.collision_shapes import (
     corners_of,
     extent_of,
 )
-from grafu.articulation.convex_pieces import ConvexPieceConfig, convex_pieces, hull_of
+from grafu.articulation.convex_pieces import ConvexPieceConfig, _depths, _looks, convex_pieces, hull_of
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box, OrientedBox
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
 from grafu.geometry.solids import ConvexSolid, subtract
 from grafu.geometry.transform import rotation_matrix
 from grafu.vocabulary import PartLabel
@@ -275,3 +278,15 @@ def lies_within(shape: OrientedBox | ConvexSolid, other: OrientedBox | ConvexSol
     if isinstance(other, OrientedBox):
         return bool((np.abs((points - other.center) @ other.rotation) <= other.half + tolerance).all())
     return bool((points @ other.planes[:, :3].T <= other.planes[:, 3] + tolerance).all())
+
+
+@given(st.integers(0, 10_000), st.floats(0.01, 0.4))
+def test_a_pit_is_as_deep_as_if_all_points_looked_along_all_axes(seed, least):
+    rng = np.random.default_rng(seed)
+    corners = rng.uniform(0, 1, (8, 1, 3)) + rng.uniform(-0.2, 0.2, (8, 3, 3))
+    caster = RayCaster(TriangleMesh(corners.reshape(-1, 3), np.arange(24).reshape(-1, 3)))
+    points = rng.uniform(0, 1, (200, 3))
+    seen = _looks(caster, points)
+    depth = np.where(np.isinf(seen).any(axis=1), np.minimum(seen.min(axis=1), 0.9), 0.0)
+
+    assert _depths(caster, points, 0.9, least).tolist() == np.where(depth > least, depth, 0.0).tolist()

@@ -13,7 +13,7 @@ from grafu.geometry import face_cuts
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.budget import Budget
-from grafu.geometry.face_cuts import remainder
+from grafu.geometry.face_cuts import half_of, halves_of, remainder
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid, clip
 from grafu.geometry.transform import rotation_matrix
@@ -96,3 +96,22 @@ def test_what_is_left_is_the_triangle_less_all_pieces(seed, count, height):
 def test_nothing_is_left_where_a_piece_covers_all():
     corners = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]])
     assert len(remainder(corners, [corners])) == 0
+
+
+@given(st.integers(0, 10_000), st.sampled_from((0.0, 0.25, 0.5)))
+def test_both_halves_are_those_of_either_side(seed, height):
+    rng = np.random.default_rng(seed)
+    points = np.round(rng.uniform(0, 1, (12, 3)), 2)
+    points[::3, 2] = height  # some lie on the plane
+    mesh, normal, origin = (
+        TriangleMesh(points, rng.integers(0, 12, (20, 3))),
+        vec3(0.0, 0.0, 1.0),
+        vec3(0.0, 0.0, height),
+    )
+
+    beyond, rest = halves_of(mesh, normal, origin)
+
+    assert beyond == half_of(mesh, normal, origin)
+    assert rest == half_of(mesh, -normal, origin)
+    assert beyond.vertices[:, 2].min(initial=height) >= height - 1e-9
+    assert rest.vertices[:, 2].max(initial=0) <= height + 1e-9

@@ -4,14 +4,17 @@ import gc
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.geometry import intersection
+from grafu.geometry import bvh
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody, share_shape, shrunk
+from grafu.geometry.bvh import share_shape
+from grafu.geometry.intersection import MeshCollider, SweptBody, shrunk
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.remembered import RememberedByContent
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 
 DEPTH = 0.01
@@ -71,10 +74,10 @@ def test_a_dead_mesh_leaves_no_tree_behind():
         assert MeshCollider(mesh).intersects(WALL)
 
     gc.collect()
-    before = len(intersection._models)
+    before = len(bvh._models)
     use()
     gc.collect()
-    assert len(intersection._models) == before
+    assert len(bvh._models) == before
 
 
 @given(st.floats(0.0, 0.2), st.floats(-1.5, 1.5))
@@ -232,3 +235,64 @@ def test_the_box_of_a_pose_is_the_same_whatever_was_posed_before() -> None:
 
         assert moved.box_gap(fresh) == 0.0
         assert (moved._low, moved._high) == (fresh._low, fresh._high) == (around.low.tolist(), around.high.tolist())
+
+
+TORUS = TriangleMesh.from_trimesh(trimesh.creation.torus(0.5, 0.2))
+
+
+@pytest.fixture
+def built(monkeypatch: pytest.MonkeyPatch) -> list[TriangleMesh]:
+    """The meshes of which a tree is built, from now on."""
+    meshes: list[TriangleMesh] = []
+    build = bvh._built
+    monkeypatch.setattr(bvh, "_by_content", RememberedByContent(bvh._REMEMBERED))
+    monkeypatch.setattr(bvh, "_built", lambda mesh: meshes.append(mesh) or build(mesh))
+    return meshes
+
+
+@given(st.floats(-0.3, 0.3), st.floats(-1.5, 1.5))
+def test_an_equal_mesh_elsewhere_is_asked_with_one_tree(x, angle):
+    turned = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), angle), vec3(0.1, 0.0, 0.0))
+
+    def distances() -> list[float]:
+        ring = MeshCollider(TORUS.translated(vec3(x, 1.0, 2.0)))
+        found = [ring.distance(MeshCollider(CUBE)), MeshCollider(CUBE).distance(ring)]
+        ring.place(turned)
+        return [*found, ring.distance(MeshCollider(CUBE)), ring.distance(WALL)]
+
+    MeshCollider(TORUS).distance(WALL)  # from now on there is a tree, of a mesh that stands elsewhere
+    shared = distances()
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(bvh, "_by_content", RememberedByContent(0))
+        anew = distances()
+    assert shared == pytest.approx(anew, abs=1e-12)
+
+
+def test_only_an_equal_mesh_shares_a_tree(built):
+    first, copy = MeshCollider(TORUS.translated(vec3(0.0, 0.0, 0.0))), TORUS.translated(vec3(0.0, 3.0, 0.0))
+    bent = TriangleMesh(TORUS.vertices * [1.0, 1.0, 1.0 + 1e-8], TORUS.faces)
+    for mesh in (copy, bent):
+        first.distance(MeshCollider(mesh))
+
+    assert len(built) == 2
+    assert MeshCollider(copy).number != first.number
+
+
+def test_what_was_touched_last_is_asked_first(monkeypatch):
+    asked: list[MeshCollider] = []
+    hits = MeshCollider.hits
+
+    def counted(own: MeshCollider, other: MeshCollider) -> bool:
+        asked.append(other)
+        return hits(own, other)
+
+    beside = MeshCollider(TORUS.transformed(translation(vec3(0.5, 0.5, 0.5))))  # around the cube's middle: no touch
+    small = SweptBody(box_mesh((0.45, 0.45, 0.45), (0.55, 0.55, 0.55)), 0.001)
+    floor = MeshCollider(box_mesh((0.0, 0.0, 0.0), (1.0, 1.0, 0.5)))
+    monkeypatch.setattr(MeshCollider, "hits", counted)
+    for x in (0.0, 0.001, 0.002):
+        small.place(translation(vec3(x, 0.0, 0.0)))
+        assert small.penetrated([beside, floor]) == [1]
+
+    # at the first pose one after the other, then the floor first; shrunk, all are asked, and then the floor alone
+    assert [asked.count(beside), asked.count(floor)] == [1 + 3, 3 * (1 + 1 + 6)]

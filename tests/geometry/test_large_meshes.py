@@ -4,9 +4,10 @@ import tracemalloc
 
 import numpy as np
 
-from grafu.geometry import intersection
+from grafu.geometry import bvh
 from grafu.geometry.arrays import vec3
-from grafu.geometry.intersection import MeshCollider, forget_large_shapes
+from grafu.geometry.bvh import forget_large_shapes
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 
 
@@ -41,6 +42,6 @@ def test_shapes_of_large_meshes_are_forgotten_and_built_again() -> None:
     other = small.translated(vec3(0.0, 0.0, 1.0))
     assert MeshCollider(large).distance(MeshCollider(other)) == 1.0
     forget_large_shapes()
-    assert id(large) not in intersection._models
-    assert id(other) in intersection._models
+    assert id(large) not in bvh._models
+    assert id(other) in bvh._models
     assert MeshCollider(large).distance(MeshCollider(other)) == 1.0

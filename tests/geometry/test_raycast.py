@@ -179,3 +179,32 @@ def test_walls_count_from_half_of_the_heights_on() -> None:
     for count, stands in ((4, True), (5, False)):
         found = stands_between_walls(walls, vec3(0.0, 0.0, 0.0), (1, np.array([0.5])), (2, heights[:count]))
         assert found.tolist() == [stands]
+
+
+@given(st.floats(-1.5, 1.5), st.floats(-1.5, 1.5))
+def test_clear_is_what_no_face_lies_along(y, z):
+    origins = np.array([[-2.0, y, z], [0.1, y / 4, z / 4]])
+    for direction in (X, -X, vec3(0.0, 0.0, 1.0)):
+        assert (CASTER.is_clear(origins, direction) == np.isinf(CASTER.along(origins, direction))).all()
+    assert RayCaster(TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64))).is_clear(origins, X).all()
+
+
+def test_front_and_back_of_a_sheet_are_seen_alike_and_asked_once(monkeypatch):
+    outer, inner = (TriangleMesh.box_mesh(Box(np.full(3, -a), np.full(3, a))) for a in (2.0, 1.0))
+    once = merge_meshes([outer, inner])
+    twice = TriangleMesh(once.vertices, np.concatenate([once.faces, np.roll(once.faces[:, ::-1], 1, axis=1)]))
+    rays: list[int] = []
+    is_clear = RayCaster.is_clear
+
+    def counted(caster: RayCaster, origins: np.ndarray, direction: np.ndarray) -> np.ndarray:
+        rays.append(len(origins))
+        return is_clear(caster, origins, direction)
+
+    monkeypatch.setattr(RayCaster, "is_clear", counted)
+    seen = outer_faces(twice)
+    asked = sum(rays)
+
+    assert seen.tolist() == 2 * ([True] * 12 + [False] * 12)
+    rays.clear()
+    assert outer_faces(once).tolist() == [True] * 12 + [False] * 12
+    assert asked == sum(rays)

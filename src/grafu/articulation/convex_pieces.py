@@ -20,7 +20,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import tidy_parts, welded
 from grafu.geometry.config_checks import require_positive
-from grafu.geometry.face_cuts import half_of
+from grafu.geometry.face_cuts import halves_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.solids import ConvexSolid
@@ -100,7 +100,7 @@ class _Piece:
         if side < 2 * tolerance or _is_box(mesh):
             return None
         points = _inside_hull(mesh, _grid(mesh.box, tolerance), self.config.speck)
-        depth = _depths(self.caster, points, side)
+        depth = _depths(self.caster, points, side, tolerance)
         if not len(depth) or depth.max() <= tolerance:
             return None
         return points[int(np.argmax(depth))]
@@ -130,7 +130,7 @@ class _Piece:
             beyond, rest = self.solid.split_by_plane(tuple(normal), sign * position)
             return self._of_solid(beyond), self._of_solid(rest)
         origin = np.abs(normal) * position
-        beyond, rest = half_of(self.mesh, normal, origin), half_of(self.mesh, -normal, origin)
+        beyond, rest = halves_of(self.mesh, normal, origin)
         return _Piece(beyond, self.config), _Piece(rest, self.config)
 
     def _of_solid(self, solid: Any) -> "_Piece":
@@ -198,10 +198,19 @@ def _looks(caster: RayCaster, points: Points) -> np.ndarray:
     return caster.distances(origins, directions).reshape(-1, 6)
 
 
-def _depths(caster: RayCaster, points: Points, most: float) -> Scalars:
-    """Returns how far each point is from any face, at most `most`; 0 where no direction leads out."""
-    seen = _looks(caster, points)
-    return np.where(np.isinf(seen).any(axis=1), np.minimum(seen.min(axis=1, initial=most), most), 0.0)
+def _depths(caster: RayCaster, points: Points, most: float, least: float) -> Scalars:
+    """Returns how far each point is from any face, at most `most`; 0 where no direction leads out.
+
+    Of what is no farther than `least` it is enough to find one face: it may be given 0, too.
+    """
+    depth, leads_out = np.full(len(points), most), np.zeros(len(points), dtype=bool)
+    left = np.arange(len(points))
+    for direction in _DIRECTIONS:
+        seen = caster.along(points[left], direction)
+        depth[left] = np.minimum(depth[left], seen)
+        leads_out[left] |= np.isinf(seen)
+        left = left[depth[left] > least]
+    return np.where(leads_out & (depth > least), depth, 0.0)
 
 
 def _cut(piece: _Piece, pit: Vec3) -> list[_Piece]:

@@ -22,6 +22,7 @@ from grafu.geometry.transform import rotation_matrix
 
 _TETRAHEDRON = (np.ones((4, 4)) + np.eye(4)) / 20.0  # second moments of a unit tetrahedron in its corners
 _TRIANGLE = (np.ones((3, 3)) + np.eye(3)) / 12.0
+_IN_ORDER = ["einsum_path", (0, 1), (0, 1), (0, 1)]  # to look for an order takes as long as to sum over a small part
 
 
 @final
@@ -133,7 +134,7 @@ def _solid_moments(triangles: np.ndarray, patches: Patches) -> np.ndarray:
     volume = np.einsum("nd,nd->n", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6.0
     first = volume[:, None] * triangles.sum(axis=1) / 4.0
     corners = np.concatenate([triangles, np.zeros((len(triangles), 1, 3))], axis=1)
-    second = np.einsum("n,nid,ij,nje->nde", volume, corners, _TETRAHEDRON, corners, optimize=True)
+    second = np.einsum("n,nid,ij,nje->nde", volume, corners, _TETRAHEDRON, corners, optimize=_IN_ORDER)
     return _summed(np.column_stack([volume, first, second.reshape(-1, 9)]), patches)
 
 
@@ -145,7 +146,7 @@ def _shell_moments(triangles: np.ndarray, patches: Patches, thickness: np.ndarra
     t = thickness[patches.patch]
     volume = length / 2.0 * t
     first = volume[:, None] * triangles.sum(axis=1) / 3.0
-    second = np.einsum("n,nid,ij,nje->nde", volume, triangles, _TRIANGLE, triangles, optimize=True)
+    second = np.einsum("n,nid,ij,nje->nde", volume, triangles, _TRIANGLE, triangles, optimize=_IN_ORDER)
     second += (volume * t**2 / 12.0)[:, None, None] * normal[:, :, None] * normal[:, None, :]
     return _summed(np.column_stack([volume, first, second.reshape(-1, 9)]), patches)
 

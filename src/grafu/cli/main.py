@@ -12,6 +12,7 @@ from importlib import import_module
 from typing import Final, NoReturn, final
 
 from grafu.cli.input_options import join_directions
+from grafu.cli.light_start import without_shape_checks
 from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, one_line, prepare_verb
 from grafu.errors import did_you_mean
@@ -61,6 +62,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     `arguments` are those of the process (None), or given by a caller, without the program's name: then a single model
     stays in the caller's process, where nothing can stop it, while of several each has a process and limits.
     """
+    if arguments is None:
+        without_shape_checks()
     words = join_directions(sys.argv[1:] if arguments is None else arguments)
     parser = build_parser(words)
     if not words:

@@ -4,8 +4,8 @@ Memory is bounded: faces are worked on in batches, and what is clipped of one st
 Split as loose triangles alone it would not: each plane through a corner leaves a triangle without area, and each plane
 that crosses such a one leaves two, so that the many planes of a swept hull made millions of a single face.
 
-Taken away one after another, pieces that overlap would shred what is left: each cuts the shreds that all before it
-left. Taken away together, in the triangle's plane, they leave no more triangles than the outline of what is left needs.
+One after another, pieces that overlap would shred what is left. Taken away together, in the triangle's plane, they
+leave no more triangles than the outline of what is left needs.
 """
 
 from collections import defaultdict
@@ -104,22 +104,33 @@ _ON_PLANE = 1e-8  # metres
 
 
 def half_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
-    """Returns what lies beyond the plane through `origin`, on the side of the unit `normal`; the cut is left open.
+    """Returns what lies beyond a plane, on the side of its `normal`; of faces on it, those that look back across it."""
+    return _half(mesh, _sides(mesh, normal, origin), normal, origin)
 
-    Faces that lie on the plane are kept where they look back across it.
-    """
+
+def halves_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> tuple[TriangleMesh, TriangleMesh]:
+    """Returns what `half_of` does, and the rest: the same of the opposite normal."""
+    side = _sides(mesh, normal, origin)
+    return _half(mesh, side, normal, origin), _half(mesh, -side, -normal, origin)
+
+
+def _sides(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> Int[np.ndarray, "m 3"]:
+    """Returns for each face's corners whether they lie beyond a plane (1), before it (-1) or on it (0)."""
     height = (mesh.vertices - origin) @ normal
-    side = np.where(height > _ON_PLANE, 1, np.where(height < -_ON_PLANE, -1, 0))[mesh.faces]
-    beyond, before = (side > 0).sum(axis=1), (side < 0).sum(axis=1)
+    return ((height > _ON_PLANE).astype(np.int8) - (height < -_ON_PLANE).astype(np.int8))[mesh.faces]
+
+
+def _half(mesh: TriangleMesh, side: Int[np.ndarray, "m 3"], normal: Vec3, origin: Vec3) -> TriangleMesh:
+    is_beyond, is_before = side > 0, side < 0
+    beyond, before = (each[:, 0].astype(np.int8) + each[:, 1] + each[:, 2] for each in (is_beyond, is_before))
     whole = (before == 0) & ((beyond > 0) | (mesh.face_normals @ normal < 0))
     lone_before, lone_beyond = (before == 1) & (beyond == 2), (beyond == 1) & (before > 0)
-    quads, quad_ends = _cut_around(mesh, lone_before, side < 0, normal, origin)
-    tips, tip_ends = _cut_around(mesh, lone_beyond, side > 0, normal, origin)
+    quads, quad_ends = _cut_around(mesh, lone_before, is_before, normal, origin)
+    tips, tip_ends = _cut_around(mesh, lone_beyond, is_beyond, normal, origin)
     ends = len(mesh.vertices) + np.arange(2 * (len(quads) + len(tips))).reshape(-1, 2)
     (into, out), (a, b) = ends[: len(quads)].T, ends[len(quads) :].T
-    lower = np.stack([quads[:, 1], quads[:, 2], into], axis=1)
-    upper = np.stack([into, out, quads[:, 1]], axis=1)
-    faces = np.concatenate([mesh.faces[whole], lower, upper, np.stack([tips[:, 0], a, b], axis=1)])
+    corners = ((quads[:, 1], quads[:, 2], into), (into, out, quads[:, 1]), (tips[:, 0], a, b))
+    faces = np.concatenate([mesh.faces[whole], *(np.stack(three, axis=1) for three in corners)])
     used, index = np.unique(faces, return_inverse=True)
     points = np.concatenate([mesh.vertices, quad_ends[:, ::-1].reshape(-1, 3), tip_ends.reshape(-1, 3)])
     return TriangleMesh(points[used], index.reshape(-1, 3))

@@ -5,19 +5,15 @@ pass through one another cut surfaces, which is what is asked here.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from itertools import count
 from typing import final
-from weakref import finalize
 
 import fcl
 import numpy as np
-from jaxtyping import Int
 
-from grafu.geometry.arrays import Indices, Mat3, Mat4, Vec3
+from grafu.geometry.arrays import Mat3, Mat4, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
-from grafu.geometry.components import repeated_faces
+from grafu.geometry.bvh import model_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import transform_points
 
@@ -25,78 +21,6 @@ from grafu.geometry.transform import transform_points
 _CORE = 0.2
 _MOST_CONTACTS = 5000
 _ANY_CONTACT = fcl.CollisionRequest()
-_numbers = count()
-LARGE = 5_000  # faces
-_MANY = 100  # faces: below, looking for repeated ones costs more than it spares
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class _Model:
-    """A BVH, and for each face of its mesh the face that stands for it in the BVH (none: each stands for itself).
-
-    Real furniture draws most faces twice, front and back; once is enough to be hit. `pose` is where the BVH stands when
-    the mesh is at rest (none: where it was built).
-    """
-
-    bvh: fcl.BVHModel
-    kept: Indices
-    stand_in: Int[np.ndarray, " faces"] | None
-    pose: Mat4 | None = None
-    number: int = field(default_factory=_numbers.__next__)  # no other mesh ever gets the same
-
-    def faces(self, hit: set[int]) -> set[int]:
-        """Returns the mesh's faces that the BVH's faces stand for."""
-        if self.stand_in is None:
-            return hit
-        return set(np.flatnonzero(np.isin(self.stand_in, self.kept[list(hit)])).tolist())
-
-
-_models: dict[int, _Model] = {}
-
-
-def _model(mesh: TriangleMesh) -> _Model:
-    """Returns the mesh's BVH, built once in the mesh's life."""
-    key = id(mesh)
-    if key not in _models:
-        _models[key] = _built(mesh)
-        finalize(mesh, _models.pop, key, None)
-    return _models[key]
-
-
-def forget_large_shapes() -> None:
-    """Forgets the BVHs of large meshes, which take several times the room of the mesh; they are built again when asked.
-
-    What was prepared of them before stays as it is.
-    """
-    for key in [key for key, model in _models.items() if len(model.kept) > LARGE]:
-        _models.pop(key, None)
-
-
-def share_shape(copy: TriangleMesh, original: TriangleMesh, T: Mat4) -> None:
-    """Lets `copy`, which is `original` mapped by the rotation and shift T, be tested with the original's BVH.
-
-    Building one takes longer than most tests: it spares as many as there are places where a thing is tried.
-    """
-    model = _model(original)
-    pose = T if model.pose is None else T @ model.pose
-    if id(copy) not in _models:
-        finalize(copy, _models.pop, id(copy), None)
-    _models[id(copy)] = replace(model, pose=pose, number=next(_numbers))
-
-
-def _built(mesh: TriangleMesh) -> _Model:
-    faces = len(mesh.faces)
-    stand_in = repeated_faces(mesh) if faces > _MANY else None
-    kept = np.arange(faces) if stand_in is None else np.unique(stand_in)
-    corners, is_used = mesh.faces[kept], np.zeros(len(mesh.vertices), dtype=bool)
-    is_used[corners] = True  # FCL takes one vertex after the other: only those that it needs
-    number = np.cumsum(is_used) - 1
-    bvh = fcl.BVHModel()
-    bvh.beginModel(int(is_used.sum()), len(kept))
-    bvh.addSubModel(mesh.vertices[is_used], number[corners].tolist())
-    bvh.endModel()
-    return _Model(bvh, kept, stand_in)
 
 
 @final
@@ -121,14 +45,14 @@ class MeshCollider:
     def number(self) -> int | None:
         """The number of the mesh where it stands at rest; None of a posed one, which may stand anywhere."""
         if self._number is None:
-            self._number = _model(self._mesh).number
+            self._number = model_of(self._mesh).number
         return self._number if self._is_at_rest else None
 
     @property
     def _object(self) -> fcl.CollisionObject:
         """The FCL object in its present pose; the BVH is built when first asked for."""
         if self._made is None:
-            model = _model(self._mesh)
+            model = model_of(self._mesh)
             self._made, self._start = fcl.CollisionObject(model.bvh), model.pose
             if self._pose is None and self._start is not None:
                 self._pose = (np.eye(3), np.zeros(3))
@@ -183,7 +107,7 @@ class MeshCollider:
         request = fcl.CollisionRequest(num_max_contacts=_MOST_CONTACTS, enable_contact=True)
         result = fcl.CollisionResult()
         fcl.collide(self._object, other._object, request, result)
-        return _model(self._mesh).faces({int(contact.b1) for contact in result.contacts})
+        return model_of(self._mesh).faces({int(contact.b1) for contact in result.contacts})
 
     def box_gap(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the boxes of the two as posed: at most that of the meshes."""
@@ -241,6 +165,7 @@ class SweptBody:
         self._poses: dict[bytes, int] = {np.eye(4).tobytes(): 0}
         self._known: dict[tuple[int, int, int], bool] = {}
         self._shifts = [sign * depth * axes[:, k] for k in range(3) for sign in (-1.0, 1.0)]
+        self._latest = 0
 
     def place(self, T: Mat4) -> None:
         """Poses the body at T for the queries that follow."""
@@ -277,17 +202,28 @@ class SweptBody:
 
         They count together: a body wedged between two obstacles comes free of each in some direction, of both in none.
         """
-        if not any(self.touches(obstacle) for obstacle in obstacles):
+        if not self._touches_any(obstacles):
             return []
         self._shrunk.place(self._T)
         met = [k for k, obstacle in enumerate(obstacles) if self._meet(self._shrunk, 0, obstacle)]
         if not met:
             return []
+        order = (*met, *(k for k in range(len(obstacles)) if k not in met))  # what was met is likely met again
         for step, shift in enumerate(self._shifts, 1):
             self._shrunk.place(self._T, shift)
-            if not any(self._meet(self._shrunk, step, obstacle) for obstacle in obstacles):
+            if not any(self._meet(self._shrunk, step, obstacles[k]) for k in order):
                 return []
         return met
+
+    def _touches_any(self, obstacles: Sequence[MeshCollider]) -> bool:
+        """Whether the body, as posed, shares a point with one of them; the one that it touched last is asked first."""
+        if self._latest < len(obstacles) and self.touches(obstacles[self._latest]):
+            return True
+        found = next((k for k, obstacle in enumerate(obstacles) if k != self._latest and self.touches(obstacle)), None)
+        if found is None:
+            return False
+        self._latest = found
+        return True
 
     def cutting_faces(self, obstacles: Sequence[MeshCollider]) -> set[int]:
         """Returns the numbers of the body's faces that, as posed, cut into the obstacles."""

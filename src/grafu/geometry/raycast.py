@@ -13,12 +13,20 @@ from typing import final
 import numpy as np
 from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
-from jaxtyping import Bool, Float, Int
+from embreex.rtcore import EmbreeDevice
+from jaxtyping import Bool, Float, Float32, Int
 
 from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays, median
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
+from grafu.geometry.components import repeated_faces
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+from grafu.geometry.remembered import RememberedByContent
+
+_REMEMBERED = 150_000  # faces of Embree's scenes kept by content: 30 MB
+_LARGE = 50_000  # faces: scenes of larger meshes are not kept
+_DEVICE = EmbreeDevice()  # one for all: each takes as long as the scene of a small mesh
+_by_content: RememberedByContent[rtcore_scene.EmbreeScene] = RememberedByContent(_REMEMBERED)
 
 
 @final
@@ -83,8 +91,11 @@ class RayCaster:
     def __init__(self, mesh: TriangleMesh) -> None:
         self._scene: rtcore_scene.EmbreeScene | None = None
         if len(mesh.faces):
-            self._scene = rtcore_scene.EmbreeScene()
-            EmbreeMesh(self._scene, np.ascontiguousarray(mesh.triangles, dtype=np.float32))
+            triangles = np.ascontiguousarray(mesh.triangles, dtype=np.float32)
+            if len(triangles) > _LARGE:
+                self._scene = _scene(triangles)
+            else:
+                self._scene = _by_content.of(lambda: _scene(triangles), len(triangles), triangles)
 
     def distances(self, origins: Points, directions: Points) -> Scalars:
         """Returns the distance in metres along each unit direction to the first face hit; infinity where none is."""
@@ -102,6 +113,18 @@ class RayCaster:
         """Returns the distances of many origins along one unit direction."""
         return self.distances(origins, np.broadcast_to(direction, origins.shape))
 
+    def is_clear(self, origins: Points, direction: Vec3) -> Bool[np.ndarray, " n"]:
+        """Returns for each origin whether no face lies along a unit direction, however far."""
+        if self._scene is None or not len(origins):
+            return np.ones(len(origins), dtype=np.bool_)
+        require_time()
+        found = self._scene.run(
+            np.ascontiguousarray(origins, dtype=np.float32),
+            np.ascontiguousarray(np.broadcast_to(direction, origins.shape), dtype=np.float32),
+            query="OCCLUDED",
+        )
+        return np.asarray(found != 0)
+
     def first_faces(self, origins: Points, direction: Vec3) -> tuple[Indices, Scalars]:
         """Returns for each origin the number of the face first hit along a unit direction (-1: none), and how far."""
         if self._scene is None or not len(origins):
@@ -115,6 +138,12 @@ class RayCaster:
         )
         distances = _without_misses(found["tfar"])
         return np.where(np.isfinite(distances), found["primID"].astype(np.int64), -1), distances
+
+
+def _scene(triangles: Float32[np.ndarray, "m 3 3"]) -> rtcore_scene.EmbreeScene:
+    scene = rtcore_scene.EmbreeScene(_DEVICE)
+    EmbreeMesh(scene, triangles)
+    return scene
 
 
 def _without_misses(found: np.ndarray) -> Scalars:
@@ -156,18 +185,22 @@ def outer_faces(mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
     Four points of a face are looked from, along the 26 directions to the faces, edges and corners of a cube. The walls
     of a cavity without an opening are not seen, nor are faces where two boards touch.
     """
-    seen = np.zeros(len(mesh.faces), dtype=np.bool_)
-    if not len(seen):
-        return seen
+    if not len(mesh.faces):
+        return np.zeros(0, dtype=np.bool_)
+    first = repeated_faces(mesh)  # front and back of one sheet, as most are drawn, are seen alike
+    left = np.unique(first)
+    seen = np.ones(len(first), dtype=np.bool_)
+    seen[left] = False
     caster, off = RayCaster(mesh), _OFF * float(mesh.box.size.max())
+    triangles, normals = mesh.triangles[left], mesh.face_normals[left]
     for direction, weights in product(_DIRECTIONS, _PLACES):
-        left = np.flatnonzero(~seen)
-        points = np.einsum("k,nkd->nd", weights / weights.sum(), mesh.triangles[left])
-        normals = mesh.face_normals[left]
+        points = np.einsum("k,nkd->nd", weights / weights.sum(), triangles)
         side = np.sign(normals @ direction)
         origins = points + off * side[:, None] * normals
-        seen[left] = (side != 0) & np.isinf(caster.along(origins, direction))
-    return seen
+        hidden = (side == 0) | ~caster.is_clear(origins, direction)
+        seen[left[~hidden]] = True
+        left, triangles, normals = left[hidden], triangles[hidden], normals[hidden]
+    return seen[first]
 
 
 def outer_points(points: Points, mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
@@ -179,7 +212,7 @@ def outer_points(points: Points, mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
     caster, off = RayCaster(mesh), _OFF * float(mesh.box.size.max())
     for direction in _OBLIQUE:
         left = np.flatnonzero(~seen)
-        seen[left] = np.isinf(caster.along(points[left] + off * direction, direction))
+        seen[left] = caster.is_clear(points[left] + off * direction, direction)
     return seen
 
 
@@ -197,7 +230,7 @@ def open_ratios(caster: RayCaster, box: Box, axis: int) -> tuple[float, float]:
     found = []
     for sign, face in ((-1.0, box.low), (1.0, box.high)):
         origins[:, axis], direction[axis] = face[axis] + sign * off, sign
-        found.append(float(np.isinf(caster.along(origins, direction)).mean()))
+        found.append(float(caster.is_clear(origins, direction).mean()))
     return found[0], found[1]
 
 

@@ -20,7 +20,7 @@ from grafu.articulation.articulated_object import (
 )
 from grafu.asset.part import Asset, Part
 from grafu.geometry.axis import Axis
-from grafu.geometry.intersection import forget_large_shapes
+from grafu.geometry.bvh import forget_large_shapes
 from grafu.joints.build import Built
 from grafu.joints.build_all import in_order
 from grafu.joints.clearance.carve import Path, obstruction

@@ -7,6 +7,7 @@ linear RGB. Random directions come from one fixed table in a 4x4 pattern: a pict
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import product
 from math import radians
 from typing import Literal, final
@@ -14,7 +15,7 @@ from typing import Literal, final
 import numpy as np
 from jaxtyping import Float32
 
-from grafu.geometry.arrays import Vec3, extremes
+from grafu.geometry.arrays import Vec3, extremes, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.render.camera import Camera
@@ -118,11 +119,10 @@ class Exposure:
         self.scene, self.style, self.size, self.toward = scene, style, size, key_direction(camera)
         width, height = size
         self.origins = np.broadcast_to(camera.eye.astype(np.float32), (width * height, 3))
-        self.directions = camera.rays(width, height)
+        self.directions = _rays(camera, width, height)
         self.color = np.zeros((width * height, 4), np.float32)
         self.through = np.ones(width * height, np.float32)  # how much of each ray goes on behind the glass so far
-        rows, columns = np.divmod(np.arange(width * height), width)
-        self.pattern = (rows % 4) * 4 + columns % 4
+        self.pattern = _pattern(width, height)
         corners = scene.triangles.reshape(-1, 3)
         low, high = extremes(corners) if len(corners) else (np.zeros(3), np.ones(3))
         self.low: np.ndarray = low
@@ -212,8 +212,20 @@ class Exposure:
         distance = (self.low[2] - self.origins[rays, 2]) / down
         points = self.origins[rays] + self.directions[rays] * distance[:, None]
         margin = 1.2 * (self.high[2] - self.low[2]) + self.reach
-        near = np.all((points[:, :2] > self.low[:2] - margin) & (points[:, :2] < self.high[:2] + margin), axis=1)
+        (x, y), (left, front), (right, back) = points.T[:2], self.low[:2] - margin, self.high[:2] + margin
+        near = (x > left) & (x < right) & (y > front) & (y < back)
         return rays[near], points[near].astype(np.float32)
+
+
+@lru_cache(maxsize=1)  # a model's pictures have one camera
+def _rays(camera: Camera, width: int, height: int) -> np.ndarray:
+    return frozen_array(camera.rays(width, height), np.float32)
+
+
+@lru_cache(maxsize=1)
+def _pattern(width: int, height: int) -> np.ndarray:
+    rows, columns = np.divmod(np.arange(width * height), width)
+    return frozen_array((rows % 4) * 4 + columns % 4, np.int64)
 
 
 def _rays_to(box: Box, camera: Camera, size: tuple[int, int]) -> np.ndarray:

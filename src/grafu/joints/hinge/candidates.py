@@ -19,7 +19,7 @@ import numpy as np
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
-from grafu.geometry.intersection import share_shape
+from grafu.geometry.bvh import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.fold_config import FoldConfig
