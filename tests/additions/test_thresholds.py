@@ -125,8 +125,8 @@ IN_FUNCTIONS = {
     "carcass/complete.py": {3: NUMBERING},
     "handle/grips.py": {1.2: TOLERANCE},  # cells: what lies on a border
     "handle/spots.py": {0.25: SAMPLES, 0.75: SAMPLES},  # the middles of two halves
-    "interior/compartments.py": {6: NUMBERING},
-    "interior/faces.py": {5: NUMBERING},
+    "interior/compartments.py": {5: NUMBERING, 6: NUMBERING},
+    "interior/faces.py": {6: NUMBERING},
     "interior/rooms.py": {3: NUMBERING, 5: NUMBERING, 6: NUMBERING},
 }
 

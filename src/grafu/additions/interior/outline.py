@@ -92,17 +92,26 @@ class FreeSpace:
         walls = self._section(still, plane, levels, reach)
         doors = offset(self._section(self._moving, plane, levels, reach), place.inset)
         outline = self._outline(place, reach, walls, doors)
-        covered = 0.0 if isinstance(plain, Refusal) else _footprint(plain, plane)
-        if (
-            outline is None
-            or outline.area <= (1 + self._config.wider) * covered
-            or not self._is_carried(outline, walls)
-        ):
+        if outline is None or not (self._is_gain(outline, plain, place, plane) and self._is_carried(outline, walls)):
             return None
         slab = slab_mesh(outline, place.at - thickness / 2, place.at + thickness / 2)
         vertices = np.empty_like(slab.vertices)
         vertices[:, plane.order] = slab.vertices
         return TriangleMesh(vertices, slab.faces)
+
+    def _is_gain(self, outline: Polygon, plain: TriangleMesh | Refusal, place: PanelPlace, plane: _Plane) -> bool:
+        """Whether an outline covers more than the plain panel; a strip in front, where a door is flat, is no gain."""
+        if isinstance(plain, Refusal):
+            return True
+        opening, depth = place.compartment.opening, plane.axes.index(place.compartment.depth_axis)
+        low, high = np.reshape(outline.bounds, (2, 2))
+        own = plain.vertices[:, list(plane.axes)]
+        ends = (high, own.max(axis=0)) if opening % 2 else (low, own.min(axis=0))
+        if abs(float(ends[0][depth] - ends[1][depth])) <= self._sizes.least_side / 2:
+            ends[0][depth] = ends[1][depth]
+        covered = shapely.convex_hull(shapely.multipoints(own)).area
+        counted = shapely.clip_by_rect(outline, *low, *high)
+        return bool(counted.area > (1 + self._config.wider) * covered)
 
     def _is_wider(self, cells: Level, place: PanelPlace, plane: _Plane) -> bool:
         """Whether free cells around a panel's place take more than its compartment's box."""
@@ -197,8 +206,3 @@ def _around(shape: BaseGeometry, middle: Point) -> Polygon | None:
 def _plain(polygon: Polygon, tolerance: float) -> Polygon | None:
     found = polygons_in(polygon.simplify(tolerance))
     return found[0] if len(found) == 1 else None
-
-
-def _footprint(panel: TriangleMesh, plane: _Plane) -> float:
-    """Returns the area of the convex outline of a panel."""
-    return float(shapely.convex_hull(shapely.multipoints(panel.vertices[:, list(plane.axes)])).area)
