@@ -92,7 +92,7 @@ def wall_sheet() -> Picture:
         run = [sys.executable, "-m", "grafu", "functionalize", *inputs, "--out", out, "--formats", "glb"]
         subprocess.run(run, check=True, stdout=subprocess.DEVNULL)
         with edited(out, out) as (browser, address):
-            browser.go(address, (900, 420))
+            browser.go(address, (900, 560))
             return taken(browser)
 
 

@@ -45,6 +45,16 @@ def python(code: str) -> str:
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
 
 
+def test_the_tree_of_the_readme_names_each_folder_in_the_order_of_its_layer() -> None:
+    shown = re.findall(r"^ {6}(\w+)(?:/|\.py) +\S", (ROOT / "README.md").read_text(), re.MULTILINE)
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
+    (layers,) = [contract["layers"] for contract in contracts if contract.get("containers") == ["grafu"]]
+    layer = {name: k for k, names in enumerate(layers) for name in names.split(" | ")}
+
+    assert sorted(shown) == sorted(layer)
+    assert [layer[name] for name in shown] == sorted(layer.values())
+
+
 def test_no_module_has_a_name_that_says_nothing() -> None:
     assert [p for p in SOURCES if SAYS_NOTHING.search(p.stem) or SAYS_NOTHING.search(p.parent.name)] == []
 

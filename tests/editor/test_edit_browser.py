@@ -1,6 +1,7 @@
 """`grafu edit` in a real browser: a wrong hinge is set right, undone, the server is killed, opened again, exported."""
 
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -236,6 +237,22 @@ def test_without_the_token_a_browser_sees_nothing(browser, lasting):
     host = lasting.address.split("/")[2]
     browser.go(f"http://{host}/")
     assert "403" in browser.run("document.body.textContent")
+
+
+def test_the_ring_of_the_focus_is_within_its_card_on_the_wall(browser, model, tmp_path):
+    second = tmp_path / "second.glb"
+    shutil.copyfile(model, second)
+    server = Server(str(model), str(second), "--out", str(tmp_path / "out"))
+    try:
+        browser.go(server.address)
+        for key in "jj":
+            browser.press(key)
+        assert browser.run("document.activeElement.getAttribute('href')") == "m/1/"
+        style = "((s) => [s.outlineStyle, parseFloat(s.outlineOffset) + parseFloat(s.outlineWidth)])"
+        shape, beyond = browser.run(f"{style}(getComputedStyle(document.activeElement))")
+        assert (shape, beyond <= 0) == ("solid", True)  # a card paints nothing outside of itself
+    finally:
+        server.kill()
 
 
 @pytest.mark.skipif(not AXE.is_file(), reason="axe-core comes by npm install")

@@ -29,6 +29,9 @@ def test_a_grip_takes_its_sizes_and_profile_behind_its_name() -> None:
     usual = choose_additions(KNOWN, handles="grip,depth=8mm").grips
     assert usual is not None
     assert (usual.kind, usual.profile, usual.wanted(GripKind.EDGE).length) == ("auto", "rounded", 0.10)
+    handle = choose_additions(KNOWN, handles="bar-round,length=20cm").handles
+    assert handle is not None
+    assert (handle.style, handle.length) == ("bar-round", 0.2)
 
 
 @pytest.mark.parametrize(
@@ -47,7 +50,9 @@ def test_a_grip_takes_its_sizes_and_profile_behind_its_name() -> None:
         ({"top": "oval,"}, "each once: got ''"),
         ({"handles": "hole,depth=0"}, "`depth` of `handle` must be above 0"),
         ({"handles": "edge,profile=round"}, "`profile` of `handle` must be one of sharp, rounded: got 'round'"),
-        ({"handles": "knob-round,length=3cm"}, "`handle` must be one of knob-round, bar-round, grip"),
+        ({"handles": "knob-round,width=3cm"}, "`handle` takes length= after `knob-round`"),
+        ({"handles": "knob-round,length=0"}, "`length` of `handle` must be above 0"),
+        ({"handles": "knob-rond,length=3cm"}, "got 'knob-rond'; did you mean `knob-round`?"),
     ],
 )
 def test_what_is_no_size_is_refused(words: dict[str, str], message: str) -> None:

@@ -13,9 +13,11 @@ from grafu.cli.main import main
 from grafu.cli.part_options import part_grasp
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.pipeline.addition_choice import front_choice
 from grafu.pipeline.functionalize import PipelineConfig, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings
+from grafu.refusal import Asked, Reason
 from grafu.templates.gallery import builtin_gallery
 from small_scenes import BASE_CASE, box, hinged, scene
 
@@ -45,6 +47,30 @@ def test_what_is_not_chosen_is_as_usual() -> None:
     assert grip.profile == "rounded"
     assert grip.size == pytest.approx([usual.length, usual.width, 0.006], abs=1e-6)
     assert carved(HandleChoice("groove")).size == pytest.approx([usual.length, usual.width, usual.depth], abs=1e-6)
+
+
+def test_what_does_not_move_is_not_grasped_and_the_report_states_it() -> None:
+    door = box("door", (0.0, -0.025, 0.0), (0.6, -0.001, 0.82))
+    asset = scene(*BASE_CASE, door, joints=(hinged(axis=AXIS),))
+    wall = next(part.id for part in asset.parts if part.id != "door")
+    config = PipelineConfig(Settings().with_front(wall, HandleChoice("knob-round")))
+    made = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
+    (refusal,) = [r for r in made.fittings.refusals if r.part == wall]
+
+    assert (refusal.reason, refusal.what) == (Reason.UNSUITABLE, Asked.GRASP)
+    assert "it does not move" in refusal.why
+
+
+def test_a_handle_is_as_long_as_chosen() -> None:
+    door = box("door", (0.0, -0.025, 0.0), (0.6, -0.001, 0.82))
+    asset = scene(*BASE_CASE, door, joints=(hinged(axis=AXIS),))
+    choice = front_choice("bar-round,length=9cm", ["bar-round"])
+    made = functionalize(
+        asset, MotionSource.ANNOTATION, builtin_gallery(), PipelineConfig(Settings().with_front("door", choice))
+    )
+    (handle,) = [a for a in made.fittings.additions if a.style == "bar-round"]
+
+    assert max(handle.part.box.size) == pytest.approx(0.09, abs=1e-3)
 
 
 def test_a_hole_is_oval_where_two_lengths_are_given() -> None:
@@ -77,8 +103,14 @@ def test_what_is_spelled_otherwise_is_refused(text: str) -> None:
 @pytest.mark.parametrize(
     ("more", "states"),
     [
-        (["--grasp", "door=groove,depth=-1"], "`depth` of `grasp` must be a length of at least 0"),
-        (["--grasp", "door=groove,deep=1cm"], "`grasp` takes length=, width=, depth=, profile= after `groove`"),
+        (["--grasp", "door=groove,depth=-1"], "`depth` of `--grasp` must be a length of at least 0"),
+        (["--grasp", "door=groove,deep=1cm"], "`--grasp` takes length=, width=, depth=, profile= after `groove`"),
+        (["--grasp", "door=grove"], "`--grasp` must be one of "),
+        (["--grasp", "door=grove"], "did you mean `groove`?"),
+        (["--grasp", "door=knob-round,width=3cm"], "`--grasp` takes length= after `knob-round`"),
+        (["--grasp", "door=none,length=3cm"], "`--grasp` takes no size after `none`"),
+        (["--handle", "bar-round,depth=1cm"], "`--handle` takes length= after `bar-round`"),
+        (["--grasp", "lidd=knob-round"], "what is grasped must be a part: chest has no lidd"),
         ([str(CHEST.with_name("kitchen_base.glb")), "--grasp", "door=groove"], "`--grasp` names parts of one model"),
     ],
 )

@@ -173,7 +173,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     formats = tuple(dict.fromkeys(name.strip().lower() for name in options.formats.split(",") if name.strip()))
     for name in formats:
         exporter_for(name)
-    from grafu.templates.gallery import open_gallery
+    from grafu.templates.gallery import open_gallery, open_handles
 
     _require_weights(options)
     settings = stated_settings(options)
@@ -181,7 +181,7 @@ def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
     prediction = options.motion if options.motion and options.motion.source.is_foreign else None
     is_whole = settings.reading.pieces == "together" or settings.reading.piece is not None
     if options.grasp:
-        settings = with_grasps(settings, options.grasp, alone and is_whole)
+        settings = with_grasps(settings, options.grasp, alone and is_whole, open_handles(options.templates))
     if options.move:
         settings = with_moves(settings, options.move, alone and is_whole, prediction)
     return JobOptions(

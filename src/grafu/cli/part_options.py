@@ -74,7 +74,7 @@ def with_moves(
 GRASP_HELP = (
     "what a door or drawer is grasped by, whatever the others get: none, a handle of `grafu templates`, or a carved "
     "grip: grip, groove, edge, hole; its sizes may follow: door_1=groove,length=12cm,width=3cm,depth=1cm,"
-    "profile=sharp; once for each part"
+    "profile=sharp, of a handle its length alone; once for each part"
 )
 """The help of `--grasp`."""
 Grasp = tuple[str, str]
@@ -93,18 +93,24 @@ def part_grasp(text: str) -> Grasp:
     return part, ",".join([style, *sizes])
 
 
-def with_grasps(settings: "Settings", grasps: "Sequence[Grasp]", alone: bool) -> "Settings":
+def with_grasps(settings: "Settings", grasps: "Sequence[Grasp]", alone: bool, handles: "Collection[str]") -> "Settings":
     """Returns the settings in which these parts are grasped so; `alone` states that there is one input only.
 
+    `handles` are the ids of all handle templates.
+
     Raises:
-        OptionError: if there are several inputs, or what follows a style is no size.
+        OptionError: if there are several inputs, no such style, or what follows a style is no size that it has.
     """
+    from grafu.errors import OptionError
     from grafu.pipeline.addition_choice import front_choice
 
     if not alone:
         raise OptionError("`--grasp` names parts of one model: give one input, of split pieces one by --piece")
     for part, stated in grasps:
-        settings = settings.with_front(part, front_choice(stated))
+        try:
+            settings = settings.with_front(part, front_choice(stated, handles))
+        except OptionError as error:
+            raise OptionError(str(error).replace("`grasp`", "`--grasp`")) from None
     return settings
 
 
@@ -172,8 +178,8 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
         "--handle",
         metavar="STYLE",
         help="style of added handles: a template of `grafu templates`, or a carved one: grip, groove, edge, hole; its "
-        "sizes may follow: groove,length=12cm,width=3cm,depth=1cm,profile=sharp (default: like the model's other "
-        "handles)",
+        "sizes may follow: groove,length=12cm,width=3cm,depth=1cm,profile=sharp, of a template its length alone "
+        "(default: like the model's other handles)",
     )
     group.add_argument(
         "--interior",

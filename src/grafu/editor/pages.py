@@ -10,6 +10,7 @@ from grafu.pipeline.verdict import verdict_of
 from grafu.templates.gallery import open_handles
 from grafu.version import __version__
 from grafu.viewer.model_page import view_box
+from grafu.viewer.pictures import CARD
 from grafu.viewer.shell import Html, joined, json_block, light_of, tag
 from grafu.vocabulary import PartLabel
 
@@ -81,7 +82,9 @@ def wall_row(number: int, name: str, report: Report | None, has_picture: bool) -
 
 def _card(row: dict[str, Any]) -> Html:
     source = f"thumbnail/{row['number']}" if row["picture"] else ""
-    image = tag("img", src=source, width=112, height=84, alt="", loading="lazy") if source else tag("span", class_="no")
+    width, height = CARD
+    shown = tag("img", src=source, width=width, height=height, alt="", loading="lazy")
+    image = shown if source else tag("span", class_="no")
     light = light_of(row["colour"])
     link = tag("a", image, tag("strong", row["name"]), light, tag("span", row["sentence"]), href=f"m/{row['number']}/")
     return tag("li", link, data_colour=row["colour"], data_words=f"{row['name']} {row['sentence']}".lower())

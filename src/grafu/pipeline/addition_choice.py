@@ -10,7 +10,7 @@ from grafu.additions.config import AdditionConfig
 from grafu.additions.door_frame.config import DoorFrameConfig
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripKind, GripProfile
-from grafu.additions.handle.config import HandleChoice, HandleConfig
+from grafu.additions.handle.config import NO_HANDLE, HandleChoice, HandleConfig
 from grafu.additions.interior.request import InteriorRequest, parse_interior
 from grafu.additions.statics import Statics
 from grafu.additions.top.config import TopConfig
@@ -24,6 +24,8 @@ GRIPS = ("grip", "groove", "edge", "hole")
 """Recessed grips by name; `grip` is whichever of the others fits."""
 GRIP_SIZES = ("length", "width", "depth")
 """What may be stated of a grip behind its name: along and across the gripped edge, and how deep a groove is, metres."""
+HANDLE_SIZES = ("length",)
+"""What may be stated of a handle template behind its id: how long its longest side is, metres."""
 GRIP_PROFILES = ("sharp", "rounded")
 
 
@@ -48,7 +50,7 @@ def choose_additions(
         statics: who decides what is missing: `graph`, `geometry` or `both`.
         top: whether tops are added, or their shape: one of `TOP_SHAPES`, sizes behind it, such as `oval,thickness=3cm`.
         handles: whether handles and grips are added, or their style: a template's id or one of `GRIPS`, sizes behind
-            the latter, such as `groove,length=12cm,profile=sharp`.
+            it, such as `groove,length=12cm,profile=sharp`; of a template only the length.
         drawer_boxes: whether a drawer that is only a front gets a box.
         compartments: whether what is solid behind doors and drawers gets compartments.
         door_frame: whether a door of a building that is drawn alone gets a frame.
@@ -117,11 +119,14 @@ def _with_handles(config: AdditionConfig, wanted: bool | str, known: Collection[
     name = wanted.split(",")[0].strip()
     if name in GRIPS:
         return replace(config, handles=None, grips=_grip(wanted))
-    if wanted not in known:
+    if name not in known:
         every = (*known, *GRIPS)
-        raise OptionError(f"`handle` must be one of {', '.join(every)}: got {wanted!r}{did_you_mean(wanted, every)}")
+        raise OptionError(f"`handle` must be one of {', '.join(every)}: got {name!r}{did_you_mean(name, every)}")
+    stated = sized_word(wanted, "handle", HANDLE_SIZES)
+    _require_above_zero(stated, "handle", HANDLE_SIZES)
     handles, grips = config.handles or HandleConfig(), config.grips or GripConfig()
-    return replace(config, handles=replace(handles, style=wanted), grips=grips)
+    length = stated.lengths.get("length", handles.length)
+    return replace(config, handles=replace(handles, style=name, length=length), grips=grips)
 
 
 def _grip(wanted: str) -> GripConfig:
@@ -133,13 +138,21 @@ def _grip(wanted: str) -> GripConfig:
     return replace(usual, kind="auto" if stated.word == "grip" else GripKind(stated.word), profile=profile, sizes=sizes)
 
 
-def front_choice(stated: str) -> HandleChoice:
-    """Returns what one door or drawer is grasped by: `knob-round`, `none`, or a grip as `groove,depth=8mm`.
+def front_choice(stated: str, known_handles: Collection[str]) -> HandleChoice:
+    """Returns what one door or drawer is grasped by: `none`, a grip as `groove,depth=8mm`, or `bar-round,length=9cm`.
+
+    `known_handles` are the ids of all handle templates, of which only the length can be stated.
 
     Raises:
-        OptionError: if what follows the style is no length or profile.
+        OptionError: if there is no such style, or what follows it is no length or profile that it has.
     """
-    found = sized_word(stated, "grasp", GRIP_SIZES, {"profile": GRIP_PROFILES})
+    style, every = stated.split(",")[0].strip(), (*known_handles, *GRIPS, NO_HANDLE)
+    if style not in every:
+        raise OptionError(f"`grasp` must be one of {', '.join(every)}: got {style!r}{did_you_mean(style, every)}")
+    if style in GRIPS:
+        found = sized_word(stated, "grasp", GRIP_SIZES, {"profile": GRIP_PROFILES})
+    else:
+        found = sized_word(stated, "grasp", () if style == NO_HANDLE else HANDLE_SIZES)
     _require_above_zero(found, "grasp", GRIP_SIZES)
     sizes: dict[str, Any] = {**found.lengths, **found.words}
     return HandleChoice(found.word, **sizes)

@@ -33,7 +33,7 @@ from grafu.pipeline.complete import complete_by_annotation, complete_by_shape, c
 from grafu.pipeline.finishing import to_build, with_lifts_of, with_small_joints_of, with_stays_of
 from grafu.pipeline.grasps import with_grasp_frames
 from grafu.pipeline.mechanisms import with_mechanisms
-from grafu.pipeline.motion_choices import corrected, with_motions, with_mounts, with_moving
+from grafu.pipeline.motion_choices import corrected, require_fronts, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_source import AUTO_ORDER, FOREIGN, MotionSource
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.shown_by_shape import additions_wanted, shown_by_shape, small_parts_wanted, with_labels_by_shape
@@ -247,6 +247,7 @@ def _with_source(
 ) -> tuple[Asset, MotionSource]:
     """Returns the asset as the motion source is to see it, corrected by the user, and the source to use."""
     asset = asset.as_annotated() if source is MotionSource.ANNOTATION else asset
+    require_fronts(asset, settings.additions.fronts)
     asset = with_moving(corrected(asset, settings.labels), settings.motions, settings.labels, drawers)
     if not isinstance(source, MotionSource):
         from grafu.asset.foreign.attach import attach_motions  # local: most runs do without

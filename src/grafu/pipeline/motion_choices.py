@@ -3,7 +3,7 @@
 It searches no hardware; what the codes of a graph cannot say is refused there, and built from the plan all the same.
 """
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Collection, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from math import pi
 
@@ -85,6 +85,12 @@ def corrected(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:
         raise OptionError(f"categories must be of parts: {_unknown_parts(asset, unknown)}")
     parts = (replace(p, label=labels[p.id], labelled_by="user") if p.id in labels else p for p in asset.parts)
     return replace(asset, parts=tuple(parts)) if labels else asset
+
+
+def require_fronts(asset: Asset, fronts: Collection[str]) -> None:
+    """Raises OptionError if a part does not exist for which was chosen what it is grasped by."""
+    if unknown := sorted(set(fronts) - {part.id for part in asset.parts}):
+        raise OptionError(f"what is grasped must be a part: {_unknown_parts(asset, unknown)}")
 
 
 def with_moving(

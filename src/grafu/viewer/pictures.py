@@ -70,7 +70,8 @@ def _smaller(image: Image.Image, limit: int) -> str:
 
 
 SIZE = (320, 240)
-THUMBNAIL = (112, 84)
+THUMBNAIL = (112, 84)  # pixels, in a row of a table
+CARD = (320, 240)  # pixels, on a card
 MIME = "image/webp"
 _STYLE = PictureStyle(background="transparent")
 _QUALITY = 82
@@ -122,14 +123,14 @@ def thumbnail(stills: Stills, size: tuple[int, int] = THUMBNAIL) -> bytes:
 
 
 def thumbnail_of_page(page: bytes) -> bytes:
-    """Returns the open picture of a model's page, made small for a list; empty where the page holds none.
+    """Returns the open picture of a model's page, made small for a card; empty where the page holds none.
 
     Raises:
         UnreadableAsset: if the picture is damaged.
     """
     found = _OPENED.search(page)
     with library_call("the picture in a page", "a small WebP"):
-        return _small(b64decode(found["data"]), THUMBNAIL) if found else b""
+        return _small(b64decode(found["data"]), CARD) if found else b""
 
 
 def _small(picture: bytes, size: tuple[int, int]) -> bytes:

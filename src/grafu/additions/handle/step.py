@@ -107,8 +107,13 @@ def add_chosen(scene: Scene, request: StepRequest, config: FrontConfig) -> StepR
     """
     done = StepResult(scene)
     for moving, choice in config.fronts.items():
-        if moving in scene.moving_bodies and choice.style != NO_HANDLE:
+        if choice.style == NO_HANDLE:
+            continue
+        if moving in scene.moving_bodies:
             done = done.then(_fitted(done.scene, moving, choice, request, config))
+        else:
+            still = Refusal(moving, Reason.UNSUITABLE, "it does not move", Asked.GRASP)
+            done = done.then(StepResult(done.scene, refusals=(_not_chosen(still),)))
     return done
 
 
