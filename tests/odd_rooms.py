@@ -22,23 +22,29 @@ def made(name: str, parts: tuple[Part, ...], joints: tuple[AnnotatedJoint, ...] 
     return Asset(name, "", "made", parts, joints=joints)
 
 
-def under_a_slope_to_the_side(width: float = 1.4, depth: float = 0.6) -> Asset:
-    """A wardrobe under a roof, open in front: 0.8 m high at its left, 2 m at its right."""
+def under_a_slope_to_the_side(width: float = 1.4, depth: float = 0.6, door: bool = False) -> Asset:
+    """A wardrobe under a roof, 0.8 m high at its left, 2 m at its right, with a door as high or open in front."""
     t, x, y = BOARD, width / 2, depth / 2
     slope = (HIGH - LOW) / width
     thick = t * (1 + slope * slope) ** 0.5  # of the sloping board, upright
-    top = _turned(prism(((-x, LOW - thick), (x, HIGH - thick), (x, HIGH), (-x, LOW)), -y, y - t))
-    back = _turned(prism(((-x, 0.0), (x, 0.0), (x, HIGH), (-x, LOW)), y - t, y))
-    return made(
-        "wardrobe",
-        (
-            piece("left", PartLabel.SIDE_PANEL, board((-x, -y, 0.0), (t - x, y - t, LOW - thick))),
-            piece("right", PartLabel.SIDE_PANEL, board((x - t, -y, 0.0), (x, y - t, HIGH - thick - slope * t))),
-            piece("bottom", PartLabel.BOTTOM_PANEL, board((t - x, -y, 0.0), (x - t, y - t, t))),
-            piece("top", PartLabel.TOP_PANEL, top),
-            piece("back", PartLabel.BACK_PANEL, back),
-        ),
+    top = _turned(prism(((-x, LOW - thick), (x, HIGH - thick), (x, HIGH), (-x, LOW)), -y, y))
+    back = _turned(prism(((-x, 0.0), (x, 0.0), (x, HIGH - thick), (-x, LOW - thick)), y - t, y))
+    parts = (
+        piece("left", PartLabel.SIDE_PANEL, board((-x, -y, 0.0), (t - x, y - t, LOW - thick))),
+        piece("right", PartLabel.SIDE_PANEL, board((x - t, -y, 0.0), (x, y - t, HIGH - thick - slope * t))),
+        piece("bottom", PartLabel.BOTTOM_PANEL, board((t - x, -y, 0.0), (x - t, y - t, t))),
+        piece("top", PartLabel.TOP_PANEL, top),
+        piece("back", PartLabel.BACK_PANEL, back),
     )
+    if not door:
+        return made("wardrobe", parts)
+    plane = ((-x, 0.0), (x, 0.0), (x, HIGH - thick), (-x, LOW - thick))
+    leaf = piece("door", PartLabel.DOOR, _turned(prism(plane, -y - t - 0.001, -y - 0.001)))
+    return made("wardrobe", (*parts, leaf), (hinged(x, -y - t - 0.001, 1.0),))
+
+
+def hinged(x: float, y: float, turn: float) -> AnnotatedJoint:
+    return AnnotatedJoint("door", JointType.REVOLUTE, Axis(vec3(x, y, 0.0), vec3(0.0, 0.0, turn)), 0.0, 1.7)
 
 
 def _turned(mesh: TriangleMesh) -> TriangleMesh:
@@ -63,8 +69,7 @@ def under_a_slope_to_the_back(width: float = 1.0, depth: float = 0.9, door: bool
     if not door:
         return made("cabinet", tuple(parts))
     parts.append(piece("door", PartLabel.DOOR, board((-x, -y - t - 0.001, 0.0), (x, -y - 0.001, front))))
-    axis = Axis(vec3(-x, -y - t - 0.001, 0.0), vec3(0.0, 0.0, -1.0))
-    return made("cabinet", tuple(parts), (AnnotatedJoint("door", JointType.REVOLUTE, axis, 0.0, 1.7),))
+    return made("cabinet", tuple(parts), (hinged(-x, -y - t - 0.001, -1.0),))
 
 
 def open_corner(along: float = 1.0, depth: float = 0.35, height: float = 1.2) -> Asset:

@@ -21,6 +21,7 @@ from grafu.additions.top.config import (
     SupportConfig,
     TopConfig,
 )
+from grafu.additions.top.slope_config import SlopeConfig
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
@@ -33,7 +34,7 @@ CONFIGS = (
     EvidenceConfig, FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig,
     GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig,
     PinConfig, PivotConfig, RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig,
-    SolidBodyConfig, SupportConfig, SurveyConfig, TopConfig,
+    SlopeConfig, SolidBodyConfig, SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]

@@ -79,8 +79,15 @@ REASONS = {
         "AT_WALL": TOLERANCE,
         "OPEN": TOLERANCE,
     },
-    "interior/panels.py": {"RAYS_ALONG_EDGE": SAMPLES, "EDGE_MARGIN": SAMPLES, "EDGE_LEVELS": SAMPLES},
-    "interior/request.py": {"MOST_PANELS": LIMIT},
+    "interior/panels.py": {
+        "RAYS_ALONG_EDGE": SAMPLES,
+        "EDGE_MARGIN": SAMPLES,
+        "EDGE_LEVELS": SAMPLES,
+        "ALIKE": SHAPE,
+        "CORNERS": NUMBERING,
+        "FLAT": TOLERANCE,
+    },
+    "interior/request.py": {"MOST_PANELS": LIMIT, "MOST_ANGLE": LIMIT},
     "interior/rooms.py": {
         "FRONTS": NUMBERING,
         "LID": NUMBERING,
@@ -92,6 +99,7 @@ REASONS = {
     "likeness.py": {"OPAQUE_ALPHA": GLASS, "DEFAULT_TEXTURE_DENSITY": GLASS},
     "top/complete.py": {"NARROWEST_GROOVE": SHAPE, "GROOVE_DETAIL": SHAPE, "RECTANGLE": SHAPE},
     "top/cutouts.py": {"SWEEP_POSES": SAMPLES, "ROUNDED_UP": TOLERANCE},
+    "top/sloping.py": {"TOUCH": TOLERANCE},
     "top/height_map.py": {
         "(_ALL, _FIRST, _LAST)": NUMBERING,
         "LEAST_UPRIGHT_PART": TOLERANCE,

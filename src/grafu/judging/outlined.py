@@ -70,5 +70,5 @@ def _is_near(manager: Any, point: Vec3, reach: float) -> bool:
 
 
 def is_plain(mesh: TriangleMesh) -> bool:
-    """Whether a panel has the corners of a box: whatever else it is, its ends are two pairs of sides."""
-    return len(mesh.vertices) == CORNERS
+    """Whether a panel has the corners of a box along the axes: its ends are two pairs of sides, whatever else it is."""
+    return len(mesh.vertices) == CORNERS == len(np.unique(mesh.vertices > mesh.box.center, axis=0))

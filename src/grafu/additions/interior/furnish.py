@@ -5,6 +5,7 @@ A panel that finds no place is refused with the reason; what stands is never cha
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import radians, tan
 from typing import final
 
 from grafu.additions.interior.arrangement import (
@@ -152,6 +153,7 @@ def _counted(
     compartments: Sequence[Compartment], request: InteriorRequest, sizes: Sizes, config: InteriorConfig
 ) -> tuple[list[Arrangement], list[Refusal]]:
     refused: list[Refusal] = []
+    angle = radians(request.angle_deg)
     shelves, dividers = [0] * len(compartments), [0] * len(compartments)
     for label, groups, counts, wanted in (
         (PartLabel.SHELF, stacked(compartments, sizes, config), shelves, request.shelves),
@@ -165,13 +167,16 @@ def _counted(
                 continue
             axes = [2 if label is PartLabel.SHELF else compartments[k].side_axis for k in able]
             lengths = [float(compartments[k].box.size[a]) for k, a in zip(able, axes, strict=True)]
+            if label is PartLabel.SHELF:
+                drops = (tan(angle) * float(compartments[k].box.size[compartments[k].depth_axis]) for k in able)
+                lengths = [length - drop for length, drop in zip(lengths, drops, strict=True)]
             given = shared_out(lengths, len(able) - 1, wanted, sizes.thickness, sizes.least_pitch)
             for k, count in zip(able, given, strict=True):
                 counts[k] = count
             if able and sum(given) < wanted - (len(able) - 1):
                 why = f"there is room for {sum(given) + len(able) - 1} only, with {sizes.least_pitch:.2f} m between"
                 refused.append(refused_panel(able[0], label, Reason.FEWER, why))
-    return [Arrangement(s, d) for s, d in zip(shelves, dividers, strict=True)], refused
+    return [Arrangement(s, d, angle=angle) for s, d in zip(shelves, dividers, strict=True)], refused
 
 
 def _additions(

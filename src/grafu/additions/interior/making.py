@@ -71,21 +71,22 @@ class PanelMaker:
             self._walls = self._walls.and_also(panel.mesh)
             self._boards.append(panel.mesh)
         for cell in _between(self._whole, [panel.mesh.box for panel in dividers]):
-            yield from self._row(cell, PartLabel.SHELF, wanted.shelves, wanted.shelf_at)
+            yield from self._row(cell, PartLabel.SHELF, wanted.shelves, wanted.shelf_at, wanted.angle)
 
     def _row(
-        self, compartment: Compartment, label: PartLabel, count: int, at: Sequence[float]
+        self, compartment: Compartment, label: PartLabel, count: int, at: Sequence[float], angle: float = 0.0
     ) -> Iterator[Panel | Refusal]:
         """Yields panels of one kind in one compartment: at given middles, else `count` equally spaced."""
         if not (count or at):
             return
         axis = PanelPlace(compartment, label, 0.0, 0.0).stack
-        low, high = float(compartment.box.low[axis]), float(compartment.box.high[axis])
+        drop = float(np.tan(angle)) * (float(compartment.box.size[compartment.depth_axis]) - self._sizes.inset)
+        low, high = float(compartment.box.low[axis]) + drop / 2, float(compartment.box.high[axis]) - drop / 2
         count = min(count, most_that_fit(high - low, self._sizes.thickness, self._sizes.least_pitch))
         middles = list(at) or spaced(low, high, count, self._sizes.thickness)
         room = min(np.diff([low, *middles, high])) if middles else 0.0
         for middle in middles:
-            made = self._tried(PanelPlace(compartment, label, middle, self._sizes.inset), float(room))
+            made = self._tried(PanelPlace(compartment, label, middle, self._sizes.inset, angle), float(room))
             if isinstance(made, Refusal):
                 yield made.of(named_in(self._number, label), Asked.INTERIOR)
             else:
@@ -100,11 +101,7 @@ class PanelMaker:
         for inset in np.linspace(self._sizes.inset, deepest, self._config.insets):
             for nudge in self._config.nudges:
                 tried = moved_to(place, place.at + nudge * room, float(inset))
-                plain = cut_panel(tried, self._walls, self._sizes, self._config)
-                shaped = self._space.better(tried, plain, self._boards, self._sizes.thickness)
-                for mesh in (shaped, plain):
-                    if mesh is None:
-                        continue
+                for mesh in self._cut(tried):
                     if isinstance(mesh, Refusal):
                         first = first or mesh
                         continue
@@ -113,6 +110,14 @@ class PanelMaker:
                         return Panel(self._number, place.label, mesh, tried)
                     first = first or Refusal("", Reason.IN_THE_WAY, f"`{blocker}` is in its way")
         return first or Refusal("", Reason.NO_ROOM)
+
+    def _cut(self, place: PanelPlace) -> list[TriangleMesh | Refusal]:
+        """Returns the panels that fit a place, the best first, or why none does."""
+        if place.angle:
+            return [self._space.slanted(place, self._boards, self._sizes.thickness)]
+        plain = cut_panel(place, self._walls, self._sizes, self._config)
+        shaped = self._space.better(place, plain, self._boards, self._sizes.thickness)
+        return [plain] if shaped is None else [shaped, plain]
 
 
 def _between(compartment: Compartment, dividers: list[Box]) -> list[Compartment]:

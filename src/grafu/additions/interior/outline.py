@@ -19,9 +19,10 @@ from grafu.additions.interior.compartments import Compartment, inside_cells
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.panels import PanelPlace
 from grafu.additions.top.section import offset, polygons_in, section, slab_mesh, without_slivers
+from grafu.geometry.arrays import Mat3
 from grafu.geometry.free_space import Grid, cell_boxes
 from grafu.geometry.mesh import TriangleMesh
-from grafu.refusal import Refusal
+from grafu.refusal import Reason, Refusal
 from grafu.scene.scene import Scene
 
 REGION_CELLS = 2.5
@@ -118,6 +119,46 @@ class FreeSpace:
         size = place.compartment.box.size[list(plane.axes)] / self._sizes.cell
         return bool(cells.sum() > (1 + self._config.wider) * float(np.prod(size)))
 
+    def slanted(self, place: PanelPlace, boards: Sequence[TriangleMesh], thickness: float) -> TriangleMesh | Refusal:
+        """Returns a shelf that slopes down to the front between the walls, or why there is none."""
+        box, depth = place.compartment.box, place.compartment.depth_axis
+        frame = _sloping(place)
+        opening = float(box.high[depth] if place.compartment.opening % 2 else box.low[depth])
+        back = float(box.low[depth] if place.compartment.opening % 2 else box.high[depth])
+        front = abs(opening - float(box.center[depth])) - place.inset - thickness / 2 * np.sin(place.angle)
+        rear = abs(back - float(box.center[depth])) + self._sizes.cell
+        side = box.half[place.reach] + self._config.askew_cells * self._sizes.cell
+        if front + rear < self._sizes.least_side / 2:
+            return Refusal("", Reason.NO_ROOM, "it is too shallow")
+        slope = float(np.cos(place.angle))
+        reach = shapely.box(-side, -front / slope, side, rear / slope)
+        middle = box.center.copy()
+        middle[2] = place.at
+        still = (np.concatenate([self._still, *(b.triangles for b in boards)]) - middle) @ frame.T
+        plane = _Plane((0, 1), 2)
+        levels = thickness / 2 * np.array(SECTION_LEVELS)
+        walls = self._section(still, plane, levels, reach)
+        doors = offset(self._section((self._moving - middle) @ frame.T, plane, levels, reach), place.inset)
+        free = without_slivers(reach.difference(walls).difference(doors), self._config.slit * self._metre)
+        inside = free.intersection(shapely.convex_hull(walls.union(doors)))
+        room = _around(inside, Point(0.0, 0.0))
+        outline = None if room is None else _plain(Polygon(room.exterior), PLAIN * self._metre)
+        if outline is None:
+            return Refusal("", Reason.NO_ROOM)
+        if not self._is_held(outline, walls):
+            return Refusal("", Reason.NO_SUPPORT, "it has no wall to rest on at both ends")
+        slab = slab_mesh(outline, -thickness / 2, thickness / 2)
+        return TriangleMesh(slab.vertices @ frame + middle, slab.faces)
+
+    def _is_held(self, outline: Polygon, walls: BaseGeometry) -> bool:
+        """Whether a sloping shelf touches walls along enough of both its ends."""
+        low, near, high, far = outline.bounds
+        touching = outline.exterior.intersection(walls.buffer(self._sizes.touch))
+        margin = self._sizes.least_side / 2
+        ends = ((low, low + margin), (high - margin, high))
+        held = (touching.intersection(shapely.box(left, near, right, far)).length for left, right in ends)
+        return all(length >= self._config.carried * (far - near) for length in held)
+
     def _section(self, triangles: Triangles, plane: _Plane, levels: np.ndarray, reach: BaseGeometry) -> BaseGeometry:
         """Returns what triangles cross at some levels near a region."""
         placed = triangles[:, :, plane.order]
@@ -189,6 +230,16 @@ class FreeSpace:
         touching = outline.exterior.intersection(walls.buffer(self._sizes.touch))
         is_enough = touching.length >= self._config.rests * outline.exterior.length
         return bool(is_enough and shapely.convex_hull(touching).contains(outline.centroid))
+
+
+def _sloping(place: PanelPlace) -> Mat3:
+    """Returns the axes of a sloping shelf as rows: to the side, up along it to the back, and its upper normal."""
+    inward = np.zeros(3)
+    inward[place.compartment.depth_axis] = -1.0 if place.compartment.opening % 2 else 1.0
+    up = np.array([0.0, 0.0, 1.0])
+    along = np.cos(place.angle) * inward + np.sin(place.angle) * up
+    normal = np.cos(place.angle) * up - np.sin(place.angle) * inward
+    return np.stack([np.cross(along, normal), along, normal])
 
 
 def _all_triangles(meshes: Sequence[TriangleMesh]) -> Triangles:
