@@ -15,6 +15,7 @@ import manifold3d
 import numpy as np
 from jaxtyping import Float
 
+from grafu.articulation.board_holes import BoardHole, holes_through
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
@@ -42,6 +43,12 @@ class ConvexPieceConfig:
 
     tolerance: float = 0.02
     """Pits less deep than this are filled (metres)."""
+    hole: float = 0.04
+    """Holes through a board are left open where a circle of this diameter fits into them (metres)."""
+    board: float = 0.05
+    """What is thicker is no board (metres)."""
+    boxed: float = 0.85
+    """Fraction of its box from which on a piece of a board may be taken as that box (see `CollisionShapeConfig`)."""
     most_cuts: int = 40
     """How often one mesh is cut at most; connected parts come apart without a cut."""
     rim: float = 0.02
@@ -52,7 +59,7 @@ class ConvexPieceConfig:
     """Pieces with a shorter diagonal carry no load and stop no hand (metres)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "tolerance", "most_cuts", "rim", "past_wall", "speck")
+        require_positive(self, "tolerance", "hole", "board", "boxed", "most_cuts", "rim", "past_wall", "speck")
 
 
 DEFAULT_PIECE_CONFIG = ConvexPieceConfig()
@@ -92,18 +99,39 @@ class _Piece:
     mesh: TriangleMesh
     config: ConvexPieceConfig
     solid: Any = None  # a manifold3d.Manifold
+    known: tuple[BoardHole, ...] | None = None  # through the board that it was cut from
 
     @cached_property
     def pit(self) -> Vec3 | None:
-        """The point of the deepest pit, None where every pit is within the tolerance."""
+        """The point of the deepest pit, else of a hole, None where every pit is within the tolerance."""
+        if _is_box(self.mesh):
+            return None
+        closed = (hole.middle for hole in self.holes if hole.is_closed_by(self.mesh, self.config.boxed))
+        deepest = self._deepest
+        return next(closed, None) if deepest is None else deepest
+
+    @property
+    def _deepest(self) -> Vec3 | None:
         mesh, side, tolerance = self.mesh, float(self.mesh.box.size.max()), self.config.tolerance
-        if side < 2 * tolerance or _is_box(mesh):
+        if side < 2 * tolerance:
             return None
         points = _inside_hull(mesh, _grid(mesh.box, tolerance), self.config.speck)
         depth = _depths(self.caster, points, side)
         if not len(depth) or depth.max() <= tolerance:
             return None
         return points[int(np.argmax(depth))]
+
+    @cached_property
+    def holes(self) -> tuple[BoardHole, ...]:
+        """The holes through the board that it is, or that it was cut from."""
+        if self.known is not None:
+            return self.known
+        return holes_through(self.mesh, self.config.hole, self.config.board)
+
+    @property
+    def passed_on(self) -> tuple[BoardHole, ...] | None:
+        """The holes that what is cut from it knows of."""
+        return self.holes or None
 
     @cached_property
     def area(self) -> float:
@@ -120,7 +148,10 @@ class _Piece:
         if self.solid is not None:
             return [self._of_solid(part) for part in self.solid.decompose()]
         parts = ((part, _solid(part) if closed else None) for part, closed in tidy_parts(self.mesh))
-        return [_Piece(part, self.config) if solid is None else self._of_solid(solid) for part, solid in parts]
+        return [
+            _Piece(part, self.config, known=self.passed_on) if solid is None else self._of_solid(solid)
+            for part, solid in parts
+        ]
 
     def halves(self, axis: int, sign: float, position: float) -> tuple["_Piece", "_Piece"]:
         """Returns what lies beyond a plane across `axis` (on the side of `sign`), and the rest."""
@@ -131,13 +162,14 @@ class _Piece:
             return self._of_solid(beyond), self._of_solid(rest)
         origin = np.abs(normal) * position
         beyond, rest = half_of(self.mesh, normal, origin), half_of(self.mesh, -normal, origin)
-        return _Piece(beyond, self.config), _Piece(rest, self.config)
+        known = self.passed_on
+        return _Piece(beyond, self.config, known=known), _Piece(rest, self.config, known=known)
 
     def _of_solid(self, solid: Any) -> "_Piece":
         made = solid.to_mesh()
         vertices = np.asarray(made.vert_properties, dtype=np.float64)[:, :3].reshape(-1, 3)
         faces = np.asarray(made.tri_verts, dtype=np.int64).reshape(-1, 3)
-        return _Piece(TriangleMesh(vertices, faces), self.config, solid)
+        return _Piece(TriangleMesh(vertices, faces), self.config, solid, self.passed_on)
 
 
 def _solid(mesh: TriangleMesh) -> Any:
@@ -226,9 +258,10 @@ def _cut(piece: _Piece, pit: Vec3) -> list[_Piece]:
 def _walls(piece: _Piece, pit: Vec3) -> Iterator[tuple[int, float, float]]:
     """Yields axis, sense and position of each wall seen from the pit, the largest faces of the box first.
 
-    Cuts at the corners nearest to the pit along the long sides come last: where no wall is seen, as in the opening of a
-    sheet, they are its edges.
+    The edges of a hole through a board come before them. Cuts at the corners nearest to the pit along the long sides
+    come last: where no wall is seen, as in the opening of a sheet, they are its edges.
     """
+    yield from (wall for hole in piece.holes if hole.middle is pit for wall in hole.edges(piece.mesh.box))
     seen = _looks(piece.caster, pit[None])[0]
     size = piece.mesh.box.size
     order = sorted(range(6), key=lambda k: float(size[k // 2]))  # the face across a short side is large
