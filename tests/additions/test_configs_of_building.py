@@ -12,7 +12,7 @@ from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripSize, GripSizes, GripTrials, GroundConfig
 from grafu.additions.handle.config import HandleConfig, HandleTrials
 from grafu.additions.handle.grasp_config import FingerRoomConfig, GraspConfig, GripConfidences, ReliefConfig
-from grafu.additions.interior.config import InteriorConfig, RoomConfig
+from grafu.additions.interior.config import CarouselConfig, InteriorConfig, RoomConfig
 from grafu.additions.top.config import (
     CutoutConfig,
     EvidenceConfig,
@@ -29,7 +29,8 @@ from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, Rail
 from grafu.joints.rail_footing_config import RailFootingConfig
 
 CONFIGS = (
-    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, ClearanceConfig, CutoutConfig, DoorFrameConfig,
+    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, CarouselConfig, ClearanceConfig, CutoutConfig,
+    DoorFrameConfig,
     DrawerBoxConfig,
     EvidenceConfig, FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig,
     GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig,

@@ -61,6 +61,7 @@ REASONS = {
     "handle/relief.py": {"MOST_CELLS": SAMPLES, "ALL_CELLS": SAMPLES, "UNSEEN": TOLERANCE},
     "handle/spots.py": {"TURNS": NUMBERING},
     "interior/arrangement.py": {"FLAT": TOLERANCE},
+    "interior/carousel.py": {"QUARTER_EDGES": SAMPLES, "POST_EDGES": SAMPLES},
     "interior/faces.py": {
         "RIM_STEPS": SAMPLES,
         "RIM_LEVELS": SAMPLES,
@@ -78,6 +79,7 @@ REASONS = {
         "PLAIN": TOLERANCE,
         "AT_WALL": TOLERANCE,
         "OPEN": TOLERANCE,
+        "CIRCLE": TOLERANCE,
     },
     "interior/panels.py": {
         "RAYS_ALONG_EDGE": SAMPLES,
@@ -87,7 +89,7 @@ REASONS = {
         "CORNERS": NUMBERING,
         "FLAT": TOLERANCE,
     },
-    "interior/request.py": {"MOST_PANELS": LIMIT, "MOST_ANGLE": LIMIT},
+    "interior/request.py": {"MOST_PANELS": LIMIT, "MOST_ANGLE": LIMIT, "MOST_TRAYS": LIMIT},
     "interior/rooms.py": {
         "FRONTS": NUMBERING,
         "LID": NUMBERING,

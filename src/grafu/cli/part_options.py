@@ -185,7 +185,7 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
         "--interior",
         metavar="WHAT",
         help="shelves and dividers: none, predicted, auto, or numbers per compartment like shelves=2,dividers=1; "
-        "shelves=3,angle=20deg slope down to the front "
+        "shelves=3,angle=20deg slope down to the front, carousel=2 are round trays that turn "
         "(default: predicted)",
     )
     group.add_argument(

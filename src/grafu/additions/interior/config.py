@@ -72,6 +72,40 @@ class RoomConfig:
 
 @final
 @dataclass(frozen=True)
+class CarouselConfig:
+    """The sizes of a carousel: round trays with rims on a post.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    post: float = 0.0125
+    """Radius of the post."""
+    floor: float = 0.008
+    """Thickness of a tray."""
+    rim: float = 0.05
+    """Height of its rim above its underside, ..."""
+    wall: float = 0.006
+    """... and how thick that is."""
+    lift: float = 0.02
+    """From the floor of a compartment to the lowest tray."""
+    play: float = 0.001
+    """Between the post and what is above and below it."""
+    clear: float = 0.008
+    """Between a tray and the walls around it."""
+    least_radius: float = 0.12
+    """Of a tray; smaller ones hold nothing."""
+    least_pitch: float = 0.12
+    """Smallest distance between two trays: a rim and a cup."""
+    tried: tuple[float, ...] = (1.0, 0.94, 0.88, 0.82, 0.76)
+    """Fractions of the largest radius that are tried until no door is stopped (ratios)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *(name for name in self.__dataclass_fields__ if name != "tried"))
+
+
+@final
+@dataclass(frozen=True)
 class InteriorConfig(ShortRepr):
     """The sizes of panels, and of compartments worth furnishing.
 
@@ -139,6 +173,8 @@ class InteriorConfig(ShortRepr):
     """Poses from closed to wide open in which a panel must be clear of what moves."""
     depth: float = RealizationConfig().depth
     """How deep a panel may touch something, as a fraction of the object's largest side: as in the sweeps of joints."""
+    carousel: CarouselConfig = CarouselConfig()
+    """The sizes of carousels."""
     rooms: RoomConfig = RoomConfig()
     """What makes free space a compartment."""
 

@@ -16,6 +16,7 @@ from grafu.additions.interior.arrangement import (
     shared_out,
     stacked,
 )
+from grafu.additions.interior.carousel import carousels_in
 from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.making import Panel, PanelMaker, named_in
@@ -67,8 +68,12 @@ def furnish(
     why = f"there is no such compartment, only {len(compartments)}"
     refused += [refused_panel(k, None, Reason.NO_COMPARTMENT, why) for k in beyond]
     chosen = {k: choice for k, choice in chosen.items() if k not in beyond}
+    carousels: list[Addition] = []
+    if request.trays:
+        carousels, unfit = carousels_in(compartments, request.trays, scene, config, chosen)
+        refused += unfit
     if all(arrangement == Arrangement() for arrangement in wanted):
-        return Furnished((), tuple(refused))
+        return Furnished(tuple(carousels), tuple(refused))
     clearing, walls = clearing_of(scene, config), _walls(compartments, scene, config.askew_cells * sizes.cell)
     space = FreeSpace(scene, compartments, sizes, config)
     panels: list[Panel] = []
@@ -81,7 +86,7 @@ def furnish(
             else:
                 refused.append(outcome)
     refused += _fewer_than_chosen(panels, chosen, {one.part for one in refused})
-    return Furnished(_additions(panels, compartments, request, scene), tuple(refused))
+    return Furnished((*carousels, *_additions(panels, compartments, request, scene)), tuple(refused))
 
 
 def _fewer_than_chosen(

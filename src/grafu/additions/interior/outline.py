@@ -24,6 +24,7 @@ from grafu.geometry.free_space import Grid, cell_boxes
 from grafu.geometry.mesh import TriangleMesh
 from grafu.refusal import Reason, Refusal
 from grafu.scene.scene import Scene
+from grafu.vocabulary import PartLabel
 
 REGION_CELLS = 2.5
 """Cells beyond the free ones up to which a wall is looked for: a cell that a wall touches is not free."""
@@ -36,6 +37,8 @@ AT_WALL = 0.25
 """Widths of a slit within which an edge of an outline lies at a wall."""
 OPEN = 1.25
 """Widths of a slit from which on a side without a wall is open."""
+CIRCLE = 0.005
+"""Fraction by which a free circle may be smaller than the largest one."""
 LINE = 3e-4
 """Half the width of the lines of a section, metres on furniture of usual size."""
 
@@ -118,6 +121,35 @@ class FreeSpace:
         """Whether free cells around a panel's place take more than its compartment's box."""
         size = place.compartment.box.size[list(plane.axes)] / self._sizes.cell
         return bool(cells.sum() > (1 + self._config.wider) * float(np.prod(size)))
+
+    def free_circle(
+        self, compartment: Compartment, levels: Sequence[float], height: float
+    ) -> tuple[tuple[float, float], float] | None:
+        """Returns the middle (x, y) and radius of the largest circle that is free at levels, over a height around each.
+
+        It stays behind doors and open sides as panels do. None: there is none.
+        """
+        plane = _plane_across(2)
+        free: BaseGeometry | None = None
+        for level in levels:
+            place = PanelPlace(compartment, PartLabel.SHELF, level, self._sizes.inset)
+            reach = offset(self._squares(self._level(place), plane), REGION_CELLS * self._sizes.cell)
+            if reach.is_empty:
+                return None
+            heights = level + height / 2 * np.array(SECTION_LEVELS)
+            walls = self._section(self._still, plane, heights, reach)
+            doors = offset(self._section(self._moving, plane, heights, reach), place.inset)
+            outline = self._outline(place, reach, walls, doors)
+            if outline is None:
+                return None
+            free = outline if free is None else free.intersection(outline)
+        largest = max(polygons_in(free) if free is not None else [], key=lambda p: float(p.area), default=None)
+        if largest is None:
+            return None
+        radius = float(shapely.maximum_inscribed_circle(largest).length) * (1 - CIRCLE)
+        middles = largest.buffer(-radius)  # of all circles about as large, the one in the middle
+        spot = middles.centroid if middles.contains(middles.centroid) else middles.representative_point()
+        return (float(spot.x), float(spot.y)), radius
 
     def slanted(self, place: PanelPlace, boards: Sequence[TriangleMesh], thickness: float) -> TriangleMesh | Refusal:
         """Returns a shelf that slopes down to the front between the walls, or why there is none."""
