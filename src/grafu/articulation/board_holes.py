@@ -51,14 +51,19 @@ class BoardHole(ArrayValue):
                     yield axis, sign, at
 
 
+def is_board(mesh: TriangleMesh, thickest: float) -> bool:
+    """Whether a mesh is as thin as a board: at most `thickest` metres, and half as thick as wide."""
+    size = mesh.box.size
+    return float(size.min()) <= min(thickest, SLIM * float(size[_across(mesh)].min()))
+
+
 def holes_through(mesh: TriangleMesh, least: float, thickest: float) -> tuple[BoardHole, ...]:
     """Returns the holes through a board into which a circle of diameter `least` fits, metres.
 
-    A mesh that is thicker than `thickest`, or no board, has none.
+    A mesh that is no board (see `is_board`) has none.
     """
-    across, size = _across(mesh), mesh.box.size
-    is_board = float(size.min()) <= min(thickest, SLIM * float(size[across].min()))
-    if not is_board or len(mesh.faces) > MOST_FACES:
+    across = _across(mesh)
+    if not is_board(mesh, thickest) or len(mesh.faces) > MOST_FACES:
         return ()
     flat = shapely.polygons(mesh.triangles[:, :, across])
     covered = shapely.union_all(flat[shapely.area(flat) > 0])

@@ -15,7 +15,7 @@ import manifold3d
 import numpy as np
 from jaxtyping import Float
 
-from grafu.articulation.board_holes import BoardHole, holes_through
+from grafu.articulation.board_holes import BoardHole, holes_through, is_board
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
@@ -70,7 +70,7 @@ def convex_pieces(mesh: TriangleMesh, config: ConvexPieceConfig = DEFAULT_PIECE_
 
     Specks of a few millimetres are left out, except where there is nothing else.
     """
-    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh, config))]
+    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh, config, is_whole=True))]
     return [piece for piece in pieces if piece.box.diagonal > config.speck] or pieces[:1]
 
 
@@ -100,6 +100,7 @@ class _Piece:
     config: ConvexPieceConfig
     solid: Any = None  # a manifold3d.Manifold
     known: tuple[BoardHole, ...] | None = None  # through the board that it was cut from
+    is_whole: bool = False
 
     @cached_property
     def pit(self) -> Vec3 | None:
@@ -123,15 +124,22 @@ class _Piece:
 
     @cached_property
     def holes(self) -> tuple[BoardHole, ...]:
-        """The holes through the board that it is, or that it was cut from."""
+        """The holes through the board that it is, or that it was cut from.
+
+        What was cut from a surface, or is one shell of several, may be open where the whole is not: it is not asked.
+        """
         if self.known is not None:
             return self.known
-        return holes_through(self.mesh, self.config.hole, self.config.board)
+        is_closed = self.is_whole or self.solid is not None
+        return holes_through(self.mesh, self.config.hole, self.config.board) if is_closed else ()
 
     @property
     def passed_on(self) -> tuple[BoardHole, ...] | None:
-        """The holes that what is cut from it knows of."""
-        return self.holes or None
+        """The holes that what is cut from it has; None: each solid is asked for its own."""
+        if self.known is not None:
+            return self.known
+        is_known = (self.is_whole or self.solid is not None) and is_board(self.mesh, self.config.board)
+        return self.holes if is_known else None
 
     @cached_property
     def area(self) -> float:
