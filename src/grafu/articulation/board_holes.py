@@ -13,6 +13,10 @@ from grafu.geometry.mesh import TriangleMesh
 
 MOST_FACES = 4000
 """Faces of a board that is looked at: finer ones take long."""
+SMALL = 0.33
+"""Fraction of a board's shorter side below which a hole is one in it: wider cells are those of a rack."""
+MOST_HOLES = 12
+"""Holes of a board that are kept open; what has more is a grating."""
 SLIM = 0.5
 """Fraction of its shorter side up to which a board is thick."""
 FREE = 0.6
@@ -57,10 +61,10 @@ def is_board(mesh: TriangleMesh, thickest: float) -> bool:
     return float(size.min()) <= min(thickest, SLIM * float(size[_across(mesh)].min()))
 
 
-def holes_through(mesh: TriangleMesh, least: float, thickest: float) -> tuple[BoardHole, ...]:
-    """Returns the holes through a board into which a circle of diameter `least` fits, metres.
+def holes_through(mesh: TriangleMesh, least: float, widest: float, thickest: float) -> tuple[BoardHole, ...]:
+    """Returns the holes through a board into which a circle of diameter `least` fits, but none of `widest`, metres.
 
-    A mesh that is no board (see `is_board`) has none.
+    A mesh that is no board (see `is_board`) has none, nor has a grating.
     """
     across = _across(mesh)
     if not is_board(mesh, thickest) or len(mesh.faces) > MOST_FACES:
@@ -71,13 +75,13 @@ def holes_through(mesh: TriangleMesh, least: float, thickest: float) -> tuple[Bo
     found = []
     for ring in rings:
         circle = shapely.maximum_inscribed_circle(shapely.Polygon(ring))
-        if circle.length >= least / 2:
+        if least <= 2 * circle.length < min(widest, SMALL * float(mesh.box.size[across].min())):
             middle = mesh.box.center.copy()
             middle[across] = shapely.get_coordinates(circle)[0]
             low, high = middle.copy(), middle.copy()
             low[across], high[across] = np.reshape(ring.bounds, (2, 2))
             found.append(BoardHole(middle, float(circle.length), Box(low, high)))
-    return tuple(found)
+    return tuple(found) if len(found) <= MOST_HOLES else ()
 
 
 def _across(mesh: TriangleMesh) -> list[int]:

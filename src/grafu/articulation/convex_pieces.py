@@ -44,7 +44,9 @@ class ConvexPieceConfig:
     tolerance: float = 0.02
     """Pits less deep than this are filled (metres)."""
     hole: float = 0.04
-    """Holes through a board are left open where a circle of this diameter fits into them (metres)."""
+    """Holes through a board are left open where a circle of this diameter fits into them (metres) ..."""
+    window: float = 0.12
+    """... and none of this diameter: wider ones are pits as any other (metres)."""
     board: float = 0.05
     """What is thicker is no board (metres)."""
     boxed: float = 0.85
@@ -59,7 +61,9 @@ class ConvexPieceConfig:
     """Pieces with a shorter diagonal carry no load and stop no hand (metres)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "tolerance", "hole", "board", "boxed", "most_cuts", "rim", "past_wall", "speck")
+        require_positive(
+            self, "tolerance", "hole", "window", "board", "boxed", "most_cuts", "rim", "past_wall", "speck"
+        )
 
 
 DEFAULT_PIECE_CONFIG = ConvexPieceConfig()
@@ -131,7 +135,7 @@ class _Piece:
         if self.known is not None:
             return self.known
         is_closed = self.is_whole or self.solid is not None
-        return holes_through(self.mesh, self.config.hole, self.config.board) if is_closed else ()
+        return holes_through(self.mesh, self.config.hole, self.config.window, self.config.board) if is_closed else ()
 
     @property
     def passed_on(self) -> tuple[BoardHole, ...] | None:
