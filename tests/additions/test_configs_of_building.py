@@ -12,7 +12,7 @@ from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.additions.grip.config import GripConfig, GripSize, GripSizes, GripTrials, GroundConfig
 from grafu.additions.handle.config import HandleConfig, HandleTrials
 from grafu.additions.handle.grasp_config import FingerRoomConfig, GraspConfig, GripConfidences, ReliefConfig
-from grafu.additions.interior.config import InteriorConfig, RoomConfig
+from grafu.additions.interior.config import CarouselConfig, InteriorConfig, RoomConfig
 from grafu.additions.top.config import (
     CutoutConfig,
     EvidenceConfig,
@@ -21,6 +21,7 @@ from grafu.additions.top.config import (
     SupportConfig,
     TopConfig,
 )
+from grafu.additions.top.slope_config import SlopeConfig
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
@@ -28,12 +29,13 @@ from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, Rail
 from grafu.joints.rail_footing_config import RailFootingConfig
 
 CONFIGS = (
-    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, ClearanceConfig, CutoutConfig, DoorFrameConfig,
+    BehindConfig, BodyConfig, BoxProbeConfig, CarcassConfig, CarouselConfig, ClearanceConfig, CutoutConfig,
+    DoorFrameConfig,
     DrawerBoxConfig,
     EvidenceConfig, FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig,
     GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig,
     PinConfig, PivotConfig, RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig,
-    SolidBodyConfig, SupportConfig, SurveyConfig, TopConfig,
+    SlopeConfig, SolidBodyConfig, SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
 COUNTS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is int]

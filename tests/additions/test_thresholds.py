@@ -61,7 +61,8 @@ REASONS = {
     "handle/relief.py": {"MOST_CELLS": SAMPLES, "ALL_CELLS": SAMPLES, "UNSEEN": TOLERANCE},
     "handle/spots.py": {"TURNS": NUMBERING},
     "interior/arrangement.py": {"FLAT": TOLERANCE},
-    "interior/compartments.py": {
+    "interior/carousel.py": {"QUARTER_EDGES": SAMPLES, "POST_EDGES": SAMPLES},
+    "interior/faces.py": {
         "RIM_STEPS": SAMPLES,
         "RIM_LEVELS": SAMPLES,
         "RIM_REACH": SAMPLES,
@@ -70,13 +71,37 @@ REASONS = {
         "FACE_CELLS": SAMPLES,
         "PART_CELLS": TOLERANCE,
     },
-    "interior/occupied.py": {"POINT_SPACING": SAMPLES},
-    "interior/panels.py": {"RAYS_ALONG_EDGE": SAMPLES, "EDGE_MARGIN": SAMPLES, "EDGE_LEVELS": SAMPLES},
-    "interior/request.py": {"MOST_PANELS": LIMIT},
-    "interior/rooms.py": {"FRONTS": NUMBERING, "LID": NUMBERING, "SIDE_AXES": NUMBERING, "FRONT_FACES": NUMBERING},
+    "interior/occupied.py": {"POINT_SPACING": SAMPLES, "ASKEW_SPACING": SAMPLES, "ALONG": TOLERANCE},
+    "interior/outline.py": {
+        "REGION_CELLS": SAMPLES,
+        "SECTION_LEVELS": SAMPLES,
+        "LINE": TOLERANCE,
+        "PLAIN": TOLERANCE,
+        "AT_WALL": TOLERANCE,
+        "OPEN": TOLERANCE,
+        "CIRCLE": TOLERANCE,
+    },
+    "interior/panels.py": {
+        "RAYS_ALONG_EDGE": SAMPLES,
+        "EDGE_MARGIN": SAMPLES,
+        "EDGE_LEVELS": SAMPLES,
+        "ALIKE": SHAPE,
+        "CORNERS": NUMBERING,
+        "FLAT": TOLERANCE,
+    },
+    "interior/request.py": {"MOST_PANELS": LIMIT, "MOST_ANGLE": LIMIT, "MOST_TRAYS": LIMIT},
+    "interior/rooms.py": {
+        "FRONTS": NUMBERING,
+        "LID": NUMBERING,
+        "LEAST_WALLS": NUMBERING,
+        "SIDE_AXES": NUMBERING,
+        "FRONT_FACES": NUMBERING,
+    },
+    "interior/turned.py": {"LEAST_STRAIGHT": SHAPE},
     "likeness.py": {"OPAQUE_ALPHA": GLASS, "DEFAULT_TEXTURE_DENSITY": GLASS},
     "top/complete.py": {"NARROWEST_GROOVE": SHAPE, "GROOVE_DETAIL": SHAPE, "RECTANGLE": SHAPE},
     "top/cutouts.py": {"SWEEP_POSES": SAMPLES, "ROUNDED_UP": TOLERANCE},
+    "top/sloping.py": {"TOUCH": TOLERANCE},
     "top/height_map.py": {
         "(_ALL, _FIRST, _LAST)": NUMBERING,
         "LEAST_UPRIGHT_PART": TOLERANCE,
@@ -111,6 +136,7 @@ IN_FUNCTIONS = {
     "handle/grips.py": {1.2: TOLERANCE},  # cells: what lies on a border
     "handle/spots.py": {0.25: SAMPLES, 0.75: SAMPLES},  # the middles of two halves
     "interior/compartments.py": {5: NUMBERING, 6: NUMBERING},
+    "interior/faces.py": {6: NUMBERING},
     "interior/rooms.py": {3: NUMBERING, 5: NUMBERING, 6: NUMBERING},
 }
 

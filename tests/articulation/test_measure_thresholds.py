@@ -25,6 +25,13 @@ GRIPPER = "a size of the gripper whose grasp frames docs/conventions.md describe
 REASONS = {
     "articulation": {
         "articulated_object.py": {"_ALIKE": TOLERANCE},
+        "board_holes.py": {
+            "MOST_FACES": EFFORT,
+            "MOST_HOLES": EFFORT,
+            "SLIM": TOLERANCE,
+            "SMALL": TOLERANCE,
+            "FREE": TOLERANCE,
+        },
         "build_material.py": dict.fromkeys(("_BY_WORD", "_GLASS", "_STEEL", "_TEXTILE"), PHYSICS),
         "collision_clearance.py": {"_REST": UNIT},
         "collision_shapes.py": {"_DENSE": EFFORT},
@@ -57,6 +64,13 @@ REASONS = {
     },
     "judging": {
         "handles.py": {"POSES": SAMPLES},
+        "outlined.py": {
+            "ALIKE": TOLERANCE,
+            "CARRIED": MEASURE,
+            "SAMPLES": SAMPLES,
+            "SPECK": TOLERANCE,
+            "CORNERS": UNIT,
+        },
         "panels.py": {"POSES": SAMPLES},
         "tops.py": {"_DIRECTIONS": SAMPLES, "_CELLS": SAMPLES, "_SIDES": SAMPLES},
     },

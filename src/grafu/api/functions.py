@@ -130,7 +130,9 @@ def functionalize(
         drawer_boxes: whether a drawer that is only a front gets a box.
         compartments: whether what is solid behind doors and drawers gets compartments.
         door_frame: whether a door of a building that is drawn alone gets a frame.
-        interior: shelves and dividers: `predicted`, `auto`, `none`, or counts such as `shelves=2,dividers=1`.
+        interior: shelves and dividers: `predicted`, `auto`, `none`, or counts such as `shelves=2,dividers=1`,
+            of shelves that slope down to the front with an angle: `shelves=3,angle=20deg`; or `carousel=2`, round
+            trays that turn.
         carcass: whether missing backs and bottoms are added.
         trim: whether material may be taken away to give a part clearance.
         small_parts: whether knobs, buttons, wheels and casters get joints of their own; None: those that are links of

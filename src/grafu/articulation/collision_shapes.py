@@ -17,7 +17,6 @@ from grafu.articulation.convex_pieces import (
     DEFAULT_PIECE_CONFIG,
     ConvexPieceConfig,
     convex_pieces,
-    few_corners,
     hull_of,
 )
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
@@ -25,7 +24,7 @@ from grafu.geometry.box import Box, OrientedBox, yaw_of
 from grafu.geometry.components import clustered
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.solids import ConvexSolid
+from grafu.geometry.solids import ConvexSolid, few_corners
 from grafu.geometry.transform import rotation_matrix
 from grafu.vocabulary import PartLabel
 

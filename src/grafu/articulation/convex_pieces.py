@@ -15,6 +15,7 @@ import manifold3d
 import numpy as np
 from jaxtyping import Float
 
+from grafu.articulation.board_holes import BoardHole, holes_through, is_board
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
@@ -23,7 +24,7 @@ from grafu.geometry.config_checks import require_positive
 from grafu.geometry.face_cuts import halves_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
-from grafu.geometry.solids import ConvexSolid
+from grafu.geometry.solids import ConvexSolid, few_corners
 
 _DIRECTIONS = np.array([[-1.0, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
 _HULL_CORNERS = 32
@@ -42,6 +43,14 @@ class ConvexPieceConfig:
 
     tolerance: float = 0.02
     """Pits less deep than this are filled (metres)."""
+    hole: float = 0.04
+    """Holes through a board are left open where a circle of this diameter fits into them (metres) ..."""
+    window: float = 0.12
+    """... and none of this diameter: wider ones are pits as any other (metres)."""
+    board: float = 0.05
+    """What is thicker is no board (metres)."""
+    boxed: float = 0.85
+    """Fraction of its box from which on a piece of a board may be taken as that box (see `CollisionShapeConfig`)."""
     most_cuts: int = 40
     """How often one mesh is cut at most; connected parts come apart without a cut."""
     rim: float = 0.02
@@ -52,7 +61,9 @@ class ConvexPieceConfig:
     """Pieces with a shorter diagonal carry no load and stop no hand (metres)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "tolerance", "most_cuts", "rim", "past_wall", "speck")
+        require_positive(
+            self, "tolerance", "hole", "window", "board", "boxed", "most_cuts", "rim", "past_wall", "speck"
+        )
 
 
 DEFAULT_PIECE_CONFIG = ConvexPieceConfig()
@@ -63,25 +74,13 @@ def convex_pieces(mesh: TriangleMesh, config: ConvexPieceConfig = DEFAULT_PIECE_
 
     Specks of a few millimetres are left out, except where there is nothing else.
     """
-    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh, config))]
+    pieces = [piece.mesh for piece in _taken_apart(_Piece(mesh, config, is_whole=True))]
     return [piece for piece in pieces if piece.box.diagonal > config.speck] or pieces[:1]
 
 
 def hull_of(points: Points, least_thickness: float) -> ConvexSolid | None:
     """Returns the convex hull of points; flat ones are thickened to `least_thickness` metres. None for fewer than 3."""
     return ConvexSolid.around(_thickened(points, least_thickness))
-
-
-def few_corners(points: Points, most: int) -> Float[np.ndarray, "k 3"]:
-    """Returns at most `most` of the points: those that lie farthest out along directions spread evenly."""
-    if len(points) <= most:
-        return points
-    turn = np.arange(most) * np.pi * (3.0 - np.sqrt(5.0))
-    height = 1.0 - (2.0 * np.arange(most) + 1.0) / most
-    ring = np.sqrt(1.0 - height**2)
-    directions = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])
-    size = np.maximum(np.ptp(points, axis=0), 1e-9)
-    return points[np.unique(np.argmax((directions / size) @ points.T, axis=1))]
 
 
 @final
@@ -92,18 +91,47 @@ class _Piece:
     mesh: TriangleMesh
     config: ConvexPieceConfig
     solid: Any = None  # a manifold3d.Manifold
+    known: tuple[BoardHole, ...] | None = None  # through the board that it was cut from
+    is_whole: bool = False
 
     @cached_property
     def pit(self) -> Vec3 | None:
-        """The point of the deepest pit, None where every pit is within the tolerance."""
+        """The point of the deepest pit, else of a hole, None where every pit is within the tolerance."""
+        if _is_box(self.mesh):
+            return None
+        closed = (hole.middle for hole in self.holes if hole.is_closed_by(self.mesh, self.config.boxed))
+        deepest = self._deepest
+        return next(closed, None) if deepest is None else deepest
+
+    @property
+    def _deepest(self) -> Vec3 | None:
         mesh, side, tolerance = self.mesh, float(self.mesh.box.size.max()), self.config.tolerance
-        if side < 2 * tolerance or _is_box(mesh):
+        if side < 2 * tolerance:
             return None
         points = _inside_hull(mesh, _grid(mesh.box, tolerance), self.config.speck)
         depth = _depths(self.caster, points, side, tolerance)
         if not len(depth) or depth.max() <= tolerance:
             return None
         return points[int(np.argmax(depth))]
+
+    @cached_property
+    def holes(self) -> tuple[BoardHole, ...]:
+        """The holes through the board that it is, or that it was cut from.
+
+        What was cut from a surface, or is one shell of several, may be open where the whole is not: it is not asked.
+        """
+        if self.known is not None:
+            return self.known
+        is_closed = self.is_whole or self.solid is not None
+        return holes_through(self.mesh, self.config.hole, self.config.window, self.config.board) if is_closed else ()
+
+    @property
+    def passed_on(self) -> tuple[BoardHole, ...] | None:
+        """The holes that what is cut from it has; None: each solid is asked for its own."""
+        if self.known is not None:
+            return self.known
+        is_known = (self.is_whole or self.solid is not None) and is_board(self.mesh, self.config.board)
+        return self.holes if is_known else None
 
     @cached_property
     def area(self) -> float:
@@ -120,7 +148,10 @@ class _Piece:
         if self.solid is not None:
             return [self._of_solid(part) for part in self.solid.decompose()]
         parts = ((part, _solid(part) if closed else None) for part, closed in tidy_parts(self.mesh))
-        return [_Piece(part, self.config) if solid is None else self._of_solid(solid) for part, solid in parts]
+        return [
+            _Piece(part, self.config, known=self.passed_on) if solid is None else self._of_solid(solid)
+            for part, solid in parts
+        ]
 
     def halves(self, axis: int, sign: float, position: float) -> tuple["_Piece", "_Piece"]:
         """Returns what lies beyond a plane across `axis` (on the side of `sign`), and the rest."""
@@ -131,13 +162,14 @@ class _Piece:
             return self._of_solid(beyond), self._of_solid(rest)
         origin = np.abs(normal) * position
         beyond, rest = halves_of(self.mesh, normal, origin)
-        return _Piece(beyond, self.config), _Piece(rest, self.config)
+        known = self.passed_on
+        return _Piece(beyond, self.config, known=known), _Piece(rest, self.config, known=known)
 
     def _of_solid(self, solid: Any) -> "_Piece":
         made = solid.to_mesh()
         vertices = np.asarray(made.vert_properties, dtype=np.float64)[:, :3].reshape(-1, 3)
         faces = np.asarray(made.tri_verts, dtype=np.int64).reshape(-1, 3)
-        return _Piece(TriangleMesh(vertices, faces), self.config, solid)
+        return _Piece(TriangleMesh(vertices, faces), self.config, solid, self.passed_on)
 
 
 def _solid(mesh: TriangleMesh) -> Any:
@@ -235,9 +267,10 @@ def _cut(piece: _Piece, pit: Vec3) -> list[_Piece]:
 def _walls(piece: _Piece, pit: Vec3) -> Iterator[tuple[int, float, float]]:
     """Yields axis, sense and position of each wall seen from the pit, the largest faces of the box first.
 
-    Cuts at the corners nearest to the pit along the long sides come last: where no wall is seen, as in the opening of a
-    sheet, they are its edges.
+    The edges of a hole through a board come before them. Cuts at the corners nearest to the pit along the long sides
+    come last: where no wall is seen, as in the opening of a sheet, they are its edges.
     """
+    yield from (wall for hole in piece.holes if hole.middle is pit for wall in hole.edges(piece.mesh.box))
     seen = _looks(piece.caster, pit[None])[0]
     size = piece.mesh.box.size
     order = sorted(range(6), key=lambda k: float(size[k // 2]))  # the face across a short side is large

@@ -201,7 +201,8 @@ def add_addition_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--interior",
         metavar="WHAT",
-        help="shelves and dividers: none, predicted, auto, or numbers per compartment like shelves=2,dividers=1 "
+        help="shelves and dividers: none, predicted, auto, or numbers per compartment like shelves=2,dividers=1; "
+        "shelves=3,angle=20deg slope down to the front, carousel=2 are round trays that turn "
         "(default: predicted)",
     )
     group.add_argument(

@@ -207,3 +207,15 @@ def _is_sliver(triangles: np.ndarray) -> np.ndarray:
 
 def _areas(triangles: np.ndarray) -> np.ndarray:
     return np.linalg.norm(_cross(triangles[:, :, :3]), axis=1) / 2
+
+
+def few_corners(points: Points, most: int) -> Float[np.ndarray, "k 3"]:
+    """Returns at most `most` of the points: those that lie farthest out along directions spread evenly."""
+    if len(points) <= most:
+        return points
+    turn = np.arange(most) * np.pi * (3.0 - np.sqrt(5.0))
+    height = 1.0 - (2.0 * np.arange(most) + 1.0) / most
+    ring = np.sqrt(1.0 - height**2)
+    directions = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])
+    size = np.maximum(np.ptp(points, axis=0), 1e-9)
+    return points[np.unique(np.argmax((directions / size) @ points.T, axis=1))]

@@ -10,10 +10,10 @@ from math import pi
 
 import numpy as np
 
-from grafu.articulation.articulated_object import ArticulatedObject, Visual
+from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
 from grafu.asset.names import words
 from grafu.asset.part import Asset
-from grafu.geometry.arrays import vec3
+from grafu.geometry.arrays import Points, Vec3, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.joints.config import SmallPartConfig
@@ -147,18 +147,26 @@ def _turntables(still: Sequence[Piece], config: SmallPartConfig) -> Iterator[Joi
             continue
         box = piece.mesh.box
         below = Box(box.low - config.stout * np.array([0.0, 0.0, table.diameter]), box.high).grown(config.touching)
-        ring = tuple(p.name for p in still if p is not piece and p.is_part and _is_in(p.mesh.box, below))
+        reach = table.diameter / 2 + config.touching
+        inside = (p for p in still if p is not piece and p.is_part and _is_in(p.mesh.box, below))
+        ring = tuple(p.name for p in inside if _farthest(p.mesh.vertices, table.axis.point) <= reach)
         yield JointRequest(piece.name, JointType.CONTINUOUS, Axis(table.axis.point, _UP), SOURCE, 2 * pi, attached=ring)
+
+
+def _farthest(points: Points, middle: Vec3) -> float:
+    """Returns how far points are at most from an upright line through a point."""
+    return float(np.linalg.norm(points[:, :2] - middle[:2], axis=1).max(initial=0.0))
 
 
 def _turntable(piece: Piece, config: SmallPartConfig) -> Round | None:
     """Returns a piece that is called a tray or a turntable, round about the upright axis; else None.
 
-    It is flat, unless it is called a carousel: that may have trays above each other.
+    It is flat, unless it is called a carousel: that may have trays above each other, and may have been added.
     """
     names = set(words(piece.name))
     called = piece.visual.label is PartLabel.DRAWER or _TURNTABLES & names
-    table = round_about(piece, 2, config) if called and piece.is_part else None
+    may_turn = piece.is_part or (piece.visual.role is VisualRole.ADDED and _CAROUSELS & names)
+    table = round_about(piece, 2, config) if called and may_turn else None
     is_flat = table is not None and table.length <= config.stout * table.diameter
     return table if is_flat or _CAROUSELS & names else None
 

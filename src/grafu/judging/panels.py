@@ -23,6 +23,7 @@ from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, heading_of, merge_meshes
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, rotation_matrix
+from grafu.judging.outlined import PrismPanel, is_plain
 from grafu.judging.piece import JudgedBody, JudgedPart, JudgedPiece
 from grafu.vocabulary import PartLabel
 
@@ -176,8 +177,14 @@ def panel_faults(piece: JudgedPiece, panels: Collection[str], skin: float) -> li
 
 
 def _loose_ends(panel: JudgedPart, others: Mapping[str, TriangleMesh], reach: float) -> Sequence[str]:
-    """A panel rests with the front and the back half of both its ends: of one pair of opposite sides at least."""
+    """A panel rests with the front and the back half of both its ends: of one pair of opposite sides at least.
+
+    One of another outline rests with enough of its edge.
+    """
     mesh = panel.mesh
+    if not is_plain(mesh):
+        reached = _manager(others, mesh, reach)
+        return [] if PrismPanel(mesh).is_carried(reached, reach) else ["edge"]
     thin = 2 if panel.label is PartLabel.SHELF else int(np.argmin(mesh.box.size))
     manager = _manager(others, mesh, reach)
     loose: dict[int, list[str]] = {}
@@ -237,6 +244,8 @@ def _manager(others: Mapping[str, TriangleMesh], near: TriangleMesh, reach: floa
 
 
 def _shrunk(mesh: TriangleMesh, skin: float) -> trimesh.Trimesh:
+    if not is_plain(mesh):
+        return PrismPanel(mesh).shrunk(skin)
     size = mesh.box.size
     factor = np.maximum(size - 2 * skin, 0.1 * size) / size
     return trimesh.Trimesh(mesh.box.center + (mesh.vertices - mesh.box.center) * factor, mesh.faces, process=False)

@@ -54,7 +54,8 @@ def choose_additions(
         drawer_boxes: whether a drawer that is only a front gets a box.
         compartments: whether what is solid behind doors and drawers gets compartments.
         door_frame: whether a door of a building that is drawn alone gets a frame.
-        interior: `none`, `auto`, `predicted`, or counts for each compartment such as `shelves=2,dividers=1`.
+        interior: `none`, `auto`, `predicted`, or counts for each compartment such as `shelves=2,dividers=1`,
+            `shelves=3,angle=20deg` of shelves that slope down to the front, or `carousel=2`, round trays that turn.
         carcass: whether missing backs and bottoms are added.
 
     Raises:

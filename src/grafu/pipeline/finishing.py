@@ -3,6 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
+from grafu.additions.interior.carousel import CAROUSEL
 from grafu.additions.step import StepResult
 from grafu.asset.part import Asset
 from grafu.joints.config import RealizationConfig
@@ -32,8 +33,14 @@ def with_small_joints_of(
     small: WantedSmallParts,
     cache: Cache = NO_CACHE,
 ) -> Realized:
-    """Returns what was realized with all that was added on its links, and `small` parts moving by themselves."""
+    """Returns what was realized with all that was added on its links, and `small` parts moving by themselves.
+
+    Added carousels are among these, but where the user wants none.
+    """
     realized = replace(realized, object=fitted_object(realized.object, fittings))
+    added = frozenset(addition.part.id for addition in fittings.additions if addition.style == CAROUSEL)
+    if added and small.chosen is not None:
+        small = WantedSmallParts(True, small.chosen | added)
     if not small.any:  # as in most runs
         return realized
     from grafu.joints.small_joints import with_small_parts

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
+from jaxtyping import Bool
 
 from grafu.additions.carcass.bays import Bay, FrontsView, find_bays, find_views
 from grafu.additions.carcass.config import CarcassConfig
@@ -95,13 +96,29 @@ def _is_carcass(bay: Bay, scene: Scene, config: CarcassConfig) -> bool:
 def _back_covered(view: FrontsView, bay: Bay, behind: float) -> float:
     """Returns the fraction of a bay's back at which something stands, seen through the fronts.
 
-    It is looked for from this fraction of the bay's depth on.
+    It is looked for from this fraction of the bay's depth on. A hole in a back, for cables, belongs to that back.
     """
     (x0, y0, z0), (x1, _, z1) = bay.low.tolist(), bay.high.tolist()
     x, z = (a.ravel() for a in np.meshgrid(x0 + RAY_GRID * (x1 - x0), z0 + RAY_GRID * (z1 - z0), indexing="ij"))
     y = y0 + behind * (float(bay.high[1]) - y0)
     hits = view.cast_through(np.column_stack([x, np.full(x.size, y), z]), vec3(0.0, 1.0, 0.0))
-    return float(np.isfinite(hits).mean())
+    return float(_without_holes(np.isfinite(hits).reshape(len(RAY_GRID), -1)).mean())
+
+
+def _without_holes(covered: Bool[np.ndarray, "x z"]) -> Bool[np.ndarray, "x z"]:
+    """Returns what is covered, and what that encloses."""
+    outside = np.pad(np.zeros_like(covered), 1, constant_values=True)
+    free = np.pad(~covered, 1, constant_values=True)
+    for _ in range(covered.size):
+        grown = outside.copy()
+        for axis in (0, 1):
+            grown |= np.roll(outside, 1, axis) | np.roll(outside, -1, axis)
+        grown &= free
+        if (grown == outside).all():
+            break
+        outside = grown
+    inner: Bool[np.ndarray, "x z"] = ~outside[1:-1, 1:-1]
+    return inner
 
 
 def _bottom_covered(view: FrontsView, bay: Bay, config: CarcassConfig) -> float:

@@ -26,12 +26,16 @@ FLAT = 1e-3
 @final
 @dataclass(frozen=True, slots=True)
 class Arrangement:
-    """How many panels one compartment gets; `shelf_at` are heights in metres instead of equal spaces."""
+    """How many panels one compartment gets; `shelf_at` are heights in metres instead of equal spaces.
+
+    Shelves slope down to the front by `angle` radians.
+    """
 
     shelves: int = 0
     dividers: int = 0
     shelf_at: tuple[float, ...] = ()
     divider_at: tuple[float, ...] = ()
+    angle: float = 0.0
 
 
 def stacked(compartments: Sequence[Compartment], sizes: Sizes, config: InteriorConfig) -> list[list[int]]:

@@ -45,14 +45,63 @@ class RoomConfig:
     """Fraction of the hits on a face that makes a part one of its walls."""
     before: float = 0.05
     """Fraction of a compartment's sides by which a moving body overlaps them at least to be in its opening."""
+    arm: float = 0.8
+    """Fraction of the face between two compartments that is free at least for them to be arms of one."""
+    arm_cells: int = 16
+    """Cells between two such compartments at most: a post in the corner draws one back."""
     most: int = 60
     """Most compartments of one object; a pigeonhole desk has fewer."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
         require_ratios(
-            self, "thin", "frame", "walled", "taken", "closed_cells", "closed", "door", "drawer", "wall_part", "before"
+            self,
+            "thin",
+            "frame",
+            "walled",
+            "taken",
+            "closed_cells",
+            "closed",
+            "door",
+            "drawer",
+            "wall_part",
+            "before",
+            "arm",
         )
+
+
+@final
+@dataclass(frozen=True)
+class CarouselConfig:
+    """The sizes of a carousel: round trays with rims on a post.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    post: float = 0.0125
+    """Radius of the post."""
+    floor: float = 0.008
+    """Thickness of a tray."""
+    rim: float = 0.05
+    """Height of its rim above its underside, ..."""
+    wall: float = 0.006
+    """... and how thick that is."""
+    lift: float = 0.02
+    """From the floor of a compartment to the lowest tray."""
+    play: float = 0.001
+    """Between the post and what is above and below it."""
+    clear: float = 0.008
+    """Between a tray and the walls around it."""
+    least_radius: float = 0.12
+    """Of a tray; smaller ones hold nothing."""
+    least_pitch: float = 0.12
+    """Smallest distance between two trays: a rim and a cup."""
+    tried: tuple[float, ...] = (1.0, 0.94, 0.88, 0.82, 0.76)
+    """Fractions of the largest radius that are tried until no door is stopped (ratios)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *(name for name in self.__dataclass_fields__ if name != "tried"))
 
 
 @final
@@ -114,18 +163,26 @@ class InteriorConfig(ShortRepr):
     """Fraction of the rays towards the back that make it a wall."""
     askew_cells: float = 12.0
     """Cells beyond a compartment's side up to which a panel's end follows a wall that runs askew."""
+    wider: float = 0.05
+    """Fraction by which a room is larger at a panel's level than its box before the panel takes the room's outline."""
+    slit: float = 0.012
+    """Width of slits and tongues that an outline leaves out: gaps around doors, a groove."""
+    rests: float = 0.35
+    """Fraction of such an outline that lies at walls at least."""
     poses: int = 41
     """Poses from closed to wide open in which a panel must be clear of what moves."""
     depth: float = RealizationConfig().depth
     """How deep a panel may touch something, as a fraction of the object's largest side: as in the sweeps of joints."""
+    carousel: CarouselConfig = CarouselConfig()
+    """The sizes of carousels."""
     rooms: RoomConfig = RoomConfig()
     """What makes free space a compartment."""
 
     def __post_init__(self) -> None:
         lengths = ("thickness", "least_side", "least_pitch", "shelf_pitch", "divider_pitch", "hanging_height", "touch")
         require_positive(self, *lengths, "most_panels", "cells", "hanging_depth", "hat", "between", "hint_reach")
-        require_positive(self, "doors_pitch", "low", "slim", "insets", "askew_cells", "poses", "depth")
-        require_ratios(self, "alike", "back_ratio")
+        require_positive(self, "doors_pitch", "low", "slim", "insets", "askew_cells", "poses", "depth", "slit", "wider")
+        require_ratios(self, "alike", "back_ratio", "rests")
         require_not_negative(self, "inset")
         for name in ("deepest_inset", "carried", "wall_ratio"):
             if not 0 <= getattr(self, name) <= 1:

@@ -3,31 +3,30 @@
 A panel that finds no place is refused with the reason; what stands is never changed. It finds no compartments.
 """
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import radians, tan
 from typing import final
-
-import numpy as np
 
 from grafu.additions.interior.arrangement import (
     Arrangement,
     by_size,
-    most_that_fit,
     placed_hints,
     rowed,
     shared_out,
-    spaced,
     stacked,
 )
+from grafu.additions.interior.carousel import carousels_in
 from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
+from grafu.additions.interior.making import Panel, PanelMaker, named_in
 from grafu.additions.interior.occupied import is_drawer
-from grafu.additions.interior.panels import Clearing, PanelPlace, WallRays, clearing_of, cut_panel, moved_to
+from grafu.additions.interior.outline import FreeSpace
+from grafu.additions.interior.panels import WallRays, clearing_of
 from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Addition, PanelHint, added_part, free_ids
 from grafu.geometry.box import Box
-from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
@@ -41,15 +40,6 @@ class Furnished:
 
     additions: tuple[Addition, ...] = ()
     refused: tuple[Refusal, ...] = ()
-
-
-@final
-@dataclass(frozen=True)
-class _Panel:
-    compartment: int
-    label: PartLabel
-    mesh: TriangleMesh
-    place: PanelPlace
 
 
 def furnish(
@@ -78,24 +68,29 @@ def furnish(
     why = f"there is no such compartment, only {len(compartments)}"
     refused += [refused_panel(k, None, Reason.NO_COMPARTMENT, why) for k in beyond]
     chosen = {k: choice for k, choice in chosen.items() if k not in beyond}
+    carousels: list[Addition] = []
+    if request.trays:
+        carousels, unfit = carousels_in(compartments, request.trays, scene, config, chosen)
+        refused += unfit
     if all(arrangement == Arrangement() for arrangement in wanted):
-        return Furnished((), tuple(refused))
+        return Furnished(tuple(carousels), tuple(refused))
     clearing, walls = clearing_of(scene, config), _walls(compartments, scene, config.askew_cells * sizes.cell)
-    panels: list[_Panel] = []
+    space = FreeSpace(scene, compartments, sizes, config)
+    panels: list[Panel] = []
     for number, arrangement in enumerate(wanted):
         own = _own_sizes(chosen.get(number), sizes)
-        maker = _Maker(number, compartments[number], walls, clearing, own, config)
+        maker = PanelMaker(number, compartments[number], walls, clearing, space, own, config)
         for outcome in maker.panels(arrangement):
-            if isinstance(outcome, _Panel):
+            if isinstance(outcome, Panel):
                 panels.append(outcome)
             else:
                 refused.append(outcome)
     refused += _fewer_than_chosen(panels, chosen, {one.part for one in refused})
-    return Furnished(_additions(panels, compartments, request, scene), tuple(refused))
+    return Furnished((*carousels, *_additions(panels, compartments, request, scene)), tuple(refused))
 
 
 def _fewer_than_chosen(
-    panels: Sequence[_Panel],
+    panels: Sequence[Panel],
     chosen: Mapping[int, CompartmentChoice],
     told: Collection[str],
 ) -> list[Refusal]:
@@ -108,7 +103,7 @@ def _fewer_than_chosen(
         found += [
             refused_panel(number, label, Reason.FEWER, f"there is room for {made[label]} only")
             for label, count in wanted.items()
-            if made[label] < count and _named(number, label) not in told
+            if made[label] < count and named_in(number, label) not in told
         ]
     return found
 
@@ -132,12 +127,7 @@ def _walls(compartments: Sequence[Compartment], scene: Scene, margin: float) -> 
 
 def refused_panel(compartment: int | None, label: PartLabel | None, reason: Reason, why: str) -> Refusal:
     """Returns the refusal of panels of a kind (None: of any) in a compartment (None: in all)."""
-    return Refusal(_named(compartment, label), reason, why, Asked.INTERIOR)
-
-
-def _named(compartment: int | None, label: PartLabel | None) -> str:
-    what = "interior" if label is None else label.value
-    return what if compartment is None else f"{what} of compartment {compartment + 1}"
+    return Refusal(named_in(compartment, label), reason, why, Asked.INTERIOR)
 
 
 def why_inapplicable(scene: Scene, config: InteriorConfig) -> str:
@@ -168,6 +158,7 @@ def _counted(
     compartments: Sequence[Compartment], request: InteriorRequest, sizes: Sizes, config: InteriorConfig
 ) -> tuple[list[Arrangement], list[Refusal]]:
     refused: list[Refusal] = []
+    angle = radians(request.angle_deg)
     shelves, dividers = [0] * len(compartments), [0] * len(compartments)
     for label, groups, counts, wanted in (
         (PartLabel.SHELF, stacked(compartments, sizes, config), shelves, request.shelves),
@@ -181,101 +172,20 @@ def _counted(
                 continue
             axes = [2 if label is PartLabel.SHELF else compartments[k].side_axis for k in able]
             lengths = [float(compartments[k].box.size[a]) for k, a in zip(able, axes, strict=True)]
+            if label is PartLabel.SHELF:
+                drops = (tan(angle) * float(compartments[k].box.size[compartments[k].depth_axis]) for k in able)
+                lengths = [length - drop for length, drop in zip(lengths, drops, strict=True)]
             given = shared_out(lengths, len(able) - 1, wanted, sizes.thickness, sizes.least_pitch)
             for k, count in zip(able, given, strict=True):
                 counts[k] = count
             if able and sum(given) < wanted - (len(able) - 1):
                 why = f"there is room for {sum(given) + len(able) - 1} only, with {sizes.least_pitch:.2f} m between"
                 refused.append(refused_panel(able[0], label, Reason.FEWER, why))
-    return [Arrangement(s, d) for s, d in zip(shelves, dividers, strict=True)], refused
-
-
-@final
-class _Maker:
-    """Cuts the panels of one compartment, one after another; not a value."""
-
-    def __init__(
-        self,
-        number: int,
-        compartment: Compartment,
-        walls: WallRays,
-        clearing: Clearing,
-        sizes: Sizes,
-        config: InteriorConfig,
-    ) -> None:
-        self._number = number
-        self._whole = compartment
-        self._clearing = clearing
-        self._sizes = sizes
-        self._config = config
-        self._walls = walls
-
-    def panels(self, wanted: Arrangement) -> Iterator[_Panel | Refusal]:
-        """Yields the dividers, then the shelves between them, or why one is missing."""
-        dividers = []
-        for outcome in self._row(self._whole, PartLabel.DIVIDER, wanted.dividers, wanted.divider_at):
-            if isinstance(outcome, _Panel):
-                dividers.append(outcome)
-            yield outcome
-        for panel in dividers:
-            self._walls = self._walls.and_also(panel.mesh)
-        for cell in _between(self._whole, [panel.mesh.box for panel in dividers]):
-            yield from self._row(cell, PartLabel.SHELF, wanted.shelves, wanted.shelf_at)
-
-    def _row(
-        self, compartment: Compartment, label: PartLabel, count: int, at: Sequence[float]
-    ) -> Iterator[_Panel | Refusal]:
-        """Yields panels of one kind in one compartment: at given middles, else `count` equally spaced."""
-        if not (count or at):
-            return
-        axis = PanelPlace(compartment, label, 0.0, 0.0).stack
-        low, high = float(compartment.box.low[axis]), float(compartment.box.high[axis])
-        count = min(count, most_that_fit(high - low, self._sizes.thickness, self._sizes.least_pitch))
-        middles = list(at) or spaced(low, high, count, self._sizes.thickness)
-        room = min(np.diff([low, *middles, high])) if middles else 0.0
-        for middle in middles:
-            made = self._tried(PanelPlace(compartment, label, middle, self._sizes.inset), float(room))
-            if isinstance(made, Refusal):
-                yield made.of(_named(self._number, label), Asked.INTERIOR)
-            else:
-                self._clearing.add(f"{label.value}", made.mesh)
-                yield made
-
-    def _tried(self, place: PanelPlace, room: float) -> _Panel | Refusal:
-        """Returns the panel at the place or near it, or why there is none near it."""
-        depth = float(place.compartment.box.size[place.compartment.depth_axis])
-        deepest = max(self._config.deepest_inset * depth, self._sizes.inset)
-        first: Refusal | None = None
-        for inset in np.linspace(self._sizes.inset, deepest, self._config.insets):
-            for nudge in self._config.nudges:
-                tried = moved_to(place, place.at + nudge * room, float(inset))
-                mesh = cut_panel(tried, self._walls, self._sizes, self._config)
-                if isinstance(mesh, Refusal):
-                    first = first or mesh
-                    continue
-                blocker = self._clearing.blocker(mesh)
-                if not blocker:
-                    return _Panel(self._number, place.label, mesh, tried)
-                first = first or Refusal("", Reason.IN_THE_WAY, f"`{blocker}` is in its way")
-        return first or Refusal("", Reason.NO_ROOM)
-
-
-def _between(compartment: Compartment, dividers: list[Box]) -> list[Compartment]:
-    """Returns the parts of a compartment that dividers leave (the whole, without any)."""
-    axis = compartment.side_axis
-    found = []
-    low = compartment.box.low.copy()
-    for divider in sorted(dividers, key=lambda box: float(box.low[axis])):
-        high = compartment.box.high.copy()
-        high[axis] = divider.low[axis]
-        found.append(replace(compartment, box=Box(low, high)))
-        low = low.copy()
-        low[axis] = divider.high[axis]
-    return [*found, replace(compartment, box=Box(low, compartment.box.high))]
+    return [Arrangement(s, d, angle=angle) for s, d in zip(shelves, dividers, strict=True)], refused
 
 
 def _additions(
-    panels: list[_Panel], compartments: Sequence[Compartment], request: InteriorRequest, scene: Scene
+    panels: list[Panel], compartments: Sequence[Compartment], request: InteriorRequest, scene: Scene
 ) -> tuple[Addition, ...]:
     """Returns the panels as parts with ids of their own that look like the walls around them."""
     found: list[Addition] = []

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import final
 
 import numpy as np
+from jaxtyping import Bool, Float
 
 from grafu.additions.interior.config import RoomConfig, Sizes
 from grafu.articulation.articulated_object import Visual
@@ -22,6 +23,10 @@ from grafu.vocabulary import PartLabel
 
 POINT_SPACING = 0.9
 """Cells between points on a surface: a board along the axes has a point in each of its cells."""
+ASKEW_SPACING = 0.45
+"""Cells between points on a triangle of which fewer than two sides run along the axes."""
+ALONG = 0.9999
+"""Cosine between a side and an axis from which on it runs along it."""
 
 
 @final
@@ -142,8 +147,18 @@ def _cells(meshes: list[TriangleMesh], origin: Vec3, cell: float, shape: tuple[i
     triangles = [mesh.triangles for mesh in meshes if len(mesh.faces)]
     if not triangles:
         return np.zeros(shape, dtype=bool)
-    points = points_on(np.concatenate(triangles), POINT_SPACING * cell)
-    return cells_met(points, origin, cell, (shape[0], shape[1], shape[2]))
+    whole = np.concatenate(triangles)
+    askew = _is_askew(whole)
+    rows = [points_on(whole[~askew], POINT_SPACING * cell), points_on(whole[askew], ASKEW_SPACING * cell)]
+    return cells_met(np.concatenate(rows), origin, cell, (shape[0], shape[1], shape[2]))
+
+
+def _is_askew(triangles: Float[np.ndarray, "n 3 3"]) -> Bool[np.ndarray, " n"]:
+    """Whether fewer than two sides of each triangle run along the axes: its points then miss cells between them."""
+    sides = np.abs(np.roll(triangles, -1, axis=1) - triangles)
+    along = sides.max(axis=2) >= ALONG * np.linalg.norm(sides, axis=2)
+    askew: Bool[np.ndarray, " n"] = along.sum(axis=1) < 2
+    return askew
 
 
 def _slices(box: Box, origin: Vec3, cell: float) -> tuple[slice, ...]:

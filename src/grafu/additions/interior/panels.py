@@ -33,6 +33,13 @@ EDGE_MARGIN = 0.02
 EDGE_LEVELS = (-0.98, 0.0, 0.98)
 """Levels at which a panel's edges are looked for, as fractions of half its thickness."""
 
+ALIKE = 0.9
+"""Fraction of the smaller box's sides by which two panels overlap that stand in one place."""
+CORNERS = 8
+"""Of a panel that four edges bound."""
+FLAT = 1e-6
+"""Fraction of a panel's thickness by which its corners may lie off its faces."""
+
 
 @final
 class Clearing:
@@ -42,20 +49,24 @@ class Clearing:
         self._scene = scene
         self._depth = depth
         self._poses = poses
-        self._panels: list[Obstacle] = []
+        self._panels: list[tuple[Obstacle, bool]] = []
 
     def add(self, name: str, mesh: TriangleMesh) -> None:
         """Makes a panel stand in the way of those that follow."""
-        self._panels.append(Obstacle(name, MeshCollider(mesh)))
+        self._panels.append((Obstacle(name, MeshCollider(mesh)), _is_plain(mesh)))
 
     def blocker(self, mesh: TriangleMesh) -> str:
         """Returns the id of something that a panel would cut into or stop along its path; empty: it stands free."""
-        for other in self._panels:  # alike and in one place, two panels would not cut each other's surface
-            if (mesh.box.axis_gaps(other.collider.box) < -self._depth).all():
+        is_plain = _is_plain(mesh)
+        for other, is_other_plain in self._panels:  # alike and in one place, two would not cut each other's surface
+            gaps = mesh.box.axis_gaps(other.collider.box)
+            least = np.minimum(mesh.box.size, other.collider.box.size)
+            deepest = self._depth if is_plain and is_other_plain else ALIKE * least
+            if (gaps < -deepest).all():
                 return other.id
         body = SweptBody(mesh, self._depth)
         body.place(np.eye(4))
-        others = [*self._panels, *self._at_rest]
+        others = [*(panel for panel, _ in self._panels), *self._at_rest]
         near = [*in_the_way(self._scene.still_obstacles, mesh.box), *in_the_way(others, mesh.box)]
         met = body.penetrated([obstacle.collider for obstacle in near])
         if met:
@@ -90,6 +101,14 @@ class Clearing:
         return False
 
 
+def _is_plain(mesh: TriangleMesh) -> bool:
+    """Whether a panel has two level faces of four corners: what its box holds is the panel."""
+    across = mesh.vertices[:, int(np.argmin(mesh.box.size))]
+    low, high = float(across.min()), float(across.max())
+    ends = np.minimum(across - low, high - across)
+    return len(mesh.vertices) == CORNERS and bool((ends < FLAT * (high - low)).all())
+
+
 def clearing_of(scene: Scene, config: InteriorConfig) -> Clearing:
     """Returns the scene prepared for panels."""
     return Clearing(scene, config.depth * scene.extent, config.poses)
@@ -101,13 +120,14 @@ class PanelPlace:
     """Where a panel is to be.
 
     `at` is its middle along the axis that panels are stacked on, `inset` how far its front edge stands back from the
-    opening, metres.
+    opening, metres. A shelf's front edge lies lower by `angle` radians, its middle at `at`.
     """
 
     compartment: Compartment
     label: PartLabel
     at: float
     inset: float
+    angle: float = 0.0
 
     @property
     def stack(self) -> int:

@@ -10,7 +10,7 @@ A cell is inside when walls stand on both sides, and what is below and above clo
 needs. So the space under a table is not inside (no floor, no door), nor that between legs (no walls).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple, final
 
@@ -24,6 +24,7 @@ from grafu.geometry.free_space import Bounds, Grid, OneBox, cell_boxes, maximal_
 # Faces as in `Box.face_center`: -X, +X, -Y, +Y, -Z, +Z.
 FRONTS = (2, 3, 0, 1)  # openings that shelves and dividers may face, the usual one first
 LID = 5
+LEAST_WALLS = 3  # of a wing, beside its floor and ceiling
 
 
 class _Closed(NamedTuple):
@@ -45,6 +46,21 @@ def enclosed_cells(taken: Taken) -> dict[str, Grid]:
         "y": taken.free & _opens_along(closed, 1),
         "x": taken.free & _opens_along(closed, 0),
     }
+
+
+def inside_cells_of(taken: Taken) -> Grid:
+    """Returns the free cells inside furniture, whichever way it opens, in rooms of any shape.
+
+    So also before an angled door, and in the wing of a corner piece, which opens to the side: floor and ceiling stand
+    there, and three walls, or a door beside a wall.
+    """
+    still = [_met(taken.walls, face) for face in range(6)]
+    doors = [_met(taken.doors, face) for face in range(4)]
+    met = [wall | door for wall, door in zip(still[:4], doors, strict=True)]
+    walls = np.sum(still[:4], axis=0, dtype=np.int8) >= LEAST_WALLS
+    surrounded = np.logical_and.reduce([*met, still[4] | still[5]])
+    winged = np.logical_and.reduce([walls, still[4], still[5]])
+    return np.logical_or.reduce([taken.free & (surrounded | winged), *enclosed_cells(taken).values()])
 
 
 def _opens_along(closed: _Closed, axis: int) -> Grid:
@@ -129,6 +145,53 @@ def find_rooms(taken: Taken, sizes: Sizes, config: RoomConfig) -> list[tuple[str
             low, high = taken.origin + box * taken.cell
             found.append((opens, Box(low, high)))
     return found
+
+
+def odd_rooms(taken: Taken, found: Sequence[Box], sizes: Sizes, config: RoomConfig) -> list[tuple[int, Box]]:
+    """Returns for each closed space that holds no room yet its largest box (metres), and the face that it opens to.
+
+    Such are rooms under a slope or before a round wall: no box in them has walls on both sides.
+    """
+    from scipy.ndimage import find_objects, label  # local: most commands need no interiors
+
+    steps = max(int(sizes.least_side / sizes.cell), 2)
+    inside = inside_cells_of(taken)
+    names, count = label(inside)
+    large = opened(inside, (steps,) * 3)
+    for box in found:
+        ends = np.round((np.stack([box.low, box.high]) - taken.origin) / taken.cell)
+        held = np.unique(names[_slices(ends)])
+        large &= ~np.isin(names, held[held > 0])
+    left = np.unique(names[large])
+    rooms = []
+    for number, region in enumerate(find_objects(names, count), start=1):
+        opening = _odd_opening(names == number, taken.walls, config) if number in left else None
+        if opening is None:
+            continue
+        start = np.array([s.start for s in region], dtype=np.float64)
+        own = large[region] & (names[region] == number)
+        least = np.full(3, float(steps))
+        whole = np.stack([np.zeros(3), np.array(own.shape, dtype=np.float64)])
+        empty = maximal_empty_boxes(whole, cell_boxes(~own).astype(np.float64), least)
+        if len(empty):
+            low, high = (
+                taken.origin + (empty[np.argmax(np.prod(empty[:, 1] - empty[:, 0], axis=1))] + start) * taken.cell
+            )
+            rooms.append((opening, Box(low, high)))
+    return rooms
+
+
+def _odd_opening(cells: Grid, walls: Grid, config: RoomConfig) -> int | None:
+    """Returns the level face that a space opens to if it is closed on all others."""
+    closed = []
+    for face in range(6):
+        axis, is_high = divmod(face, 2)
+        step = 1 if is_high else -1
+        last = cells & ~np.roll(cells, -step, axis=axis)
+        closed.append(float(np.roll(walls, -step, axis=axis)[last].mean()) if last.any() else 0.0)
+    opening = int(np.argmin(closed[:4]))
+    others = [ratio for face, ratio in enumerate(closed) if face != opening]
+    return opening if min(others) >= config.closed_cells > closed[opening] else None
 
 
 def _rooms_in(cells: Grid, opens: str, search: _Search) -> Iterator[OneBox]:

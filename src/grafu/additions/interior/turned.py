@@ -21,6 +21,9 @@ from grafu.geometry.mesh import heading_of
 from grafu.geometry.transform import from_rotation, invert, rotation_matrix, transform_points
 from grafu.scene.scene import Scene
 
+LEAST_STRAIGHT = 0.2
+"""Fraction of the upright area along a direction and across it at least: a round piece follows none."""
+
 
 @final
 @dataclass(frozen=True)
@@ -77,7 +80,7 @@ def _straight(scene: Scene) -> tuple[Mat4, Scene]:
 
 
 def _straightened(scene: Scene) -> tuple[Mat4, Scene]:
-    angle = heading_of(part.mesh for part in scene.static_parts)
+    angle = heading_of((part.mesh for part in scene.static_parts), least=LEAST_STRAIGHT)
     T = from_rotation(rotation_matrix(vec3(0.0, 0.0, 1.0), -angle))
     return T, _turned(scene, T) if angle else scene
 

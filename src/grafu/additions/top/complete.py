@@ -38,6 +38,7 @@ from grafu.additions.top.section import (
     without_block,
     without_slivers,
 )
+from grafu.additions.top.sloping import rim_and_slab
 from grafu.additions.top.views import Views, outer_body, views_of
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
@@ -128,6 +129,9 @@ def missing_top(
     metre = metre_on(float(Box.enclosing(p.box for p in parts).size.max()))
     views, coverage, basins = _seen(roles, config, metre)
     verdict = _judged(roles, views, coverage, config, metre, hint)
+    sloping = None if verdict.covered and coverage.level is not None else rim_and_slab(roles, config, metre)
+    if sloping is not None:
+        return _sloping(verdict, parts, roles, config, sloping)
     if verdict.covered:
         return verdict
     made = _slab(roles, views, coverage, basins, config, metre)
@@ -138,6 +142,20 @@ def missing_top(
     part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, outer_body(parts, roles, config))])
     style = config.shape if _is_rectangle(outline) else f"outline, {config.shape}"
     return replace(verdict, addition=Addition(part, verdict.why, style))
+
+
+def _sloping(
+    verdict: TopVerdict,
+    parts: Sequence[Part],
+    roles: Roles,
+    config: TopConfig,
+    made: tuple[str, TriangleMesh],
+) -> TopVerdict:
+    """Returns the verdict on furniture whose rim slopes, and the sloping top for it: why, and its mesh."""
+    why, mesh = made
+    (part_id,) = free_ids("top_panel", 1, {p.id for p in parts})
+    part = added_part(part_id, PartLabel.TOP_PANEL, [surface_like(mesh, outer_body(parts, roles, config))])
+    return replace(verdict, covered=False, ratio=0.0, why=why, addition=Addition(part, why, f"sloping, {config.shape}"))
 
 
 def _seen(roles: Roles, config: TopConfig, metre: float) -> tuple[Views, Coverage, tuple[Part, ...]]:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import radians
 from typing import Literal, final
 
+from grafu.additions.top.slope_config import SLOPE, SlopeConfig
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.visible import ShortRepr
 
@@ -283,15 +284,14 @@ class TopConfig(ShortRepr):
     metal: float = 0.5
     """Metallic fraction of a material from which on it is metal."""
     openings: OpeningConfig = OpeningConfig()
-    """Which openings speak for a missing top."""
     supports: SupportConfig = SupportConfig()
-    """What a top alone joined."""
+    """Which openings speak for a missing top; what it alone joined."""
     evidence: EvidenceConfig = EvidenceConfig()
     """What parts say in close calls."""
     outline: OutlineConfig = OutlineConfig()
-    """What carries a top, and its outline."""
+    slope: SlopeConfig = SLOPE
     cutouts: CutoutConfig = CutoutConfig()
-    """What a slab leaves free for what moves."""
+    """What carries a top, and its outline; when a sloping rim lacks one; what a slab leaves free for what moves."""
 
     def __post_init__(self) -> None:
         require_ratios(self, "recess_ratio", "gallery_ratio", "thickness_ratio", "coverage", "edge", "apart", "upright")
