@@ -12,7 +12,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.synth.noise.cutting import HANDLES_IN_PIECES, draw_cuts, draw_joined
+from grafu.synth.noise.cutting import HANDLES_IN_PIECES, draw_bare_drawers, draw_body, draw_cuts, draw_joined
 from grafu.synth.noise.distortion import draw_yaw
 from grafu.synth.noise.housing import draw_housing
 from grafu.synth.noise.loose_objects import LOOSE_OBJECTS
@@ -54,6 +54,7 @@ STYLES: Final[dict[str, ModellingStyle]] = {
     "game asset": ModellingStyle(0.12, 0.50, 0.05, 0.50, 0.15, 0.05, 0.25, 0.25, 0.0, (0.39, 0.24, 0.18, 0.19)),
     "scan": ModellingStyle(0.03, 0.10, 0.05, 0.60, 0.20, 0.10, 0.30, 0.05, 1.0, (0.25, 0.17, 0.18, 0.40)),
 }
+MERGED_MASKING: Final[Masking] = (0.2, 0.1, 0.1, 0.6)  # of cases in one part: fronts cut out of a mesh have no names
 # Fractions of labels for the four entries of a masking.
 LOST: Final = ((0.0, 0.0), (0.04, 0.2), (0.25, 0.7), (1.0, 1.0))
 
@@ -161,7 +162,8 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
     missing = tuple(dict.fromkeys((*_missing(rng, tidy, family), *(p.id for p in tidy.parts if p.id in absent))))
     kept = [p for p in tidy.parts if p.id not in missing]
     tops = JOINED_TOP if is_storage(tidy) and NO_TOP.get(family, 1.0) > NO_TABLE_TOP else 0.0
-    joined = draw_joined(rng, tidy, kept, style.joined, style.handles_joined, tops)
+    body = draw_body(rng, tidy, kept)
+    joined = body or draw_joined(rng, tidy, kept, style.joined, style.handles_joined, tops)
     free = [p for p in kept if not any(p.id in group.ids for group in joined)]
     density = pick(rng, DENSITY)
     return ModellingNoise(
@@ -169,7 +171,7 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         int(rng.integers(2**62)),
         loose_objects=_loose(rng, style, tidy, missing),
         joined=joined,
-        cuts=draw_cuts(rng, tidy, free, style.cuts),
+        cuts=(*draw_cuts(rng, tidy, free, style.cuts), *draw_bare_drawers(rng, tidy, bool(body))),
         faces=_faces(rng, style, kept),
         misfits=_misfits(rng, free, tidy.extent) if chance(rng, style.misfits) else (),
         ajar=_ajar(rng, tidy) if chance(rng, AJAR) else (),
@@ -178,7 +180,7 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         yaw=draw_yaw(rng),
         wording=draw_wording(rng),
         missing=missing,
-        masked=between(rng, LOST[int(rng.choice(4, p=style.masking))]),
+        masked=between(rng, LOST[int(rng.choice(4, p=MERGED_MASKING if body else style.masking))]),
         mislabelled=chance(rng, MISLABELLED),
         shuffled=chance(rng, SHUFFLED),
         density=density,
