@@ -13,6 +13,7 @@ from grafu.synth.pieces.riding import busy_in
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.vocabulary import PartLabel
 
+Masking = tuple[float, float, float, float]  # none, a few, many, all labels lost
 _CASE = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.TOP_PANEL, PartLabel.DIVIDER)
 # What is joined, by weight. 32052 has each pedestal's whole case as one back panel, and 22692 and 49182 have panels
 # with their mouldings in one.
@@ -37,6 +38,7 @@ BODY_NAMELESS = 0.6  # of those: the name of the whole piece is no label of the 
 BODY_HANDLES = 0.4  # of those: handles are within their fronts, as where the parts were cut out of one mesh
 LEAST_OF_BODY = 3  # still parts: fewer are in one part already, or nearly
 FRONTS_ALONE = 0.6  # of those: drawers are a front and nothing behind it
+BODY_MASKING: Final[Masking] = (0.2, 0.1, 0.1, 0.6)  # of those: what is cut out of a mesh has no name
 
 # A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
 HANDLES_IN_PIECES = 0.2  # of models: posts and plates of handles, where these have some, are parts as in CAD files
@@ -77,7 +79,7 @@ def draw_joined(
 
 
 def draw_body(rng: np.random.Generator, asset: Asset, parts: Sequence[Part]) -> tuple[Joined, ...]:
-    """Returns all still parts as one, for `BODY` of the models that open, and handles in their fronts for some of them."""
+    """Returns all still parts as one, for `BODY` of the models that open, and the handles of some in their fronts."""
     busy = busy_in(asset)
     still = [p for p in parts if p.id not in busy and p.carried_by is None]
     if len(still) < LEAST_OF_BODY or not asset.joints or not chance(rng, BODY):

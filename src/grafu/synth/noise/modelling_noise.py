@@ -63,7 +63,7 @@ class Joined:
 @final
 @dataclass(frozen=True, slots=True)
 class PartCut:
-    """One part in several, or less of it: its surfaces, planks, an edge strip apart, a drawer's box apart or left out."""
+    """One part in several: its surfaces, in planks, an edge strip or a drawer's box apart; or a front alone."""
 
     part: str
     kind: Literal["pieces", "planks", "edge strip", "box apart", "front alone"]
