@@ -14,6 +14,7 @@ from grafu.vocabulary import PartLabel
 
 TIDY = make_cabinet(Cabinet(layout=Stack((Door(shelves=1), Drawer()))))
 NEAT = ModellingNoise("clean cad")
+BODY = tuple(p.id for p in TIDY.parts if p.label.is_support)
 WALLS = ("side_panel_left", "side_panel_right", "back_panel")
 
 
@@ -36,6 +37,7 @@ DECISIONS = [
     replace(NEAT, joined=(Joined(("handle_1", "handle_2"), None),)),
     replace(NEAT, cuts=(PartCut("side_panel_left", "planks", count=3, axis=1), PartCut("shelf_1", "edge strip"))),
     replace(NEAT, cuts=(PartCut("drawer", "box apart"), PartCut("back_panel", "pieces"))),
+    replace(NEAT, joined=(Joined(BODY, PartLabel.MISC, named=False),), cuts=(PartCut("drawer", "front alone"),)),
     replace(NEAT, faces=(("sheet", ("back_panel", "bottom_panel")), ("doubled", ("door",)))),
     replace(NEAT, faces=(("loose", ("door",)), ("inverted", ("drawer",)), ("shells", ("top_panel", "drawer")))),
     replace(NEAT, misfits=(Misfit("door", (0.0, 0.004, 0.0)), Misfit("drawer", (0.003, 0.0, 0.0), grown=True))),

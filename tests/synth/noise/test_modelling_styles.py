@@ -8,6 +8,7 @@ import pytest
 
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import CellRow, Door, Drawer, Stack
+from grafu.synth.noise.cutting import BODY, BODY_MASKING, FRONTS_ALONE
 from grafu.synth.noise.distortion import TURNED
 from grafu.synth.noise.modelling_noise import ModellingNoise
 from grafu.synth.noise.modelling_styles import (
@@ -51,8 +52,18 @@ def test_styles_come_at_their_fractions() -> None:
 
 def test_maskings_are_distributions_and_labels_survive_in_about_half() -> None:
     assert all(sum(h.masking) == pytest.approx(1.0) for h in STYLES.values())
-    assert ratio([u.masked == 0 for u in draws()]) == pytest.approx(0.53, abs=0.04)
-    assert ratio([u.masked == 1 for u in draws()]) == pytest.approx(0.10, abs=0.03)
+    whole = [(1 - BODY) * 0.53 + BODY * BODY_MASKING[0], (1 - BODY) * 0.10 + BODY * BODY_MASKING[3]]
+    assert ratio([u.masked == 0 for u in draws()]) == pytest.approx(whole[0], abs=0.03)
+    assert ratio([u.masked == 1 for u in draws()]) == pytest.approx(whole[1], abs=0.02)
+
+
+def test_drawers_that_are_fronts_alone_stand_before_a_case_in_one_part_and_seldom_have_labels() -> None:
+    alone = [u for u in draws() if any(cut.kind == "front alone" for cut in u.cuts)]
+    still = {p.id for p in TIDY.parts if p.label.is_support}
+
+    assert len(alone) / NUMBER == pytest.approx(BODY * FRONTS_ALONE, abs=0.02)
+    assert all(set(u.joined[0].ids) == still - set(u.missing) for u in alone)
+    assert ratio([u.masked == 1 for u in alone]) == pytest.approx(BODY_MASKING[3], abs=0.1)
 
 
 @pytest.mark.parametrize(
@@ -99,7 +110,7 @@ def test_a_merging_modeller_merges_and_never_cuts_panels() -> None:
     exploding = [u for u in draws() if u.style == "exploded export"]
 
     assert all(u.joined for u in merging)
-    assert not any(u.cuts for u in merging)
+    assert not any(cut.kind != "front alone" for u in merging for cut in u.cuts)
     assert ratio([bool(u.cuts) for u in exploding]) > 0.6
 
 

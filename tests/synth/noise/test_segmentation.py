@@ -12,6 +12,7 @@ from grafu.synth.noise.segmentation import (
     with_attached_joined,
     with_box_apart,
     with_edge_strip,
+    with_front_alone,
     with_joined,
 )
 from grafu.vocabulary import PartLabel
@@ -95,8 +96,19 @@ def test_a_drawer_s_boards_ride_on_its_front() -> None:
     assert np.allclose(apart.box.size, ASSET.box.size)
 
 
+def test_a_drawer_s_front_is_left_alone_where_it_was() -> None:
+    alone = with_front_alone(ASSET, "drawer")
+    front, before = alone.part("drawer"), ASSET.part("drawer")
+
+    assert front.box.size[1] == pytest.approx(0.018)
+    assert np.allclose(front.box.low[[0, 1]], before.box.low[[0, 1]])
+    assert [p for p in alone.parts if p.id != "drawer"] == [p for p in ASSET.parts if p.id != "drawer"]
+    assert with_front_alone(alone, "drawer") == alone
+
+
 def test_a_door_has_no_box() -> None:
     assert with_box_apart(ASSET, "door") == ASSET
+    assert with_front_alone(ASSET, "door") == ASSET
 
 
 def test_fresh_ids_are_new() -> None:

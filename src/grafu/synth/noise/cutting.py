@@ -13,6 +13,7 @@ from grafu.synth.pieces.riding import busy_in
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.vocabulary import PartLabel
 
+Masking = tuple[float, float, float, float]  # none, a few, many, all labels lost
 _CASE = (PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.TOP_PANEL, PartLabel.DIVIDER)
 # What is joined, by weight. 32052 has each pedestal's whole case as one back panel, and 22692 and 49182 have panels
 # with their mouldings in one.
@@ -29,6 +30,15 @@ GROUPS: Final[dict[str, tuple[float, tuple[PartLabel, ...]]]] = {
 # What is joined of several kinds is called after its largest wall; now and then it is an odd part, or has no label.
 ODD, NAMELESS = 0.15, 0.12
 LEVEL: Final = (PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF)  # no case is named after these
+
+# A whole case in one part, legs, frame, top and all, before which only the fronts are apart: in the development models
+# the greatest difference from synthetic furniture was that bulky parts, which hold others within their box, were rare.
+BODY = 0.12  # of models with fronts
+BODY_NAMELESS = 0.6  # of those: the name of the whole piece is no label of the part
+BODY_HANDLES = 0.4  # of those: handles are within their fronts, as where the parts were cut out of one mesh
+LEAST_OF_BODY = 3  # still parts: fewer are in one part already, or nearly
+FRONTS_ALONE = 0.6  # of those: drawers are a front and nothing behind it
+BODY_MASKING: Final[Masking] = (0.2, 0.1, 0.1, 0.6)  # of those: what is cut out of a mesh has no name
 
 # A face frame as bars: 6 of 7 frames in the development models. Otherwise a cut is seldom.
 HANDLES_IN_PIECES = 0.2  # of models: posts and plates of handles, where these have some, are parts as in CAD files
@@ -66,6 +76,26 @@ def draw_joined(
     if attached and chance(rng, handles):
         found.append(Joined(attached, None))
     return tuple(found)
+
+
+def draw_body(rng: np.random.Generator, asset: Asset, parts: Sequence[Part]) -> tuple[Joined, ...]:
+    """Returns all still parts as one, for `BODY` of the models that open, and the handles of some in their fronts."""
+    busy = busy_in(asset)
+    still = [p for p in parts if p.id not in busy and p.carried_by is None]
+    if len(still) < LEAST_OF_BODY or not asset.joints or not chance(rng, BODY):
+        return ()
+    named = _joined(rng, still)
+    body = replace(named, named=named.named and not chance(rng, BODY_NAMELESS))
+    attached = tuple(p.id for p in parts if p.label is PartLabel.HANDLE and p.carried_by)
+    return (body, Joined(attached, None)) if attached and chance(rng, BODY_HANDLES) else (body,)
+
+
+def draw_bare_drawers(rng: np.random.Generator, asset: Asset, is_body: bool) -> tuple[PartCut, ...]:
+    """Returns the drawers that are a front alone, before a case in one part: all of them or none."""
+    if not is_body or not chance(rng, FRONTS_ALONE):
+        return ()
+    carrying = {p.carried_by for p in asset.parts if p.label is not PartLabel.HANDLE}
+    return tuple(PartCut(j.part, "front alone") for j in asset.joints if j.part not in carrying)
 
 
 def _joined(rng: np.random.Generator, parts: Sequence[Part]) -> Joined:

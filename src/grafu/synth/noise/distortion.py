@@ -19,6 +19,8 @@ from grafu.synth.pieces.riding import bodies_of, carriers_of, led_by, poses_at
 from grafu.synth.sampling.chance import between, chance, count
 
 YAWED, TURNED = 0.015, 0.03  # of models: askew by up to four degrees; front mistaken by quarter turns
+STRETCHED, WIDELY = 0.6, 0.15  # of models whose proportions are off a little, and by up to a quarter
+MIS_SCALED = 0.35  # of models: normalised data gets its size from an estimate
 STRAIGHT = 0.93  # mean largest component of a face normal: 1 for boards along the axes, 0.87 for a door at 30 degrees
 
 
@@ -122,6 +124,18 @@ def _is_straight(part: Part) -> bool:
     largest = np.abs(part.mesh.face_normals).max(axis=1)
     areas = part.mesh.face_areas
     return float((largest * areas).sum()) >= STRAIGHT * float(areas.sum())
+
+
+def draw_factors(rng: np.random.Generator) -> tuple[float, float, float]:
+    """Returns the scale along each axis; a negative one along x mirrors the model."""
+    factors = np.ones(3)
+    if chance(rng, STRETCHED):
+        widest = 0.22 if chance(rng, WIDELY) else 0.1
+        factors *= np.exp(rng.uniform(-widest, widest, 3))
+    if chance(rng, MIS_SCALED):
+        factors *= float(np.exp(np.clip(rng.normal(0.0, 0.22), -0.45, 0.45)))
+    factors[0] *= -1.0 if chance(rng, 0.5) else 1.0
+    return float(factors[0]), float(factors[1]), float(factors[2])
 
 
 def draw_yaw(rng: np.random.Generator) -> float:

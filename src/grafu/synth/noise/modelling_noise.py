@@ -27,6 +27,7 @@ from grafu.synth.noise.segmentation import (
     with_attached_joined,
     with_box_apart,
     with_edge_strip,
+    with_front_alone,
     with_handles_in_pieces,
     with_joined,
 )
@@ -62,10 +63,10 @@ class Joined:
 @final
 @dataclass(frozen=True, slots=True)
 class PartCut:
-    """One part in several: by its surfaces, in planks, with a front edge strip, or a drawer's box apart."""
+    """One part in several: its surfaces, in planks, an edge strip or a drawer's box apart; or a front alone."""
 
     part: str
-    kind: Literal["pieces", "planks", "edge strip", "box apart"]
+    kind: Literal["pieces", "planks", "edge strip", "box apart", "front alone"]
     label: PartLabel | None = None  # of the pieces
     count: int = 2
     axis: int = 0
@@ -227,6 +228,8 @@ def _cut(asset: Asset, cut: PartCut) -> Asset:
             return with_edge_strip(asset, cut.part, cut.width)
         case "box apart":
             return with_box_apart(asset, cut.part)
+        case "front alone":
+            return with_front_alone(asset, cut.part)
 
 
 def _misfitted(asset: Asset, misfit: Misfit) -> Asset:

@@ -12,8 +12,16 @@ from typing import Final, final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.synth.noise.cutting import HANDLES_IN_PIECES, draw_cuts, draw_joined
-from grafu.synth.noise.distortion import draw_yaw
+from grafu.synth.noise.cutting import (
+    BODY_MASKING,
+    HANDLES_IN_PIECES,
+    Masking,
+    draw_bare_drawers,
+    draw_body,
+    draw_cuts,
+    draw_joined,
+)
+from grafu.synth.noise.distortion import draw_factors, draw_yaw
 from grafu.synth.noise.housing import draw_housing
 from grafu.synth.noise.loose_objects import LOOSE_OBJECTS
 from grafu.synth.noise.modelling_noise import Faces, Misfit, ModellingNoise
@@ -22,8 +30,6 @@ from grafu.synth.noise.part_names import MISNAMED, SCHEMES
 from grafu.synth.noise.tessellation import Density
 from grafu.synth.sampling.chance import between, chance, count, pick
 from grafu.vocabulary import PartLabel
-
-Masking = tuple[float, float, float, float]  # none, a few, many, all labels lost
 
 
 @final
@@ -143,8 +149,6 @@ SEEN, NEARLY = 0.004, 0.85  # of the largest side: so little is not seen in the 
 MISLABELLED = 0.01
 BEND = (0.0005, 0.003)  # metres: what scanning leaves on furniture
 SHUFFLED = 0.6  # part order: exporters sort by name, material or not at all
-STRETCHED, WIDELY = 0.6, 0.15  # of models whose proportions are off a little, and by up to a quarter
-MIS_SCALED = 0.35  # of models: normalised data gets its size from an estimate
 
 
 def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: Collection[str] = ()) -> ModellingNoise:
@@ -161,7 +165,9 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
     missing = tuple(dict.fromkeys((*_missing(rng, tidy, family), *(p.id for p in tidy.parts if p.id in absent))))
     kept = [p for p in tidy.parts if p.id not in missing]
     tops = JOINED_TOP if is_storage(tidy) and NO_TOP.get(family, 1.0) > NO_TABLE_TOP else 0.0
-    joined = draw_joined(rng, tidy, kept, style.joined, style.handles_joined, tops)
+    body = draw_body(rng, tidy, kept)
+    joined = body or draw_joined(rng, tidy, kept, style.joined, style.handles_joined, tops)
+    masking = BODY_MASKING if body else style.masking
     free = [p for p in kept if not any(p.id in group.ids for group in joined)]
     density = pick(rng, DENSITY)
     return ModellingNoise(
@@ -169,16 +175,16 @@ def draw_noise(rng: np.random.Generator, tidy: Asset, family: str = "", absent: 
         int(rng.integers(2**62)),
         loose_objects=_loose(rng, style, tidy, missing),
         joined=joined,
-        cuts=draw_cuts(rng, tidy, free, style.cuts),
+        cuts=(*draw_cuts(rng, tidy, free, style.cuts), *draw_bare_drawers(rng, tidy, bool(body))),
         faces=_faces(rng, style, kept),
         misfits=_misfits(rng, free, tidy.extent) if chance(rng, style.misfits) else (),
         ajar=_ajar(rng, tidy) if chance(rng, AJAR) else (),
-        factors=_factors(rng),
+        factors=draw_factors(rng),
         bend=between(rng, BEND) if chance(rng, style.bend) else 0.0,
         yaw=draw_yaw(rng),
         wording=draw_wording(rng),
         missing=missing,
-        masked=between(rng, LOST[int(rng.choice(4, p=style.masking))]),
+        masked=between(rng, LOST[int(rng.choice(4, p=masking))]),
         mislabelled=chance(rng, MISLABELLED),
         shuffled=chance(rng, SHUFFLED),
         density=density,
@@ -287,14 +293,3 @@ def _ajar(rng: np.random.Generator, asset: Asset) -> tuple[tuple[str, float], ..
     part = free[int(rng.integers(len(free)))]
     drawer = asset.part(part).label is PartLabel.DRAWER
     return ((part, between(rng, (0.05, 0.5) if drawer else (0.03, 0.3))),)
-
-
-def _factors(rng: np.random.Generator) -> tuple[float, float, float]:
-    factors = np.ones(3)
-    if chance(rng, STRETCHED):
-        widest = 0.22 if chance(rng, WIDELY) else 0.1
-        factors *= np.exp(rng.uniform(-widest, widest, 3))
-    if chance(rng, MIS_SCALED):
-        factors *= float(np.exp(np.clip(rng.normal(0.0, 0.22), -0.45, 0.45)))
-    factors[0] *= -1.0 if chance(rng, 0.5) else 1.0
-    return float(factors[0]), float(factors[1]), float(factors[2])

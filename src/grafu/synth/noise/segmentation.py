@@ -123,19 +123,12 @@ def with_box_apart(asset: Asset, drawer_id: str) -> Asset:
     They are labelled misc: none of them is a panel of the case. Boards that do not reach the front stay with one that
     does. A drawer that is a front alone stays as it is.
     """
-    slides = [j.axis.direction for j in asset.joints if j.part == drawer_id and motion_kind(j.type).slides]
-    if not slides:
-        return asset
-    drawer, slide = asset.part(drawer_id), slides[0]
-    front = float((drawer.mesh.vertices @ slide).max())
-    behind = [s for s in drawer.surfaces if front - float(s.mesh.box.center @ slide) > _FRONT_ZONE]
-    if not behind or len(behind) == len(drawer.surfaces):
-        return asset
-    kept = tuple(s for s in drawer.surfaces if not any(s is b for b in behind))
-    loose = [s for s in behind if front - float((s.mesh.vertices @ slide).max()) > _FRONT_ZONE]
-    held = [s for s in behind if not any(s is other for other in loose)]
+    drawer, behind = asset.part(drawer_id), _behind_front(asset, drawer_id)
+    loose = [s for s, gap in behind if gap > _FRONT_ZONE]
+    held = [s for s, gap in behind if gap <= _FRONT_ZONE]
     if not held:
         return asset
+    kept = tuple(s for s in drawer.surfaces if not any(s is board for board, _ in behind))
     ids = fresh_ids(asset, f"{drawer_id}_board", len(held))
     boards = [
         Part(i, PartLabel.MISC, (s, *(loose if s is held[-1] else ())), PartSource(i), "annotation", drawer_id)
@@ -145,6 +138,29 @@ def with_box_apart(asset: Asset, drawer_id: str) -> Asset:
     for part in asset.parts:
         parts += [replace(part, surfaces=kept), *boards] if part is drawer else [part]
     return replace(asset, parts=tuple(parts))
+
+
+def with_front_alone(asset: Asset, drawer_id: str) -> Asset:
+    """Returns the asset with nothing left of a drawer but its front: what was drawn of it where only the outside is."""
+    drawer, behind = asset.part(drawer_id), _behind_front(asset, drawer_id)
+    kept = tuple(s for s in drawer.surfaces if not any(s is board for board, _ in behind))
+    return replace(asset, parts=tuple(replace(p, surfaces=kept) if p is drawer else p for p in asset.parts))
+
+
+def _behind_front(asset: Asset, drawer_id: str) -> list[tuple[Surface, float]]:
+    """Returns a drawer's surfaces behind its front, with how far each begins behind it, metres; none of a front alone.
+
+    A part that does not slide, and one all of whose surfaces lie behind, has none.
+    """
+    slides = [j.axis.direction for j in asset.joints if j.part == drawer_id and motion_kind(j.type).slides]
+    if not slides:
+        return []
+    drawer, slide = asset.part(drawer_id), slides[0]
+    front = float((drawer.mesh.vertices @ slide).max())
+    behind = [s for s in drawer.surfaces if front - float(s.mesh.box.center @ slide) > _FRONT_ZONE]
+    if len(behind) == len(drawer.surfaces):
+        return []
+    return [(s, front - float((s.mesh.vertices @ slide).max())) for s in behind]
 
 
 def is_board(part: Part) -> bool:
