@@ -51,7 +51,8 @@ def test_they_see_what_parts_are_sampled_for() -> None:
 
 
 def test_doors_and_drawers_of_made_furniture_move_as_they_should(accuracies: dict[str, GraphAccuracy]) -> None:
-    assert accuracies["natural"].joint.value >= 0.86
+    # 0.86 before one case in eight was made in one part: fronts before those often show no handle, nor where they hang
+    assert accuracies["natural"].joint.value >= 0.84
     assert accuracies["natural"].slide.value >= 0.97
     assert accuracies["masked"].joint.value >= 0.8
     assert accuracies["masked"].slide.value >= 0.93
