@@ -62,10 +62,12 @@ def oracle(truth: FunctionalGraph) -> GraphNetwork:
 @pytest.mark.parametrize("masked", [False, True])
 def test_what_is_known_is_found(masked: bool) -> None:
     figures = []
-    for index in range(14):
+    for index in range(20):
         made = make_specimen(11, index, 0)
         if made.family == "drop-leaf table" or any(defect.kind == "mislabelled" for defect in made.defects):
             continue  # what shape decides, and labels that are kept though they are wrong
+        if any(defect.kind == "floating" and any("track" in part for part in defect.parts) for defect in made.defects):
+            continue  # a track that touches no door: shape decides what carries a sliding one
         masks = {node.id: PartLabel.UNKNOWN for node in made.given.nodes} if masked else {}
         given = relabelled(made.given, masks)
         completion = complete_by_network(given, oracle(made.truth), FEW, AS_SEEN)

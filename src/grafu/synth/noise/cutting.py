@@ -95,7 +95,8 @@ def draw_bare_drawers(rng: np.random.Generator, asset: Asset, is_body: bool) -> 
     if not is_body or not chance(rng, FRONTS_ALONE):
         return ()
     carrying = {p.carried_by for p in asset.parts if p.label is not PartLabel.HANDLE}
-    return tuple(PartCut(j.part, "front alone") for j in asset.joints if j.part not in carrying)
+    drawers = (j.part for j in asset.joints if asset.part(j.part).label is PartLabel.DRAWER)
+    return tuple(PartCut(part, "front alone") for part in drawers if part not in carrying)
 
 
 def _joined(rng: np.random.Generator, parts: Sequence[Part]) -> Joined:
