@@ -19,6 +19,7 @@ from grafu.articulation.collision_clearance import ShapeClearanceConfig
 from grafu.articulation.collision_shapes import CollisionShapeConfig
 from grafu.articulation.floor_clearance import FloorConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
+from grafu.articulation.physics import PhysicsConfig
 from grafu.articulation.stability import StabilityConfig
 from grafu.asset.wall_units import WallUnitConfig
 from grafu.completion.features import FeatureConfig
@@ -37,6 +38,7 @@ HANDLE, GRIP, GRASP, INTERIOR = HandleConfig(), GripConfig(), GraspConfig(), Int
 BUILT, SEEN, MOVES = RealizationConfig(), FeatureConfig(), DynamicsConfig()
 MASS, SHAPES = MassConfig(), CollisionShapeConfig()
 FLOOR, STANDS, WALL, CHECK = FloorConfig(), StabilityConfig(), WallUnitConfig(), CheckConfig()
+PHYSICS = PhysicsConfig()
 
 
 def per_cent(ratio: float) -> float:
@@ -231,6 +233,12 @@ def standing() -> Iterator[Sentence]:
             WALL.highest,
         ),
     )
+    yield page, "at least {:g} mm behind all that ends within {:g} mm", (mm(WALL.behind), mm(WALL.feet))
+    feet, rolling = PHYSICS.feet, PHYSICS.rolling
+    yield page, "end up to {:g} mm above it reach down", (mm(feet.short),)
+    yield page, "of those that end up to\n{:g} mm above it do", (mm(feet.hanging),)
+    yield page, "a flat of {:g} mm below", (mm(rolling.flat),)
+    yield page, "swivelling, by {:g} % of what", (per_cent(rolling.resistance),)
     yield page, "at most {:g} N (doors) or {:g} N (drawers)", (CHECK.turning_pull, CHECK.sliding_pull)
     yield page, "no faster than {:g} m/s, then pushes it", (CHECK.hand_speed,)
     yield page, "opens to {:g} % of its range, closes below {:g} %", (per_cent(CHECK.opened), per_cent(CHECK.closed))

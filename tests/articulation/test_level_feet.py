@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
+from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
 from grafu.articulation.convex_pieces import hull_of
 from grafu.articulation.level_feet import LevelFeetConfig, level_feet
@@ -14,8 +14,10 @@ from grafu.articulation.physics import physics_of
 from grafu.articulation.stability import StabilityConfig, stability_of
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box, OrientedBox
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.vocabulary import JointType
 
 CASE = (-0.4, -0.2, 0.1, 0.4, 0.2, 0.8)
 MASSES = {"case": MassProperties(20.0, vec3(0.0, 0.0, 0.4), np.eye(3))}
@@ -67,13 +69,63 @@ def test_a_piece_whose_rear_feet_are_short_stands_on_all_four(left, right):
     "body",
     [
         (*feet(0.0, 0.0, 0.0, 0.0), shape((-0.3, -0.1, 0.008, 0.3, 0.1, 0.02))),
-        feet(0.0, 0.0, 0.03, 0.03),
+        feet(0.0, 0.0, 0.08, 0.08),
+        (*feet(0.0, 0.0, 0.0, 0.0), shape((-0.3, -0.1, 0.04, 0.3, 0.1, 0.06))),
         feet(0.0, 0.0, 0.0, 0.0),
     ],
-    ids=["a board just above the floor", "feet that hang", "feet of one length"],
+    ids=["a board just above the floor", "feet that hang", "a board above the floor", "feet of one length"],
 )
 def test_what_stands_as_it_is_or_would_not_be_helped_stays(body):
     assert levelled(*body, shape(CASE)) == ((*body, shape(CASE)), "")
+
+
+@given(st.floats(0.013, 0.059), st.floats(-0.0115, 0.0115))
+def test_a_piece_that_leans_on_two_legs_stands_on_all_four_however_short_the_others_are(left, more):
+    right = float(np.clip(left + more, 0.0125, 0.0595))
+    body, note = levelled(*feet(0.0, 0.0, left, right), shape(CASE))
+    assert lows(body) == pytest.approx([0.0, 0.0, 0.0, 0.0, 0.1])
+    assert margin(body) == pytest.approx(0.2)
+    assert f"{1000 * max(left, right):.0f} mm" in note
+
+
+def test_a_pedestal_without_glides_carries_and_what_is_not_needed_hangs():
+    """A desk's centre of mass is above its pedestal, which ends above the floor; a stretcher ends a little higher."""
+    legs = (shape((0.34, -0.2, 0.0, 0.4, -0.14, 0.7)), shape((0.34, 0.14, 0.0, 0.4, 0.2, 0.7)))
+    pedestal, stretcher = shape((-0.4, -0.2, 0.04, 0.1, 0.2, 0.7)), shape((0.1, -0.02, 0.055, 0.4, 0.02, 0.1))
+    body, _ = levelled(*legs, pedestal, stretcher)
+    assert lows(body) == pytest.approx([0.0, 0.0, 0.0, 0.055])
+    assert margin(body) > 0.1
+
+
+def with_a_drawer(low: float, high: float) -> tuple[ArticulatedObject, dict[str, MassProperties], CollisionShape]:
+    """The case and a drawer at its rear between two heights that comes out below it, towards the rear."""
+    bounds = (-0.4, 0.0, low, 0.4, 0.14, high)
+    links = tuple(
+        Link(name, (Visual(name, (Surface(TriangleMesh.box_mesh(box(b))),)),))
+        for name, b in (("case", CASE), ("drawer", bounds))
+    )
+    axis = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0))
+    joint = Joint("slide", JointType.PRISMATIC, "case", "drawer", axis, JointLimits(0.0, 0.1))
+    drawer = MassProperties(0.1, box(bounds).center, 0.001 * np.eye(3))
+    return ArticulatedObject("o", "case", links, (joint,)), {**MASSES, "drawer": drawer}, shape(bounds)
+
+
+@pytest.mark.parametrize(("low", "high", "stands"), [(0.005, 0.02, False), (0.045, 0.09, True)])
+def test_no_foot_grows_into_the_way_of_a_drawer(low, high, stands):
+    articulated, masses, drawer = with_a_drawer(low, high)
+    body = (*feet(0.0, 0.0, 0.03, 0.03), shape(CASE))
+    found, note = level_feet(articulated, masses, {"case": body, "drawer": (drawer,)})
+    assert bool(note) == stands
+    assert lows(found["case"])[2:4] == pytest.approx([0.0, 0.0] if stands else [0.03, 0.03])
+
+
+def test_a_piece_on_wheels_is_left_as_it_is():
+    articulated, masses, _ = with_a_drawer(0.045, 0.09)
+    hanging, wheel = (*feet(0.03, 0.03, 0.04, 0.04), shape(CASE)), shape((-0.4, -0.2, 0.0, 0.4, -0.1, 0.05))
+    assert level_feet(articulated, masses, {"case": hanging, "drawer": (wheel,)}) == (
+        {"case": hanging, "drawer": (wheel,)},
+        "",
+    )
 
 
 def test_a_slanting_foot_keeps_its_upper_end():

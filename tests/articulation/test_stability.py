@@ -63,6 +63,7 @@ def test_an_open_drawer_moves_the_centre_and_the_pull_that_tips_is_that_of_the_l
     assert found is not None
     assert found.mass == 25.0
     assert found.margin == pytest.approx(inside)
+    assert found.closed_margin == pytest.approx(0.2 + 5.0 * -0.21 / 25.0)
     assert found.tipping_force == pytest.approx(25.0 * GRAVITY * inside / 0.5)  # the grip is 0.5 m high
     assert found.tipping_joint == "slide"
     assert (found.weight_needed, found.wall_force) == (0.0, 0.0)
@@ -123,7 +124,8 @@ def test_what_leans_on_a_wall_tips_while_it_is_closed():
     feet = (-0.5, -0.2, 0.0, 0.5, -0.15, 0.02)
     found = chest(case=20.0, drawer=5.0, travel=0.1, feet=feet)
     assert found is not None
-    assert found.margin == pytest.approx(-0.15 - (5.0 * -0.21) / 25.0)
+    assert found.closed_margin == pytest.approx(-0.15 - (5.0 * -0.21) / 25.0)
+    assert found.margin == found.closed_margin
     assert found.tipping_force == 0.0
     assert found.weight_needed > 0
 
@@ -131,5 +133,19 @@ def test_what_leans_on_a_wall_tips_while_it_is_closed():
 @pytest.mark.parametrize(("apart", "depth"), [(0.008, 0.4), (0.02, 0.05)])
 def test_feet_a_little_apart_in_height_are_leaned_onto_and_others_hang(apart, depth):
     front, rear = shape((-0.5, -0.2, 0.0, 0.5, -0.15, 0.1)), shape((-0.5, 0.15, apart, 0.5, 0.2, 0.1))
-    points = standing_points({"case": (*front, *rear, *shape((-0.5, -0.2, 0.1, 0.5, 0.2, 1.0)))})
+    made = ArticulatedObject("case", "case", (link("case", CASE, PartLabel.UNKNOWN),))
+    points = standing_points(made, {"case": (*front, *rear, *shape((-0.5, -0.2, 0.1, 0.5, 0.2, 1.0)))})
     assert float(np.ptp(points[:, 1])) == pytest.approx(depth)
+
+
+def test_a_front_that_ends_just_above_the_floor_carries_nothing():
+    low = (-0.5, -0.22, 0.003, 0.5, -0.2, 0.6)
+    links = (link("case", CASE, PartLabel.UNKNOWN), link("drawer", low, PartLabel.DRAWER))
+    axis = Axis(vec3(0.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0))
+    joint = Joint("slide", JointType.PRISMATIC, "case", "drawer", axis, JointLimits(0.0, 0.1))
+    made = ArticulatedObject("chest", "case", links, (joint,))
+    shapes = {"case": shape(CASE), "drawer": shape(low)}
+    found = stability_of(made, {"case": mass(20.0, CASE), "drawer": mass(5.0, low)}, shapes)
+    assert found is not None
+    assert standing_points(made, shapes)[:, 1].min() == pytest.approx(-0.2)
+    assert found.closed_margin == pytest.approx(0.2 - 5.0 * 0.21 / 25.0)

@@ -1,4 +1,4 @@
-"""What hangs on a wall is known by its name or by how high it is drawn, and by nothing else."""
+"""What hangs on a wall is known by its name, by how high it is drawn, or because it would fall backwards."""
 
 from dataclasses import replace
 
@@ -60,3 +60,37 @@ def test_the_input_has_it_hanging_above_its_own_floor(hanging, aside, hangs):
     found = hangs_on_wall(cabinet("model", hanging=hanging, aside=aside))
     assert bool(found) == hangs
     assert not hangs or "1.40 m" in found
+
+
+def ladder_shelf(posts: float, feet_behind: float | None = None, door: bool = False) -> Asset:
+    """Shelves 0.3 m deep on two posts 30 mm deep, whose front is at `posts`, 1.8 m tall.
+
+    `feet_behind` is how high above the floor two more posts end at the rear.
+    """
+    made = [
+        board(f"shelf_{k}", PartLabel.SHELF, (-0.4, -0.15, 0.3 * k), (0.4, 0.15, 0.3 * k + 0.02)) for k in (1, 3, 5)
+    ]
+    rows = [(posts, 0.0)] if feet_behind is None else [(posts, 0.0), (0.12, feet_behind)]
+    for row, (y, low) in enumerate(rows):
+        for side, x in enumerate((-0.42, 0.4)):
+            made.append(board(f"post_{row}_{side}", PartLabel.BAR, (x, y, low), (x + 0.02, y + 0.03, 1.8)))
+    if door:
+        made.append(board("door_1", PartLabel.DOOR, (-0.4, 0.13, 0.0), (0.4, 0.15, 0.4)))
+    return sketch(*made)
+
+
+@pytest.mark.parametrize("door", [False, True])
+def test_what_would_fall_backwards_leans_on_the_wall_and_a_door_does_not_carry_it(door):
+    shelf = ladder_shelf(-0.15, door=door)
+    assert "leans on a wall" in hangs_on_wall(shelf)
+    assert base_of(shelf, Settings()) is BaseKind.WALL
+
+
+@pytest.mark.parametrize("feet_behind", [0.0, 0.05])
+def test_what_has_feet_behind_stands_even_where_they_are_short(feet_behind):
+    assert hangs_on_wall(ladder_shelf(-0.15, feet_behind)) == ""
+
+
+def test_what_would_fall_forwards_or_stands_on_its_middle_does_not_lean_on_the_wall():
+    assert hangs_on_wall(ladder_shelf(0.12)) == ""
+    assert hangs_on_wall(ladder_shelf(-0.02)) == ""

@@ -139,8 +139,8 @@ def functionalize(
             their own in a robot description.
         hinge: the hinge that doors get where it finds room: a template's id, such as `cup`.
         stays: whether lids and flaps get stays where there is room.
-        base: what holds the piece in a simulator: `free`, `fixed` or `wall`; None: it is fixed, and what is known to be
-            a wall unit hangs on a wall.
+        base: what holds the piece in a simulator: `free`, `fixed` or `wall`; None: it is fixed, and what is known to
+            hang on a wall or to lean on one has `wall`.
         catch: what keeps doors and drawers closed in a simulator, besides friction: `none`, `detent` (they are held
             where they are closed) or `self-closing` (they are pulled closed over the last centimetres and held there).
         templates: a folder of your own hinge, rail and handle templates.

@@ -11,4 +11,4 @@ class BaseKind(StrEnum):
     FIXED = "fixed"
     """It is fixed to the world where it stands."""
     WALL = "wall"
-    """It hangs on a wall, to which it is fixed."""
+    """It hangs on a wall or leans on one, to which it is fixed."""

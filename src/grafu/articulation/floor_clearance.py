@@ -65,7 +65,7 @@ def off_floor(
     if floor is None:
         return dict(shapes)
     lowest = floor + config.gap
-    feet = _feet(articulated, shapes, floor, config)
+    feet = carrying_links(articulated, shapes, floor, config)
     found: Shapes = dict(shapes)
     for link, Ts in _poses(articulated, config).items():
         if link not in feet:
@@ -88,13 +88,16 @@ def _floor(
     return others if np.isfinite(others) and others - lowest <= config.most else None
 
 
-def _feet(
+def carrying_links(
     articulated: ArticulatedObject,
     shapes: Mapping[str, tuple[CollisionShape, ...]],
     floor: float,
-    config: FloorConfig,
+    config: FloorConfig = DEFAULT_FLOOR_CONFIG,
 ) -> set[str]:
-    """Returns the links that carry the piece: the root, or what moves and stands on the floor where it does not."""
+    """Returns the links that carry a piece: the root, or what moves and stands on the floor where it does not.
+
+    `floor` is the height of the floor (metres); shapes are in the object frame at rest.
+    """
     if _low(shapes[articulated.root]) <= floor + config.on_floor:
         return {articulated.root}
     return {link for link, held in shapes.items() if floor <= _low(held) <= floor + config.on_floor}

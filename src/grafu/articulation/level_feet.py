@@ -1,6 +1,7 @@
-"""Feet that are drawn a little too short reach the floor where the piece collides: else it rocks, and fronts roll open.
+"""Feet that are drawn too short reach the floor where the piece collides: else it rocks or leans, and fronts roll open.
 
-Real furniture has glides that are turned until it stands level.
+Real furniture has glides that are turned until it stands level. As drawn, the legs of one end may be shorter than the
+others, or a pedestal may hang above the floor because its glides were left out.
 """
 
 from collections.abc import Mapping
@@ -13,13 +14,19 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.collision_clearance import Shapes
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
 from grafu.articulation.convex_pieces import hull_of
+from grafu.articulation.floor_clearance import carrying_links
+from grafu.articulation.kinematics import link_poses
 from grafu.articulation.mass import MassProperties
-from grafu.articulation.stability import StabilityConfig, stability_of
-from grafu.geometry.arrays import vec3
-from grafu.geometry.box import OrientedBox
+from grafu.articulation.stability import Stability, StabilityConfig, stability_of
+from grafu.articulation.sweep import rest_to_full
+from grafu.geometry.arrays import Mat4, vec3
+from grafu.geometry.box import Box, OrientedBox
+from grafu.geometry.budget import require_time
 from grafu.geometry.config_checks import require_positive
+from grafu.geometry.transform import transform_points
 
 _UPRIGHT = 1.0 - 1e-6  # of a unit vector: an axis that rises by more stands upright
+_REST: Mat4 = np.eye(4)
 
 
 @final
@@ -33,12 +40,17 @@ class LevelFeetConfig:
 
     short: float = 0.012
     """Shapes of the static body that end no higher than this above the lowest one are its feet, too."""
+    hanging: float = 0.06
+    """Where it leans all the same, those that end up to this height become feet: glides and castors that were left out
+    are as high, the lowest plinths are higher."""
     touching: float = 0.001
     """What ends no higher than this above the lowest shape stands on the floor as drawn."""
     steady: float = 0.02
     """A piece whose centre of mass is so far within what it stands on as drawn is left as it is."""
     thinnest: float = 0.002
     """Least thickness of a lengthened foot that is no box."""
+    poses: int = 25
+    """In how many poses of each motion the room below a short foot must be free."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -55,32 +67,79 @@ def level_feet(
 ) -> tuple[Shapes, str]:
     """Returns the shapes of each link, the root's feet all as long as the longest, and a note (empty: none was short).
 
-    Nothing changes where the piece stands safely on what touches the floor as drawn, nor where longer feet would not
-    help. Masses and shapes are those of all links by id, object frame at rest.
+    Nothing changes where the piece stands safely on what touches the floor as drawn, where it stands on wheels, and
+    where longer feet would not help. No foot grows into the way of what moves. Masses and shapes are those of all links
+    by id, object frame at rest.
     """
-    lows = {id(shape): float(corners_of(shape)[:, 2].min()) for held in shapes.values() for shape in held}
-    floor = min(lows.values(), default=0.0)
+    floor = min((_low(shape) for held in shapes.values() for shape in held), default=0.0)
     body = shapes[articulated.root]
-    feet = [shape for shape in body if floor + config.touching < lows[id(shape)] <= floor + config.short]
-    if not feet or not _would_help(articulated, masses, shapes, config):
+    if not body or articulated.root not in carrying_links(articulated, shapes, floor):
         return dict(shapes), ""
-    longer = {id(foot): _lengthened(foot, floor, config) for foot in feet}
-    most = 1000 * (max(lows[key] for key in longer) - floor)
-    note = f"feet end up to {most:.0f} mm above the floor: where it collides, all of them reach it"
-    return {**shapes, articulated.root: tuple(longer.get(id(shape), shape) for shape in body)}, note
+    as_drawn = StabilityConfig(on_floor=config.touching)
+    drawn = stability_of(articulated, masses, shapes, as_drawn)
+    short = [k for k, shape in enumerate(body) if floor + config.touching < _low(shape) <= floor + config.hanging]
+    if not short or (drawn is not None and drawn.margin >= config.steady):
+        return dict(shapes), ""
+    longer = {
+        k: _lengthened(body[k], floor, config) for k in _with_room_below(articulated, shapes, short, floor, config)
+    }
+    found, note = dict(shapes), ""
+    for reach in _reaches([_low(body[k]) - floor for k in longer], drawn, config):
+        feet = {k: foot for k, foot in longer.items() if _low(body[k]) <= floor + reach}
+        tried = {**shapes, articulated.root: tuple(feet.get(k, shape) for k, shape in enumerate(body))}
+        level = stability_of(articulated, masses, tried, as_drawn)
+        if not feet or level is None or (drawn is not None and level.margin <= drawn.margin):
+            continue
+        if reach <= config.short or level.closed_margin >= config.steady:
+            found, note = tried, _note(max(_low(body[k]) for k in feet) - floor)
+        if level.closed_margin >= (0.0 if reach <= config.short else config.steady):
+            break
+    return found, note
 
 
-def _would_help(
+def _low(shape: CollisionShape) -> float:
+    return float(corners_of(shape)[:, 2].min())
+
+
+def _note(most: float) -> str:
+    return f"feet end up to {1000 * most:.0f} mm above the floor: where it collides, all of them reach it"
+
+
+def _reaches(heights: list[float], drawn: Stability | None, config: LevelFeetConfig) -> list[float]:
+    """Returns up to which heights above the floor feet are lengthened, to be tried in this order.
+
+    What ends little higher than a foot that is lengthened is one, too.
+    """
+    leans = drawn is None or drawn.closed_margin < 0
+    longer = sorted({height for height in heights if height > config.short} if leans else ())
+    return [config.short, *(height + config.short for height in longer)]
+
+
+def _with_room_below(
     articulated: ArticulatedObject,
-    masses: Mapping[str, MassProperties],
     shapes: Mapping[str, tuple[CollisionShape, ...]],
+    short: list[int],
+    floor: float,
     config: LevelFeetConfig,
-) -> bool:
-    drawn, level = (
-        stability_of(articulated, masses, shapes, StabilityConfig(on_floor=reach))
-        for reach in (config.touching, config.short)
-    )
-    return level is not None and (drawn is None or drawn.margin < min(config.steady, level.margin))
+) -> list[int]:
+    """Returns which of the root's shapes have no moving shape between their lower ends and the floor in any pose."""
+    moving = {link: held for link, held in shapes.items() if link != articulated.root}
+    places = [(link, _REST) for link in moving]
+    for joint in articulated.free_joints:
+        require_time()
+        for values in rest_to_full(articulated, joint.id, config.poses):
+            places += [(link, T) for link, T in link_poses(articulated, values).items() if not np.array_equal(T, _REST)]
+    boxes = (Box.around(transform_points(T, corners_of(shape))) for link, T in places for shape in moving.get(link, ()))
+    near = [box for box in boxes if box.low[2] < floor + config.hanging]
+    body = shapes[articulated.root]
+    return [k for k in short if not any(_below(body[k], floor, config).overlaps(box) for box in near)]
+
+
+def _below(foot: CollisionShape, floor: float, config: LevelFeetConfig) -> Box:
+    """Returns the room between a shape's lower end and the floor."""
+    points, low = corners_of(foot), _low(foot)
+    end = Box.around(points[points[:, 2] <= low + config.touching])
+    return Box(vec3(end.low[0], end.low[1], floor), vec3(end.high[0], end.high[1], low))
 
 
 def _lengthened(foot: CollisionShape, floor: float, config: LevelFeetConfig) -> CollisionShape:

@@ -27,6 +27,7 @@ from grafu.articulation.kinematics import link_origins
 from grafu.articulation.level_feet import LevelFeetConfig, level_feet
 from grafu.articulation.mass import MassProperties, mass_of_link, moments_of, moments_of_box
 from grafu.articulation.open_together import met_at_rest, near_at_rest
+from grafu.articulation.rolling_wheels import RollingConfig, on_flats, with_load_on_wheels
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.budget import WhileTimeLasts, present_budget, within
 from grafu.visible import ShortRepr
@@ -46,6 +47,7 @@ class PhysicsConfig(ShortRepr):
     floor: FloorConfig = field(default_factory=FloorConfig)
     feet: LevelFeetConfig = field(default_factory=LevelFeetConfig)
     dynamics: DynamicsConfig = field(default_factory=DynamicsConfig)
+    rolling: RollingConfig = field(default_factory=RollingConfig)
 
 
 DEFAULT_PHYSICS_CONFIG = PhysicsConfig()
@@ -119,6 +121,7 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     for link in articulated.links:  # a shape that is cut around a finger comes in pieces
         shapes[link.id], left = as_many_as_allowed(shapes[link.id], link, config.collision)
         left_out[link.id] += left
+    shapes = on_flats(articulated, shapes, config.rolling)
     shapes, short_feet = level_feet(articulated, masses, shapes, config.feet)
     touching = within(
         _CONTACTS,
@@ -128,6 +131,7 @@ def _found(articulated: ArticulatedObject, config: PhysicsConfig) -> PhysicsMode
     dynamics = {
         joint.id: joint_dynamics(articulated, joint, masses, config.dynamics) for joint in articulated.moving_joints
     }
+    dynamics = with_load_on_wheels(articulated, dynamics, masses, shapes, config.rolling)
     too_many = [note for link, left in left_out.items() for note in _left_out(link, left, config.collision)]
     told = (*too_many, *([short_feet] if short_feet else []), *notes)
     return PhysicsModel(link_origins(articulated), masses, shapes, dynamics, touching, told, bool(notes))

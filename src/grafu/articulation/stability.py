@@ -15,6 +15,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
 from grafu.articulation.counterbalance import GRAVITY
+from grafu.articulation.floor_clearance import carrying_links
 from grafu.articulation.grip_point import grip_point
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.mass import MassProperties
@@ -57,7 +58,8 @@ DEFAULT_STABILITY_CONFIG = StabilityConfig()
 class Stability:
     """How safely a piece stands, closed and with everything open; masses in kg, forces in newtons, lengths in metres.
 
-    `margin` is the least that its centre of mass is inside the polygon on which it stands, negative outside.
+    `margin` is the least that its centre of mass is inside the polygon on which it stands, negative outside;
+    `closed_margin` is the same with every joint closed.
     `tipping_force` is the least pull at a grip that tips it, 0 where it tips by itself, infinite where none can;
     `tipping_joint` is that grip's (empty: none). `weight_needed` is the least mass, low down at the far side of the
     polygon, and `wall_force` the pull of a wall mount at its upper edge, with which it bears the usual pulls; 0: it
@@ -66,6 +68,7 @@ class Stability:
 
     mass: float
     margin: float
+    closed_margin: float
     tipping_force: float
     tipping_joint: str
     weight_needed: float
@@ -100,7 +103,7 @@ def stability_of(
     closed, and where it is while that is open. `masses` and `shapes` are those of all links by id, object frame at
     rest. None: it has no width on which it could stand.
     """
-    feet = standing_points(shapes, config)
+    feet = standing_points(articulated, shapes, config)
     polygon = _polygon(feet, config.least_side)
     if polygon is None:
         return None
@@ -119,14 +122,19 @@ def _center(masses: Mapping[str, MassProperties], poses: Mapping[str, Mat4]) -> 
 
 
 def standing_points(
-    shapes: Mapping[str, tuple[CollisionShape, ...]], config: StabilityConfig = DEFAULT_STABILITY_CONFIG
+    articulated: ArticulatedObject,
+    shapes: Mapping[str, tuple[CollisionShape, ...]],
+    config: StabilityConfig = DEFAULT_STABILITY_CONFIG,
 ) -> Points:
-    """Returns the corners of all shapes that touch the floor below the piece, (n, 3), object frame at rest."""
-    corners = [corners_of(shape) for held in shapes.values() for shape in held]
-    if not corners:
-        return np.zeros((0, 3))
-    points = np.vstack(corners)
-    return points[points[:, 2] <= points[:, 2].min() + config.on_floor]
+    """Returns the corners of all shapes that carry the piece on the floor, (n, 3), object frame at rest.
+
+    A door that ends just above the floor carries nothing: where the root stands on it, moving links do not count.
+    """
+    corners = {link: [corners_of(shape) for shape in held] for link, held in shapes.items()}
+    floor = min((float(points[:, 2].min()) for held in corners.values() for points in held), default=0.0)
+    carry = carrying_links(articulated, shapes, floor) | {articulated.root}
+    points = np.vstack([np.zeros((0, 3)), *(points for link in carry for points in corners[link])])
+    return points[points[:, 2] <= floor + config.on_floor]
 
 
 def _polygon(points: Points, least_side: float) -> np.ndarray | None:
@@ -171,7 +179,8 @@ def _judged(
     polygon: np.ndarray, floor: float, top: float, mass: float, centers: Points, pulls: list[_Pull]
 ) -> Stability:
     weight, normals = GRAVITY * mass, _normals(polygon)
-    inside = (np.einsum("nk,nk->n", polygon, normals) - centers[:, :2] @ normals.T).min(axis=0)  # from each side
+    apart = np.einsum("nk,nk->n", polygon, normals) - centers[:, :2] @ normals.T  # of each centre from each side
+    inside = apart.min(axis=0)
     across = (polygon @ normals.T).max(axis=0) - (polygon @ normals.T).min(axis=0)
     least, which = (0.0, "") if inside.min() < 0 else (inf, "")
     lacking = -weight * inside
@@ -183,8 +192,8 @@ def _judged(
             least, which = max(force, 0.0), pull.joint
         lacking = np.maximum(lacking, pull.usual * moments - weight * inside)
     lack = np.maximum(lacking, 0.0)
-    needed = float((lack / (GRAVITY * across)).max())
-    return Stability(mass, float(inside.min()), least, which, needed, float(lack.max()) / max(top - floor, _LEAST_ARM))
+    needed, held = float((lack / (GRAVITY * across)).max()), float(lack.max()) / max(top - floor, _LEAST_ARM)
+    return Stability(mass, float(inside.min()), float(apart[0].min()), least, which, needed, held)
 
 
 def _moments(pull: _Pull, polygon: np.ndarray, normals: np.ndarray, floor: float) -> np.ndarray:

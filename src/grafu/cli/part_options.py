@@ -130,7 +130,8 @@ def add_simulator_options(parser: argparse.ArgumentParser) -> None:
         type=_base,
         metavar="HOW",
         help="what holds the piece in a simulator: free: nothing, it stands on the floor; fixed: it is fixed to the "
-        "world; wall: it hangs on a wall (default: fixed, and what is known to be a wall unit hangs on a wall)",
+        "world; wall: it hangs on a wall or leans on one (default: fixed, and what is known to hang or lean there: "
+        "wall)",
     )
 
     parser.add_argument(

@@ -33,6 +33,9 @@ class StabilityRecord(ReportRecord):
     margin: float = Field(
         description="the least that the centre of mass is inside the polygon on which it stands, closed or open, metres"
     )
+    closed_margin: float | None = Field(
+        default=None, description="the same with every joint closed; null: written by an earlier version"
+    )
     tipping_force: float | None = Field(
         description="the least pull at a grip that tips it, newtons; 0: it tips by itself; null: none does"
     )
@@ -46,8 +49,8 @@ class StabilityRecord(ReportRecord):
 class BaseRecord(ReportRecord):
     """What holds the piece in a simulator."""
 
-    kind: BaseKind = Field(description="free: nothing, fixed: to the world, wall: it hangs on a wall")
-    why: str = Field(description="as asked for, by default, or the evidence that it hangs on a wall")
+    kind: BaseKind = Field(description="free: nothing, fixed: to the world, wall: it hangs or leans on one")
+    why: str = Field(description="as asked for, by default, or the evidence that it hangs or leans on a wall")
     stability: StabilityRecord | None = Field(
         default=None, description="null: no format with masses was written, or it has no base to stand on"
     )

@@ -39,10 +39,10 @@ class Settings(ShortRepr):
     their own in a robot description, with False none. `labels` and `motions` go by the ids of parts,
     `joints` by those of moving parts. `weights` is a file of trained weights (ONNX) for the network; None: those that
     came with the package. `hinge` is the template that doors get where it finds room. With `stays` lids and flaps get
-    stays where there is room. `base` is what holds the piece: None, it is fixed, and a known wall
-    unit hangs on a wall. `catch` is what keeps doors and drawers closed. `regrouped` states which parts are joined
-    or split, in this order, before all else; the other choices go by the ids of the parts after that. A motion source
-    that reads another system's file is no setting: it needs the file.
+    stays where there is room. `base` is what holds the piece: None, it is fixed, and what is known to hang on a wall or
+    to lean on one is fixed to that. `catch` is what keeps doors and drawers closed. `regrouped` states which parts are
+    joined or split, in this order, before all else; the other choices go by the ids of the parts after that. A motion
+    source that reads another system's file is no setting: it needs the file.
     """
 
     motion: MotionSource = MotionSource.AUTO

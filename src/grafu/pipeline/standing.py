@@ -17,7 +17,7 @@ _DIGITS = 4
 
 
 def base_of(asset: Asset, settings: Settings) -> BaseKind | None:
-    """Returns what holds a piece: as the user states, on the wall where it is known to hang there, else None."""
+    """Returns what holds a piece: as the user states, the wall where it is known to hang or lean there, else None."""
     return settings.base or (BaseKind.WALL if hangs_on_wall(asset) else None)
 
 
@@ -32,7 +32,8 @@ def base_record(asset: Asset, articulated: ArticulatedObject) -> BaseRecord:
 def with_stability(report: Report, articulated: ArticulatedObject) -> Report:
     """Returns the report with what tips the piece over, where masses and shapes were worked out for a format.
 
-    Of a piece that is to stand freely and does not bear the usual pulls a note states it.
+    Of a piece that is to stand freely and does not bear the usual pulls a note states it; of one that by default is
+    fixed, where as drawn it leans or falls.
     """
     physics = physics_known(articulated)
     if physics is None or report.base is None:
@@ -40,13 +41,17 @@ def with_stability(report: Report, articulated: ArticulatedObject) -> Report:
     found = stability_of(articulated, physics.masses, physics.shapes)
     record = report.base.model_copy(update={"stability": None if found is None else _record(found)})
     stated = report.model_copy(update={"base": record})
-    return with_notes(stated, *_notes(record)) if report.base.kind is BaseKind.FREE else stated
+    if report.base.kind is BaseKind.FREE:
+        return with_notes(stated, *_notes(record))
+    leans = articulated.base is None and found is not None and found.closed_margin < 0
+    return with_notes(stated, *_notes(record)) if leans else stated
 
 
 def _record(found: Stability) -> StabilityRecord:
     return StabilityRecord(
         mass=round(found.mass, _DIGITS),
         margin=round(found.margin, _DIGITS),
+        closed_margin=round(found.closed_margin, _DIGITS),
         tipping_force=round(found.tipping_force, _DIGITS) if isfinite(found.tipping_force) else None,
         tipping_joint=found.tipping_joint,
         weight_needed=round(found.weight_needed, _DIGITS),
@@ -63,8 +68,12 @@ def _notes(record: BaseRecord) -> tuple[str, ...]:
 
 def stability_words(found: StabilityRecord) -> str:
     """Returns in a sentence what tips a piece over, and what it needs."""
-    if found.tipping_force == 0 and not found.tipping_joint:
-        tips = "closed or with everything open it tips over by itself"
+    if found.closed_margin is not None and found.closed_margin < 0:
+        tips = (
+            f"its centre of mass is {-1000 * found.closed_margin:.0f} mm outside of what it stands on, and it tips over"
+        )
+    elif found.tipping_force == 0 and not found.tipping_joint:
+        tips = f"{'' if found.closed_margin is not None else 'closed or '}with everything open it tips over by itself"
     elif found.tipping_force is None:
         return "closed and with everything open no pull at a grip tips it over"
     else:

@@ -27,7 +27,7 @@ class FileCheck(ReportRecord):
     file: str = Field(description="model.xml or model.urdf")
     error: str = Field(default="", description="why it could not be loaded or was unstable; empty: it was loaded")
     joints: tuple[JointCheck, ...] = Field(description="every joint that moves by itself within limits")
-    stands: bool | None = Field(description="whether it stays at rest on a floor, closed; null: it hangs on a wall")
+    stands: bool | None = Field(description="whether it stays at rest on a floor, closed; null: a wall holds it")
     stands_open: bool | None = Field(description="the same with everything open at once")
 
     @property

@@ -143,7 +143,7 @@ def _mended(lack: DeficiencyRecord, report: Report) -> bool:
 _HELD = {
     BaseKind.FREE: "It stands freely on the floor",
     BaseKind.FIXED: "It is fixed to the world",
-    BaseKind.WALL: "It hangs on a wall",
+    BaseKind.WALL: "It is fixed to a wall",
 }
 
 
