@@ -63,6 +63,10 @@ class PlanConfig:
     """Largest outline of what a moving part carries, over its own (fraction of the area)."""
     nearer_border: float = 0.2
     """A chosen mount this much nearer to a door's other border carries it there (fraction of the door's width)."""
+    other_direction: float = 0.01
+    """Least probability of another direction for which it is tried where the likeliest one is blocked ..."""
+    other_directions: int = 2
+    """... and how many of them are tried."""
     short_turn: float = radians(1.0)
     """A note states that a door opens by more than this less than was chosen (radians) ..."""
     short_slide: float = 0.002
@@ -70,7 +74,7 @@ class PlanConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "short_turn", "short_slide")
-        require_ratios(self, "play", "beyond", "carried_area", "nearer_border")
+        require_ratios(self, "play", "beyond", "carried_area", "nearer_border", "other_direction")
 
 
 @final
