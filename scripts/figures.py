@@ -27,6 +27,9 @@ from grafu.completion.session import SHIPPED_WEIGHTS
 
 KEPT = ROOT / "build" / "figures"
 NEEDS_MODELS = "{models}"
+NEEDS_FIRST = "{first}"
+FIRST = f"325e242:{SHIPPED_WEIGHTS.relative_to(ROOT)}"
+"""The weights of the first network, as git names them."""
 
 
 def main() -> int:
@@ -122,14 +125,27 @@ def filled(command: str, out: Path, jobs: int) -> list[str]:
     """Returns the words of a command, run by this Python.
 
     Raises:
-        SystemExit: if it needs real models and GRAFU_MODELS names none.
+        SystemExit: if it needs real models and GRAFU_MODELS names none, or weights that git does not have.
     """
     models = os.environ.get("GRAFU_MODELS", "")
     if NEEDS_MODELS in command and not Path(models or "?").is_dir():
         raise SystemExit(f"GRAFU_MODELS must name the folder of real models: got {models!r}")
-    words = [word.format(models=models, out=out, jobs=jobs) for word in shlex.split(command)]
+    first = first_weights() if NEEDS_FIRST in command else ""
+    words = [word.format(models=models, out=out, jobs=jobs, first=first) for word in shlex.split(command)]
     starts = {"python": [sys.executable], "grafu": [sys.executable, "-m", "grafu.cli.main"]}
     return [*starts[words[0]], *words[1:]]
+
+
+def first_weights() -> Path:
+    """Returns the file of the first network's weights, from git."""
+    path = KEPT / "first.onnx"
+    if not path.is_file():
+        shown = subprocess.run(["git", "show", FIRST], cwd=ROOT, stdout=subprocess.PIPE, check=False)
+        if shown.returncode:
+            raise SystemExit(f"git does not have {FIRST}: this needs a clone with its whole history")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(shown.stdout)
+    return path
 
 
 def environment() -> dict[str, str]:

@@ -27,8 +27,9 @@ from judge_additions_table import INTERIORS, KINDS, Verdict, crashed, table
 from grafu.additions.config import NO_ADDITIONS, AdditionConfig
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.synth.generate import make_specimen
 from grafu.synth.samples import NOISY, TIDY

@@ -29,8 +29,9 @@ from grafu.additions.statics import Statics
 from grafu.asset.part import Asset, Part
 from grafu.evaluation.dataset import ModelRef, find_models, load_model
 from grafu.metrics.graph_accuracy import NEAR
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.processes.cache import CACHED_VALUES, Cache
 from grafu.synth.generate import make_specimen

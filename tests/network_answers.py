@@ -137,6 +137,6 @@ def silent(graph: FunctionalGraph) -> Scores:
 
 
 def of_doors_and_drawers(truth: FunctionalGraph) -> FunctionalGraph:
-    """The truth as a completion may state it: what knobs and turntables do, shape decides (`grafu.joints`)."""
+    """The truth without the motions of knobs, buttons, racks and what else is neither door nor drawer."""
     others = (e for e in truth.motions if not truth.node(e.child).label.is_movable)
     return with_edges(truth, [Contact(*ends_of(edge)) for edge in others])

@@ -44,6 +44,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("network.md", "doors"): doors(store),
         ("network.md", "facts"): copied(store["synthetic"], 2),
         ("network.md", "motions"): motions(store),
+        ("network.md", "causes"): causes(store),
         ("additions.md", "statics made"): copied(store["statics"], 0),
         ("additions.md", "statics real"): copied(store["statics"], 1),
         ("training.md", "losses"): copied(store["losses"], 0),
@@ -109,6 +110,26 @@ def motions(store: Store) -> str:
         for row in store["motions"].tables[0][1:]
     ]
     return drawn_table([head, *rows])
+
+
+def causes(store: Store) -> str:
+    """Returns why motions of hard models are wrong: of the rules, the first network, and the weights that ship."""
+    who = {
+        "rules": "motions of hard models by rules",
+        "the first network": "motions of hard models by the first network",
+        "the weights that ship": "motions of hard models",
+    }
+    head = ["asked about", "motions of", *store["motions of hard models"].tables[1][0][1:], "right"]
+    rows: Table = [
+        [asked, name, *_row(store[measure].tables[1], asked), store[measure].cell(asked, "right")]
+        for asked in ("labels given", "no labels")
+        for name, measure in who.items()
+    ]
+    return drawn_table([head, *rows])
+
+
+def _row(table: Table, name: str) -> list[str]:
+    return next(row[1:] for row in table if row[0] == name)
 
 
 def figures_page(store: Store) -> str:

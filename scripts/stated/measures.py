@@ -1,7 +1,8 @@
 """Every command that prints figures of the pages. It runs none; `scripts/figures.py` does.
 
-In a command `{models}` is the folder of real models (GRAFU_MODELS), `{out}` an empty folder of its own, `{jobs}` the
-number of processes. `quick` is the same on few models or steps: it shows that the command works; nothing of it is kept.
+In a command `{models}` is the folder of real models (GRAFU_MODELS), `{first}` the weights of the first network, as git
+holds them, `{out}` an empty folder of its own, `{jobs}` the number of processes. `quick` is the same on few models or
+steps: it shows that the command works; nothing of it is kept.
 """
 
 import sys
@@ -109,6 +110,22 @@ MEASURES = (
         ("network.md",),
         4,
         weights=True,
+    ),
+    Measure(
+        "motions of hard models by the first network",
+        "python scripts/judge_motions.py {models}/pnm2 --copies 0 --weights {first} --jobs {jobs}",
+        "python scripts/judge_motions.py {models}/pnm --copies 0 --weights {first} --jobs {jobs}",
+        "the first network on the same motions",
+        ("network.md",),
+        2,
+    ),
+    Measure(
+        "motions of hard models by rules",
+        "python scripts/judge_motions.py {models}/pnm2 --copies 0 --rule --jobs {jobs}",
+        "python scripts/judge_motions.py {models}/pnm --copies 0 --rule --jobs {jobs}",
+        "the rules on the same motions",
+        ("network.md",),
+        1,
     ),
     Measure(
         "results",

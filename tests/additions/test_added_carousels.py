@@ -17,8 +17,9 @@ from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.scene.scene import Scene
 from grafu.synth.cabinets.corner import CornerCabinet, InnerCorner, make_corner_cabinet, make_inner_corner

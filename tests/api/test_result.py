@@ -9,7 +9,7 @@ import grafu
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import HandleChoice
 from grafu.errors import ExportError, OptionError
-from grafu.pipeline.functionalize import PipelineConfig
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.vocabulary import MechanismClass
 
 SAMPLES = Path(__file__).parent.parent.parent / "samples"

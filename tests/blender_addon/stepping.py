@@ -12,7 +12,8 @@ import bpy
 
 from blender_addon import objects, state
 from grafu.asset.load import load_asset
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.templates.gallery import builtin_gallery
 
 FACTS = []

@@ -36,6 +36,7 @@ def accuracies() -> dict[str, GraphAccuracy]:
                 continue  # it takes the longest, and is judged by what is added alone
             completion = complete_by_network(pair.input, network, network.features)
             found.setdefault(variant, []).append(graph_accuracy(completion, of_doors_and_drawers(pair.target)))
+            found.setdefault(f"{variant}, all", []).append(graph_accuracy(completion, pair.target))
     return {variant: total_accuracy(ones) for variant, ones in found.items()}
 
 
@@ -56,6 +57,11 @@ def test_doors_and_drawers_of_made_furniture_move_as_they_should(accuracies: dic
     assert accuracies["natural"].slide.value >= 0.97
     assert accuracies["masked"].joint.value >= 0.8
     assert accuracies["masked"].slide.value >= 0.93
+
+
+def test_what_is_neither_door_nor_drawer_slides_and_turns_as_it_should(accuracies: dict[str, GraphAccuracy]) -> None:
+    assert accuracies["natural, all"].slides.value >= 0.6
+    assert accuracies["natural, all"].turns.value >= 0.7
 
 
 def test_hidden_labels_are_found_again(accuracies: dict[str, GraphAccuracy]) -> None:

@@ -17,8 +17,9 @@ from grafu.graph.edit import without_nodes
 from grafu.graph.official_json import graph_from_official, prediction_from_official, prediction_to_official
 from grafu.graph.official_prediction import read_prediction
 from grafu.graph.parse import parse_graph
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.synth.truth.clashes import articulated_of
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel

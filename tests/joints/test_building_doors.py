@@ -9,8 +9,9 @@ from grafu.asset.edit import mirrored
 from grafu.asset.part import Asset
 from grafu.joints.building_doors import building_door, with_door_labels
 from grafu.joints.motion_choice import FIXED
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery

@@ -13,8 +13,9 @@ from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.plan import JointChoice
 from grafu.joints.realize import Realized, realize
 from grafu.joints.report import Installed
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.refusal import Refusal
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet

@@ -12,8 +12,9 @@ from grafu.asset.part import AnnotatedJoint
 from grafu.export.urdf import export_urdf
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType

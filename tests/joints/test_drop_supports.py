@@ -10,8 +10,9 @@ from grafu.geometry.axis import Axis
 from grafu.joints.drop_supports import with_stated_supports, with_supported_leaves
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.render.picture import posed_visuals
 from grafu.synth.tables.drop_leaf import DropLeafTable, make_drop_leaf_table

@@ -7,8 +7,9 @@ import pytest
 
 from grafu.asset.part import Asset
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from judging import hardware, installed, realized, swept_collisions

@@ -11,8 +11,9 @@ from grafu.graph.parse import parse_graph
 from grafu.joints.motion_choice import choice_in_words
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.racks import is_grid, with_racks
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery

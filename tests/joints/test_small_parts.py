@@ -25,8 +25,9 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.parse import parse_graph
 from grafu.joints.config import RealizationConfig
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.shown_by_shape import shown_by_shape

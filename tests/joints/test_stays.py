@@ -17,8 +17,9 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.realize import Realized, realize
 from grafu.joints.stays import with_stays
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.render.picture import posed_visuals
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet

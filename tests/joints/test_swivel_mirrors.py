@@ -6,8 +6,9 @@ from math import radians
 import pytest
 
 from grafu.joints.swivel_mirrors import swivel_mirrors
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel

@@ -9,8 +9,9 @@ from grafu.asset.edit import mirrored
 from grafu.graph.edges import Hinge, Slide
 from grafu.joints.motion_choice import FIXED, choice_in_words
 from grafu.joints.windows import window, with_window_labels
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.synth.openings.door import DoorSpec, make_building_door
 from grafu.synth.openings.window import WindowSpec, make_window

@@ -16,8 +16,9 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.judging.panels import empty_rooms
 from grafu.judging.piece import JudgedPiece
 from grafu.metrics.judged import judged_piece
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery

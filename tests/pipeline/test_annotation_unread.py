@@ -16,8 +16,9 @@ from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
 from grafu.export.files import write_files
 from grafu.export.urdf import export_urdf
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.synth.samples import KINDS
 from grafu.synth.truth.clashes import articulated_of

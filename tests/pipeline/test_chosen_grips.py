@@ -14,8 +14,9 @@ from grafu.cli.part_options import part_grasp
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.pipeline.addition_choice import front_choice
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.refusal import Asked, Reason
 from grafu.templates.gallery import builtin_gallery

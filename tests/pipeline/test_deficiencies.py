@@ -7,8 +7,9 @@ from grafu.asset.part import Asset
 from grafu.graph.parse import parse_graph
 from grafu.joints.config import RealizationConfig
 from grafu.joints.rail_config import DrawerConfig
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.records import find_deficiencies
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case

@@ -16,8 +16,9 @@ from grafu.export.particulate import export_particulate
 from grafu.export.singapo import export_singapo
 from grafu.export.urdf import export_urdf
 from grafu.pipeline.foreign import prediction_for, read_foreign
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings
 from grafu.synth.truth.clashes import articulated_of

@@ -16,8 +16,10 @@ from grafu.completion.session import open_network
 from grafu.errors import WeightsError
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.pipeline.functionalize import MOTIONS, Functionalized, PipelineConfig, choose_source, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.motion_methods import MOTIONS, choose_source
 from grafu.pipeline.motion_source import AUTO_ORDER, MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
@@ -47,7 +49,7 @@ def test_every_source_but_auto_has_its_row() -> None:
 def test_auto_takes_the_first_that_can_answer(asset: Asset, monkeypatch: pytest.MonkeyPatch) -> None:
     assert AUTO_ORDER == (MotionSource.NETWORK, MotionSource.RULE)
     for has_weights, chosen in ((False, MotionSource.RULE), (True, MotionSource.NETWORK)):
-        monkeypatch.setattr("grafu.pipeline.functionalize.has_shipped_weights", lambda has=has_weights: has)
+        monkeypatch.setattr("grafu.pipeline.motion_methods.has_shipped_weights", lambda has=has_weights: has)
         assert choose_source(asset, MotionSource.AUTO) is chosen
         assert choose_source(asset, MotionSource.RULE) is MotionSource.RULE
 

@@ -29,9 +29,10 @@ from grafu.joints.motion_choice import (
     motion_as_choice,
 )
 from grafu.joints.plan import JointChoice
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_choices import REJECTED, motions_of
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings, settings_from_json
 from grafu.pipeline.triage import Level, joint_states

@@ -9,8 +9,9 @@ import pytest
 from grafu.additions.top.config import TopConfig
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings, settings_from_json
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet

@@ -6,8 +6,9 @@ from dataclasses import replace
 import pytest
 
 from grafu.additions.config import AdditionConfig
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of, skipped_record
 from grafu.pipeline.report_schema import NOT_ADDED, Report, SkippedRecord
 from grafu.pipeline.settings import Settings

@@ -10,8 +10,9 @@ import pytest
 from grafu.asset.load import load_asset
 from grafu.cli.main import main
 from grafu.errors import FunctionalizationError
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.result_folder import read_result
 from grafu.templates.gallery import builtin_gallery
 from small_assets import write_glb

@@ -21,8 +21,9 @@ from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
 from grafu.joints.plan import AUTOMATIC, JointChoice
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import SCHEMA, Settings, settings_from_json
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet

@@ -6,8 +6,9 @@ import pytest
 
 from grafu.additions.config import NO_ADDITIONS
 from grafu.joints.plan import PIVOT, JointChoice
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings

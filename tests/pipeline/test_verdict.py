@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 from grafu.additions.config import NO_ADDITIONS
 from grafu.asset.part import Asset
 from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import ClearanceRecord, GuessRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.settings import Settings

@@ -19,8 +19,9 @@ from grafu.errors import FunctionalizationError
 from grafu.export.blend.process import unpacked
 from grafu.export.glb import export_glb
 from grafu.joints.plan import JointChoice
-from grafu.pipeline.functionalize import PipelineConfig, functionalize
+from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings

@@ -13,7 +13,8 @@ from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import MotionChoice, choice_in_words
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.processes.cache import CACHED_VALUES, Cache
 from grafu.templates.gallery import open_gallery

@@ -23,7 +23,7 @@ from grafu.processes.worker import ignore
 if TYPE_CHECKING:
     from grafu.articulation.articulated_object import ArticulatedObject
     from grafu.asset.foreign.motions import ForeignMotions
-    from grafu.pipeline.functionalize import PipelineConfig
+    from grafu.pipeline.pipeline_config import PipelineConfig
     from grafu.pipeline.report_schema import Report
     from grafu.pipeline.settings import Settings
 
@@ -240,7 +240,7 @@ def _motions(job: Job) -> "MotionSource | ForeignMotions":
 
 
 def _config(options: JobOptions) -> "PipelineConfig":
-    from grafu.pipeline.functionalize import PipelineConfig
+    from grafu.pipeline.pipeline_config import PipelineConfig
 
     if options.templates is None:
         return PipelineConfig(options.settings)

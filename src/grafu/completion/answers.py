@@ -67,7 +67,8 @@ def move_parts(
 def decision_of(part: str, question: Question, ranking: Ranking[Any], by: str = "") -> Decision:
     """Returns a ranking as the answer to a question about a part; `by` as in `Decision`."""
     runner_up = "" if ranking.runner_up is None else str(ranking.runner_up)
-    return Decision(part, question, str(ranking.choice), ranking.score, runner_up, ranking.runner_up_score, by)
+    others = tuple((str(choice), score) for choice, score in ranking.others)
+    return Decision(part, question, str(ranking.choice), ranking.score, runner_up, ranking.runner_up_score, by, others)
 
 
 def _hung(

@@ -13,6 +13,7 @@ from grafu.completion.columns import agreed_borders
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.doors import slide_door
 from grafu.completion.facts import ajar_decisions, piece_guess, rides
+from grafu.completion.other_motions import other_motions
 from grafu.completion.probabilities import Probabilities
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.selection import borders_of, choose_hinge, choose_parent, choose_rails
@@ -105,12 +106,20 @@ def complete_decoded(
         motions = _moved(view)
     completed, known = with_edges(view.graph, motions.edges), view.config.facts
     ajar = ajar_decisions(completed, view.probabilities, known)
+    others, of_others = other_motions(view, completed)
     return GraphCompletion(
         graph,
-        completed,
+        with_edges(completed, others),
         "network",
         tuple(part.node.id for part in added),
-        (*(d for part in added for d in part.decisions), *labelling, *decoded.decisions, *motions.decisions, *ajar),
+        (
+            *(d for part in added for d in part.decisions),
+            *labelling,
+            *decoded.decisions,
+            *motions.decisions,
+            *of_others,
+            *ajar,
+        ),
         (*decoded.refused, *motions.refused),
         piece_guess(view.probabilities, known),
         rides(completed, view.given, view.probabilities, known),

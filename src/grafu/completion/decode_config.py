@@ -123,6 +123,9 @@ class DecodeConfig:
     slides: float = 0.5
     """A door slides in its own plane from this probability of a slide on, if that of a hinge is lower."""
 
+    other_motion: float = 0.5
+    """What is neither door, drawer nor handle slides or turns from this probability of such an edge on."""
+
     nested: float = 0.6
     """A door may hang on another door from this probability of a hinge between them on."""
 
@@ -192,6 +195,7 @@ class DecodeConfig:
             self.some_parent,
             self.at_side,
             self.strip,
+            self.other_motion,
         )
         if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.slides, self.nested, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")

@@ -17,12 +17,16 @@ _PRIOR = 0.15
 @final
 @dataclass(frozen=True, slots=True)
 class Ranking(Generic[Choice]):
-    """The choice with the most votes, its fraction of them (0..1), and the next best (None where there is only one)."""
+    """The choice with the most votes, its fraction of them (0..1), and the next best (None where there is only one).
+
+    `others` are all the others with their fractions, in the order in which they would be chosen, where that is known.
+    """
 
     choice: Choice
     score: float
     runner_up: Choice | None = None
     runner_up_score: float = 0.0
+    others: tuple[tuple[Choice, float], ...] = ()
 
 
 @final
@@ -70,8 +74,9 @@ def chosen_of(choices: Sequence[Choice], weights: Scalars, leaned: Scalars) -> R
     """
     total, best = float(weights.sum()), int(np.argmax(leaned))
     ratios = np.minimum(weights / total, 1.0) if total > 0 else np.full(len(choices), 1.0 / len(choices))
-    others = np.delete(np.arange(len(choices)), best)
+    others = np.argsort(-leaned, kind="stable")[1:]
     if not len(others):
         return Ranking(choices[best], float(ratios[best]))
     second = int(others[np.argmax(ratios[others])])
-    return Ranking(choices[best], float(ratios[best]), choices[second], float(ratios[second]))
+    then = tuple((choices[k], float(ratios[k])) for k in others.tolist())
+    return Ranking(choices[best], float(ratios[best]), choices[second], float(ratios[second]), then)

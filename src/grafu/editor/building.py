@@ -31,8 +31,9 @@ from grafu.export.formats import FORMATS, exporter_for
 from grafu.geometry.transform import transform_points
 from grafu.joints.motion_choice import TURNING_SIDES, axis_of_motion, choice_in_words
 from grafu.metrics.collision import TOLERANT, CollisionConfig, first_collisions
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_choices import motions_of
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings, settings_from_json
 from grafu.processes.cache import CACHED_VALUES, Cache

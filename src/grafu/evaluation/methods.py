@@ -21,8 +21,9 @@ from grafu.evaluation.llm.config import LanguageModel, LlmConfig
 from grafu.evaluation.programs.config import OutsideProgram, ProgramConfig
 from grafu.evaluation.programs.running import predicted_by
 from grafu.pipeline.foreign import prediction_for
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource, SourceOption
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel

@@ -1,6 +1,6 @@
 """What a completion returns: the graph before and after, the confidence of each decision, and what was refused."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, final
 
 from grafu.errors import GraphError
@@ -21,7 +21,8 @@ class Decision:
 
     `choice` and `runner_up` are words: a label, a node id, a border, sign or signed axis as its code, open or closed.
     `by` names who answered where that is not the completion's source alone: `rule`, whose scores they are then, or
-    `network and rule` where the network itself prefers the runner-up; the scores are the network's.
+    `network and rule` where the network itself prefers the runner-up; the scores are the network's. `others` are what
+    else was weighed, with its score, in the order in which it would be chosen; files do not hold them.
 
     Raises:
         GraphError: if a score is not in 0..1.
@@ -34,6 +35,7 @@ class Decision:
     runner_up: str = ""
     runner_up_score: float = 0.0
     by: str = ""
+    others: tuple[tuple[str, float], ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         for score in (self.score, self.runner_up_score):

@@ -9,7 +9,7 @@ from typing import final
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.geometry.axis import Axis
-from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.refusal import Refusal
 from grafu.vocabulary import JointType, MechanismClass
 
@@ -63,6 +63,12 @@ class PlanConfig:
     """Largest outline of what a moving part carries, over its own (fraction of the area)."""
     nearer_border: float = 0.2
     """A chosen mount this much nearer to a door's other border carries it there (fraction of the door's width)."""
+    rack: float = 0.15
+    """What slides and is no drawer is a rack or a basket from this size on (fraction of the object's largest side)."""
+    other_direction: float = 0.01
+    """Least probability of another direction for which it is tried where the likeliest one is blocked ..."""
+    other_directions: int = 2
+    """... and how many of them are tried."""
     short_turn: float = radians(1.0)
     """A note states that a door opens by more than this less than was chosen (radians) ..."""
     short_slide: float = 0.002
@@ -70,7 +76,8 @@ class PlanConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "short_turn", "short_slide")
-        require_ratios(self, "play", "beyond", "carried_area", "nearer_border")
+        require_not_negative(self, "other_directions")
+        require_ratios(self, "play", "beyond", "carried_area", "nearer_border", "rack", "other_direction")
 
 
 @final

@@ -61,16 +61,21 @@ class RackConfig:
 def with_racks(
     plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, config: RackConfig = RackConfig()
 ) -> RealizationPlan:
-    """Returns the plan in which racks behind doors that drop slide out; joints that it has stay as they are."""
+    """Returns the plan in which racks behind doors that drop slide out; joints of doors and drawers stay as they are.
+
+    A rack of several parts takes the place of joints of these that were predicted.
+    """
     doors = [asset.part(r.moving).box for r in plan.joints if _drops(r, asset.part(r.moving).box, config)]
     if not doors:
         return plan
     config = at_scale(config, metre_on(asset.extent))
-    moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
-    static = static_boxes(asset, moving)
+    fronts = tuple(request for request in plan.joints if graph.node(request.moving).label.is_movable)
+    static = static_boxes(asset, {part for request in fronts for part in (request.moving, *request.attached)})
     found = {rack.moving: rack for door in doors for rack in _racks(door, static, asset, graph, config)}
+    taken = {part for rack in found.values() for part in (rack.moving, *rack.attached)}
+    kept = tuple(request for request in plan.joints if request in fronts or request.moving not in taken)
     refused = tuple(refusal for refusal in plan.refused if refusal.part not in found)
-    return replace(plan, joints=(*plan.joints, *found.values()), refused=refused) if found else plan
+    return replace(plan, joints=(*kept, *found.values()), refused=refused) if found else plan
 
 
 def is_grid(mesh: TriangleMesh, config: RackConfig = RackConfig()) -> bool:

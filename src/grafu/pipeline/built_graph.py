@@ -4,7 +4,7 @@ Where a part was built for a node that the network had added, what was decided a
 builds nothing.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -56,10 +56,11 @@ def with_joints(completion: GraphCompletion, made: ArticulatedObject, mounts: Ma
     """Returns the completion in which each joint that was built has its edges, from what carries it to what it moves.
 
     Edges that state so are kept. On a moving part it has one edge, from that part; `mounts` are, by moving part, the
-    static parts that hold the hardware of the others. A joint that follows another states that on its edges.
+    static parts that hold the hardware of the others. A joint that follows another states that on its edges. What is
+    neither door nor drawer and got no joint does not move.
     """
-    graph = completion.completed
-    joints = {joint.child: joint for joint in made.moving_joints if joint.child in graph}
+    joints = {joint.child: joint for joint in made.moving_joints if joint.child in completion.completed}
+    graph = _without_unbuilt(completion.completed, joints.keys())
     moved = {joint.id: joint.child for joint in made.moving_joints if joint.child in graph}
     still = [n for n in graph.nodes if n.label.is_support and n.id not in graph.moving | joints.keys()]
     edges: list[MotionEdge] = []
@@ -76,6 +77,16 @@ def with_joints(completion: GraphCompletion, made: ArticulatedObject, mounts: Ma
     by_ends = {frozenset(ends_of(e)): e for e in (*others, *edges)}
     refused = tuple(r for r in completion.refused if r.part not in had)
     return replace(completion, completed=replace(graph, edges=tuple(by_ends.values())), refused=refused)
+
+
+def _without_unbuilt(graph: FunctionalGraph, built: Collection[str]) -> FunctionalGraph:
+    """Returns the graph in which a part that is neither door nor drawer moves only where it was built."""
+
+    def is_left(edge: Edge) -> bool:
+        return not isinstance(edge, MotionEdge) or edge.child in built or graph.node(edge.child).label.is_movable
+
+    edges = tuple(edge if is_left(edge) else Contact(*ends_of(edge)) for edge in graph.edges)
+    return graph if edges == graph.edges else replace(graph, edges=edges)
 
 
 def _joint_edges(joint: Joint, graph: FunctionalGraph, carriers: list[PartNode], mount: str) -> list[MotionEdge]:

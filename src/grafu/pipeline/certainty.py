@@ -59,22 +59,22 @@ def _guess(decision: Decision, graph: FunctionalGraph, hinge: Hinge | None) -> G
     return GuessRecord(
         part=decision.part,
         question=decision.question,
-        choice=_named(decision, decision.choice, graph, hinge),
+        choice=named_choice(decision, decision.choice, graph, hinge),
         score=decision.score,
-        runner_up=decision.runner_up and _named(decision, decision.runner_up, graph, hinge),
+        runner_up=decision.runner_up and named_choice(decision, decision.runner_up, graph, hinge),
         runner_up_score=decision.runner_up_score,
     )
 
 
 def _words(decision: Decision, graph: FunctionalGraph, hinge: Hinge | None) -> str:
-    said = f"{_ASKED[decision.question]} {_named(decision, decision.choice, graph, hinge)} {decision.score:.0%}"
+    said = f"{_ASKED[decision.question]} {named_choice(decision, decision.choice, graph, hinge)} {decision.score:.0%}"
     if not decision.runner_up or decision.runner_up_score < _UNHEARD:
         return said
-    return f"{said} ({_named(decision, decision.runner_up, graph, hinge)} {decision.runner_up_score:.0%})"
+    return f"{said} ({named_choice(decision, decision.runner_up, graph, hinge)} {decision.runner_up_score:.0%})"
 
 
-def _named(decision: Decision, choice: str, graph: FunctionalGraph, hinge: Hinge | None) -> str:
-    """Returns a code as a side of the piece; what is no code is a name already."""
+def named_choice(decision: Decision, choice: str, graph: FunctionalGraph, hinge: Hinge | None = None) -> str:
+    """Returns a code as a side of the piece; what is no code is a name already. A sign needs the hinge it is of."""
     if not choice.isdecimal() or decision.part not in graph:
         return choice
     code, thin = int(choice), graph.node(decision.part).box.thin_axis

@@ -8,10 +8,11 @@ from grafu.graph.completion import GraphCompletion
 from grafu.graph.parse import parse_graph
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.pipeline.certainty import certainty_words, guesses_of
-from grafu.pipeline.functionalize import MOTIONS, PipelineConfig, choose_source
 from grafu.pipeline.inspection import ExpectedMotion, Forecast, StaticPart
 from grafu.pipeline.mechanisms import with_mechanisms
+from grafu.pipeline.motion_methods import MOTIONS, choose_source
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.records import piece_record
 from grafu.pipeline.shown_by_shape import shown_by_shape, with_labels_by_shape
 from grafu.pipeline.stages import Stages, by_contacts, without_network

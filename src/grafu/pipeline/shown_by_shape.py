@@ -18,7 +18,7 @@ from grafu.joints.folding import with_folds
 from grafu.joints.lifts import with_lifts
 from grafu.joints.lone_leaves import with_lone_leaf
 from grafu.joints.parallel_lifts import with_named_lifts
-from grafu.joints.plan import RealizationPlan
+from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.joints.portholes import with_porthole_labels
 from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
@@ -32,6 +32,8 @@ from grafu.joints.wide_bars import with_wide_bars
 from grafu.joints.windows import window, with_window_labels, with_windows
 from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
+
+_RACKS = (PartLabel.SHELF, PartLabel.MISC)
 
 
 @final
@@ -60,6 +62,7 @@ def shown_by_shape(
 
     `settled` are the parts whose motions the user states; `small` is as in the settings.
     """
+    plan = _without_small(plan, asset, graph, settled, joints.plan)
     plan = with_lone_leaf(with_windows(with_building_doors(plan, asset), asset), asset)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
@@ -70,6 +73,25 @@ def shown_by_shape(
     plan = with_lifts(plan, graph, at_scale(joints.lift, metre_on(asset.extent)))
     plan = _without_knobs(plan, asset, settled, at_scale(joints.small, metre_on(asset.extent)))
     return _without_turntables(plan, asset, small)
+
+
+def _without_small(
+    plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, settled: Collection[str], config: PlanConfig
+) -> RealizationPlan:
+    """Returns the plan in which, of parts that are neither doors nor drawers, racks and the like alone move.
+
+    Knobs, buttons and turntables are built as small parts, where these are wanted; leaves and supports of tables, as
+    their shapes show.
+    """
+    least = config.rack * asset.extent
+
+    def is_kept(request: JointRequest) -> bool:
+        node = graph.node(request.moving)
+        is_rack = request.kind.slides and node.label in _RACKS and float(node.box.size.max()) >= least
+        is_front = node.label.is_movable or node.label is PartLabel.UNKNOWN
+        return is_front or request.moving in settled or is_rack
+
+    return replace(plan, joints=tuple(request for request in plan.joints if is_kept(request)))
 
 
 def _without_knobs(

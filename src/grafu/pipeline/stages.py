@@ -100,11 +100,12 @@ _INSTEAD: Mapping[str, str] = MappingProxyType(
 class Stages:
     """Runs stages and keeps what they took; not a value.
 
-    `laps` are seconds per stage, in order; `notes` state which stages were given up, why, and what was done instead.
+    `laps` are seconds per stage, in order, all its turns together; `notes` state which stages were given up, why, and
+    what was done instead.
     """
 
     def __init__(self, on_stage: Callable[[str], None], budget: Budget) -> None:
-        self.laps: list[tuple[str, float]] = []
+        self.laps: dict[str, float] = {}
         self.notes: list[str] = []
         self._given_up: set[str] = set()
         self._on_stage = on_stage
@@ -120,7 +121,7 @@ class Stages:
             with self._budget.in_force():
                 found = within(RATIOS[name], stage, partial(self._other, name, instead))
         give_back_unused()
-        self.laps.append((name, perf_counter() - started))
+        self.laps[name] = self.laps.get(name, 0.0) + perf_counter() - started
         return found
 
     def gave_up(self, name: str) -> bool:

@@ -27,7 +27,8 @@ from grafu.errors import FunctionalizationError
 from grafu.export.blend.process import packed
 from grafu.geometry.transform import transform_points
 from grafu.graph.serialize import completion_to_json, dump_json
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import settings_from_bytes
 from grafu.processes.cache import CACHED_VALUES, NO_CACHE, Cache

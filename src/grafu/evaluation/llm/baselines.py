@@ -18,8 +18,9 @@ from grafu.evaluation.llm.graph_text import numbered
 from grafu.evaluation.llm.recording import Ask, replies_of
 from grafu.evaluation.still_picture import picture_of
 from grafu.graph.parse import parse_graph
-from grafu.pipeline.functionalize import Functionalized, PipelineConfig, functionalize
+from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.templates.gallery import builtin_gallery
 
 GRAPH, EDITS = "llm", "llm-edit"

@@ -1,0 +1,101 @@
+"""The stages from a completed graph to joints: plan, what is closed, what is missing in the body, the joints.
+
+Where a part is blocked in the direction that was decided, they run once more with the next likely one; what opens more
+parts stands.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import NamedTuple, final
+
+from grafu.additions.step import StepResult
+from grafu.asset.part import Asset
+from grafu.graph.completion import GraphCompletion
+from grafu.joints.closing import closed_plan
+from grafu.joints.folding import Fold
+from grafu.joints.joint_choice import with_choices
+from grafu.joints.motion_choice import MotionChoice
+from grafu.joints.plan import RealizationPlan
+from grafu.joints.realize import Realized, realize
+from grafu.joints.waste_bins import with_stated_bins
+from grafu.pipeline.additions import add_before_joints, without_idle
+from grafu.pipeline.finishing import to_build
+from grafu.pipeline.mechanisms import with_mechanisms
+from grafu.pipeline.motion_methods import MotionMethod
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
+from grafu.pipeline.second_choices import noted, second_choices
+from grafu.pipeline.shown_by_shape import shown_by_shape
+from grafu.pipeline.stages import Stages, nothing_before_joints, without_joints
+from grafu.processes.cache import Cache
+from grafu.templates.template import Gallery
+
+
+class BuiltJoints(NamedTuple):
+    """The graph that joints were planned from, the plan, what turns by shape alone, and what was built."""
+
+    completion: GraphCompletion
+    plan: RealizationPlan
+    turning: frozenset[str]
+    body: StepResult
+    realized: Realized
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class JointStages:
+    """The stages of one asset; `motions` and `folds` are what the user states about how parts move."""
+
+    asset: Asset
+    source: MotionSource
+    method: MotionMethod
+    motions: Mapping[str, MotionChoice]
+    folds: Sequence[Fold]
+    gallery: Gallery
+    config: PipelineConfig
+    stages: Stages
+    cache: Cache
+
+    def with_second_choices(self, completion: GraphCompletion) -> BuiltJoints:
+        """Returns the joints of a completion, with another direction where the likeliest one is blocked.
+
+        What was stated is not chosen again.
+        """
+        first = best = self.built(completion)
+        config = self.config.joints.plan
+        for turn in range(0 if self.method.reads_annotation else config.other_directions):
+            skipped = best.realized.report.skipped
+            other = second_choices(best.completion, skipped, turn, config)
+            if other is None or self.stages.gave_up("realize"):
+                break
+            tried = self.built(other)
+            is_better = len(tried.realized.report.installed) > len(best.realized.report.installed)
+            best = tried if is_better else best
+        if best is first:
+            return first
+        report = noted(best.realized.report, completion, best.completion)
+        return best._replace(realized=replace(best.realized, report=report))
+
+    def built(self, completion: GraphCompletion) -> BuiltJoints:
+        """Returns the joints of a completion."""
+        asset, settings, joints = self.asset, self.config.settings, self.config.joints
+        stages, value = self.stages, self.cache.value
+        planned = partial(value, f"plan by {self.source}", self.method.plan, asset, completion, joints.plan)
+        plan, turning = stages.timed("plan", planned), frozenset[str]()
+        if self.method.reads_annotation:
+            plan = with_stated_bins(plan, asset)
+        else:
+            graph, knobs = completion.completed, settings.small_parts
+            plan, turning = value("shape", shown_by_shape, plan, asset, graph, joints, self.motions, knobs)
+        plan = with_mechanisms(plan, self.motions, self.folds, completion, asset, joints)
+        plan = with_choices(plan, settings.joints, asset, self.gallery, joints.plan)
+        close = partial(value, "close", closed_plan, plan, asset, joints)  # drawers drawn open
+        plan = stages.timed("close", close, lambda _: plan)
+        wanted = settings.additions.of_body  # top, drawer boxes
+        add = partial(value, "body", add_before_joints, asset, completion, plan, wanted, joints.drawer)
+        body = stages.timed("body", add, partial(nothing_before_joints, asset, plan))
+        plan, grown = plan.with_attached(body.attached), to_build(asset, body, plan)
+        build = partial(realize, plan, grown, self.gallery.preferring(settings.hinge), joints, self.cache)
+        body, realized = without_idle(body, stages.timed("realize", build, partial(without_joints, plan, grown)))
+        return BuiltJoints(completion, plan, turning, body, realized)

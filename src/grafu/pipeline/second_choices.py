@@ -1,0 +1,88 @@
+"""Another direction for a part that is blocked in the one that was decided. It builds nothing."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Final, cast
+
+from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
+from grafu.graph.edges import Edge, Hinge, HingeBorder, Rail, SignedAxis, Slide
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.motion import opening_face, sign_for_opening
+from grafu.joints.plan import PlanConfig
+from grafu.joints.report import Installed, RealizationReport
+from grafu.pipeline.certainty import named_choice
+from grafu.refusal import Reason, Refusal
+
+_DIRECTIONS: Final = ("slide", "border")
+"""The questions that decide where a part moves to; the face that a door opens to stays."""
+
+
+def second_choices(
+    completion: GraphCompletion, skipped: Iterable[Refusal], turn: int = 0, config: PlanConfig = PlanConfig()
+) -> GraphCompletion | None:
+    """Returns the completion with another direction for what is blocked: in each `turn` (0, 1, ...) the next likely.
+
+    None where nothing is blocked that has one. What the user or the input stated has none.
+    """
+    blocked = {refusal.part for refusal in skipped if refusal.reason is Reason.BLOCKED}
+    swapped = {d.part: _swapped(d, turn) for d in completion.decisions if d.part in blocked and _has(d, turn, config)}
+    if not swapped:
+        return None
+    graph = completion.completed
+    edges = tuple(_turned(edge, swapped, graph) for edge in graph.edges)
+    signs = {edge.child: str(edge.sign) for edge in edges if isinstance(edge, Hinge)}
+    decisions = tuple(_decided(d, swapped, signs) for d in completion.decisions)
+    return replace(completion, completed=replace(graph, edges=edges), decisions=decisions)
+
+
+def noted(report: RealizationReport, first: GraphCompletion, second: GraphCompletion) -> RealizationReport:
+    """Returns the report in which each joint of a `second` choice states what the first one was."""
+    kept = {(d.part, d.question, d.choice) for d in second.decisions}
+    given_up = {
+        d.part: f"towards the {named_choice(d, d.choice, first.completed)} ({d.score:.0%}) it is blocked"
+        for d in first.decisions
+        if d.question in _DIRECTIONS and (d.part, d.question, d.choice) not in kept
+    }
+    outcomes = tuple(
+        replace(done, notes=(*done.notes, given_up[done.moving]))
+        if isinstance(done, Installed) and done.moving in given_up
+        else done
+        for done in report.outcomes
+    )
+    return replace(report, outcomes=outcomes)
+
+
+def _has(decision: Decision, turn: int, config: PlanConfig) -> bool:
+    is_one = decision.question in _DIRECTIONS and turn < len(decision.others)
+    return is_one and decision.others[turn][1] >= config.other_direction
+
+
+def _swapped(decision: Decision, turn: int) -> Decision:
+    """Returns the decision for what comes next; the runner-up is the likeliest of what was given up."""
+    choice, score = decision.others[turn]
+    given_up = ((decision.choice, decision.score), (decision.runner_up, decision.runner_up_score))
+    runner_up, its = max((g for g in given_up if g[0] != choice), key=lambda g: g[1])
+    by = decision.by or BY_BOTH
+    return replace(decision, choice=choice, score=score, runner_up=runner_up, runner_up_score=its, by=by)
+
+
+def _decided(decision: Decision, swapped: Mapping[str, Decision], signs: Mapping[str, str]) -> Decision:
+    """Returns a decision as it is after the second choice; the sign of a hinge is counted about its new border."""
+    other = swapped.get(decision.part)
+    if other is not None and other.question == decision.question:
+        return other
+    if other is None or decision.question != "sign" or decision.choice == signs.get(decision.part):
+        return decision
+    return replace(decision, choice=decision.runner_up, runner_up=decision.choice)
+
+
+def _turned(edge: Edge, swapped: Mapping[str, Decision], graph: FunctionalGraph) -> Edge:
+    """Returns an edge that moves its child in the other direction; a door still opens to the same face."""
+    decision = swapped.get(edge.child) if isinstance(edge, Hinge | Rail | Slide) else None
+    if isinstance(edge, Rail | Slide) and decision is not None and decision.question == "slide":
+        return replace(edge, axis=cast(SignedAxis, int(decision.choice)))
+    if isinstance(edge, Hinge) and decision is not None and decision.question == "border":
+        thin, border = graph.node(edge.child).box.thin_axis, cast(HingeBorder, int(decision.choice))
+        front = opening_face(thin, edge.border, edge.sign)
+        return replace(edge, border=border, sign=sign_for_opening(thin, border, front))
+    return edge

@@ -1,0 +1,114 @@
+"""A part that is blocked in the direction decided for it is built in the next likely one; the report states both."""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.asset.part import Asset
+from grafu.completion.rule import complete_by_rule
+from grafu.geometry.budget import UNLIMITED
+from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
+from grafu.graph.edges import Hinge, Rail
+from grafu.graph.motion import opening_face
+from grafu.graph.parse import parse_graph
+from grafu.joints.plan import PlanConfig
+from grafu.pipeline.certainty import certainty_words
+from grafu.pipeline.joint_stages import BuiltJoints, JointStages
+from grafu.pipeline.motion_methods import MOTIONS
+from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.pipeline_config import PipelineConfig
+from grafu.pipeline.second_choices import second_choices
+from grafu.pipeline.stages import Stages
+from grafu.processes.cache import NO_CACHE
+from grafu.refusal import Reason, Refusal
+from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
+from grafu.synth.case.case import Case
+from grafu.synth.fronts.layout import Door, Drawer, Stack
+from grafu.templates.gallery import builtin_gallery
+
+LEFT, RIGHT, FRONT, BACK = "0", "1", "2", "3"
+BACKWARDS = ((FRONT, 0.3), (LEFT, 0.05), (RIGHT, 0.005))
+ASIDE = ((LEFT, 0.3), (FRONT, 0.05), (RIGHT, 0.005))
+
+
+@pytest.fixture(scope="module")
+def asset() -> Asset:
+    return make_cabinet(Cabinet("made", Case(0.5, 0.9), Stack((Drawer(), Door()), (1.0, 3.0))))
+
+
+def wrong(asset: Asset, others: tuple[tuple[str, float], ...], score: float = 0.6) -> GraphCompletion:
+    """The rule's completion in which the drawer is to slide backwards, through the back panel."""
+    right = complete_by_rule(parse_graph(asset))
+    drawer = right.completed.rails[0].child
+    edges = tuple(replace(e, axis=3) if isinstance(e, Rail) else e for e in right.completed.edges)
+    runner_up = max(others, key=lambda other: other[1])
+    stated = Decision(drawer, "slide", BACK, score, *runner_up, others=others)
+    decisions = tuple(stated if d.question == "slide" else d for d in right.decisions)
+    return replace(right, completed=replace(right.completed, edges=edges), decisions=decisions)
+
+
+def built(asset: Asset, completion: GraphCompletion) -> BuiltJoints:
+    source, config, stages = MotionSource.RULE, PipelineConfig(), Stages(lambda _: None, UNLIMITED)
+    make = JointStages(asset, source, MOTIONS[source], {}, (), builtin_gallery(), config, stages, NO_CACHE)
+    return make.with_second_choices(completion)
+
+
+@pytest.mark.parametrize("others", [BACKWARDS, ASIDE], ids=["the second", "the third"])
+def test_a_blocked_drawer_slides_where_it_can(asset: Asset, others: tuple[tuple[str, float], ...]) -> None:
+    made = built(asset, wrong(asset, others))
+    drawer = made.completion.completed.rails[0].child
+    joint = made.realized.object.joint_of[drawer]
+    assert joint.axis.direction.tolist() == [0.0, -1.0, 0.0]
+    assert joint.limits.upper > 0.2
+    done = next(one for one in made.realized.report.installed if one.moving == drawer)
+    assert "towards the back (60%) it is blocked" in done.notes
+    decision = made.completion.decision(drawer, "slide")
+    assert decision is not None
+    chosen = (decision.choice, decision.score, decision.runner_up, decision.by)
+    assert chosen == (FRONT, dict(others)[FRONT], BACK, BY_BOTH)
+    assert len(made.realized.report.installed) == 2
+
+
+def test_what_is_unlikely_is_not_tried(asset: Asset) -> None:
+    made = built(asset, wrong(asset, ((FRONT, 0.009), (LEFT, 0.001))))
+    assert [refusal.reason for refusal in made.realized.report.skipped] == [Reason.BLOCKED]
+    assert made.completion.completed.rails[0].axis == 3
+
+
+def test_what_cannot_move_anyway_stays_as_decided(asset: Asset) -> None:
+    first = wrong(asset, ((LEFT, 0.3), (RIGHT, 0.05), (FRONT, 0.04)))
+    made = built(asset, first)
+    assert made.completion is first
+    assert [refusal.reason for refusal in made.realized.report.skipped] == [Reason.BLOCKED]
+
+
+def test_a_door_on_another_border_opens_to_the_same_face(asset: Asset) -> None:
+    right = complete_by_rule(parse_graph(asset))
+    hinge = right.completed.hinges[0]
+    graph = right.completed
+    others = tuple((str(b), 0.1) for b in range(4) if b != hinge.border)
+    decisions = tuple(
+        Decision(hinge.child, "border", str(hinge.border), 0.6, *others[0], others=others)
+        if (d.part, d.question) == (hinge.child, "border")
+        else d
+        for d in right.decisions
+    )
+    blocked = [Refusal(hinge.child, Reason.BLOCKED)]
+    first = replace(right, decisions=decisions)
+    for turn in range(3):
+        other = second_choices(first, blocked, turn)
+        assert other is not None
+        turned = next(e for e in other.completed.edges if isinstance(e, Hinge))
+        assert str(turned.border) == others[turn][0]
+        thin = graph.node(hinge.child).box.thin_axis
+        assert opening_face(thin, turned.border, turned.sign) == opening_face(thin, hinge.border, hinge.sign)
+        words = " ".join(certainty_words(other, hinge.child))
+        assert "opens to the front" in words
+
+
+def test_other_refusals_change_nothing(asset: Asset) -> None:
+    first = wrong(asset, BACKWARDS)
+    drawer = first.completed.rails[0].child
+    assert second_choices(first, [Refusal(drawer, Reason.NO_ROOM)]) is None
+    assert second_choices(first, [Refusal(drawer, Reason.BLOCKED)], turn=3) is None
+    assert second_choices(first, [Refusal(drawer, Reason.BLOCKED)], config=PlanConfig(other_direction=0.5)) is None
