@@ -65,6 +65,7 @@ class Measure:
 
 _ABLATE = "grafu ablate {kind} --out {{out}} --steps {steps} --jobs 1"
 _LOSSES, _FOLDS = (_ABLATE.format(kind=kind, steps=800) for kind in ("losses", "folds"))
+_ON_REAL = " --real {models}/pnm {models}/pnm2"
 _FEW = "--config tiny --steps 2 --jobs 2"
 
 MEASURES = (
@@ -181,11 +182,11 @@ MEASURES = (
     ),
     Measure(
         "folds",
-        _FOLDS,
-        f"grafu ablate folds --out {{out}} {_FEW}",
-        "the effect of corrupted copies",
+        _FOLDS + _ON_REAL,
+        f"grafu ablate folds --out {{out}} {_FEW} --real {{models}}/pnm/46408",
+        "the effect of corrupted copies, also on real models",
         ("training.md",),
-        60,
+        25,
         read=ablation_table,
     ),
     Measure(

@@ -83,6 +83,12 @@ def test_a_panel_does_not_move_on_a_door() -> None:
     assert "rack" not in completed(said).completed.moving
 
 
+def test_a_track_does_not_slide_on_the_door_that_slides_on_it() -> None:
+    kinds = {("door", "floor"): {EdgeKind.SLIDE: 2 * SURE}, ("button", "door"): {EdgeKind.SLIDE: 2 * SURE}}
+    found = completed(Answers(kinds=kinds, slides={"door": 1, "button": 3})).completed
+    assert [slide.child for slide in found.slides] == ["door"]
+
+
 def test_a_rack_is_planned_and_what_is_small_rides_with_the_door() -> None:
     found = completed(hung(rack=EdgeKind.SLIDE, button=EdgeKind.TURN))
     asset = piece()

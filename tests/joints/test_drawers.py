@@ -10,6 +10,7 @@ from grafu.asset.edit import yawed
 from grafu.asset.part import Part
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import merge_meshes
+from grafu.refusal import Reason
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Drawer, Stack
@@ -179,3 +180,11 @@ def test_mere_fronts_on_both_sides_of_a_table_hang_from_its_top():
     found = installed(realized(scene(top, *fronts, joints=joints)))
     assert found.keys() == {"drawer_1", "drawer_2"}
     assert all(not outcome.restricted and outcome.mount == "table_top" for outcome in found.values())
+
+
+@pytest.mark.parametrize("thick", [0.0, 1e-6, 0.001])
+def test_a_level_sheet_has_no_flanks_for_rails(thick):
+    walls = [part for part in drawer(0.003).parts if part.id != "drawer"]
+    sheet = box("drawer", (-0.2, -0.2, 0.1), (0.2, 0.2, 0.1 + thick))
+    result = realized(scene(*walls, sheet, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)))
+    assert [(refusal.part, refusal.reason) for refusal in result.report.skipped] == [("drawer", Reason.NO_ROOM)]

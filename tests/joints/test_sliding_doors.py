@@ -131,3 +131,10 @@ def test_supports_of_a_track_end_where_the_next_leaf_begins():
         assert all(
             leaf.box.grown(0.001).low[0] <= b.low[0] <= b.high[0] <= leaf.box.grown(0.001).high[0] for b in supports
         )
+
+
+def test_a_door_that_slides_beside_nothing_that_stays_is_skipped():
+    doors = [part for part in two_sliding_doors(0.003).parts if part.id.startswith("door")]
+    joints = (sliding("door_front", (1.0, 0.0, 0.0)), sliding("door_behind", (-1.0, 0.0, 0.0)))
+    result = realized(scene(*doors, joints=joints))
+    assert {refusal.part for refusal in result.report.skipped} == {"door_front", "door_behind"}

@@ -37,7 +37,7 @@ def other_motions(view: GraphView, graph: FunctionalGraph) -> tuple[tuple[Slide 
     for node in graph.nodes:
         if node.id not in view.given - settled or node.label in _ELSEWHERE:
             continue
-        answer = _motion_of(node, view, graph.moving, volumes)
+        answer = _motion_of(node, view, graph, volumes)
         if answer is not None:
             edges.append(answer[0])
             decisions.append(answer[1])
@@ -45,16 +45,20 @@ def other_motions(view: GraphView, graph: FunctionalGraph) -> tuple[tuple[Slide 
 
 
 def _motion_of(
-    node: PartNode, view: GraphView, moving: frozenset[str], volumes: Scalars
+    node: PartNode, view: GraphView, graph: FunctionalGraph, volumes: Scalars
 ) -> tuple[Slide | Turn, Decision] | None:
-    """Returns the likeliest slide or turn of a part on a larger one; None where none is likely enough."""
-    slot, nodes = view.place[node.id], view.graph.nodes
+    """Returns the likeliest slide or turn of a part on another one; None where none is likely enough.
+
+    A door that slides is joined so to its own track: nothing slides on it.
+    """
+    slot, nodes = view.place[node.id], graph.nodes
+    sliding = {edge.child for edge in graph.slides}
     carriers = [k for k, n in enumerate(nodes) if n.id in view.given and _moves_on(slot, k, view, volumes)]
     chances = {
         (kind, k): float(view.probabilities.edge[slot, k, code])
         for code, kind in _KINDS.items()
         for k in carriers
-        if is_allowed(kind(nodes[k].id, node.id, 0), nodes[k].label, node.label, parent_moves=nodes[k].id in moving)
+        if _fits(kind(nodes[k].id, node.id, 0), graph) and not (kind is Slide and nodes[k].id in sliding)
     }
     best = max(chances, key=lambda key: chances[key], default=None)
     if best is None or chances[best] < view.config.other_motion:
@@ -63,6 +67,11 @@ def _motion_of(
     axes = ranking_of(SIGNED_AXES, chances[best] * view.probabilities.slide[slot, carrier])
     edge = kind(nodes[carrier].id, node.id, axes.choice)
     return edge, decision_of(node.id, "slide" if kind is Slide else "turn", axes)
+
+
+def _fits(edge: Slide | Turn, graph: FunctionalGraph) -> bool:
+    parent, child = graph.node(edge.parent).label, graph.node(edge.child).label
+    return is_allowed(edge, parent, child, parent_moves=edge.parent in graph.moving)
 
 
 def _moves_on(slot: int, other: int, view: GraphView, volumes: Scalars) -> bool:

@@ -129,8 +129,11 @@ class DrawerSearch:
 
     @property
     def _room_along(self) -> float:
-        """How far it is from the leading edge to the end of the static body, metres."""
-        ends = np.vstack([obstacle.collider.box.corners() for obstacle in self.scene.static_obstacles])
+        """How far it is from the leading edge to the end of the static body, metres; 0 where nothing is static."""
+        corners = [obstacle.collider.box.corners() for obstacle in self.scene.static_obstacles]
+        if not corners:
+            return 0.0
+        ends = np.vstack(corners)
         slide = np.asarray(self.frame.slide)
         return float((ends @ slide).max() - (self.mesh.vertices @ slide).max())
 

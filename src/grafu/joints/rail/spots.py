@@ -83,9 +83,11 @@ def rail_spots(
 ) -> Iterator[RailSpot]:
     """Yields spots for one model, best first: at full thickness and inset, at the middle of the flank, then elsewhere.
 
-    `ratio` is the rail's length over the body's (supplement, Scaling).
+    `ratio` is the rail's length over the body's (supplement, Scaling). A body that is a mere sheet has no flanks.
     """
     flank = body.top - body.bottom
+    if flank < config.thinnest:
+        return
     length = ratio * body.length
     y = body.front + length / 2 if body.is_front_only else body.back - length / 2
     for thickness in _thicknesses(model.natural.thickness, gaps, config):
