@@ -19,6 +19,8 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from judge_network_added import ASKED as ASKED_TO_ADD
+from judge_network_added import Added, added_table, judge_added
 
 from grafu.completion.features import FeatureConfig
 from grafu.completion.network import complete_by_network
@@ -71,26 +73,31 @@ def main() -> int:
         found: list[Accuracies] = []
         doors: list[Doors] = []
         facts: list[Facts] = []
+        added: list[dict[str, Added]] = []
         weights = None if options.rule else options.weights
         for one in pool.map(partial(judge, weights, options.seed), range(options.count), chunksize=4):
             found.append(one[0])
             doors.append(one[1])
             facts.append(one[2])
+            added.append(one[3])
             print(f"  {len(found)}/{options.count}, {time.perf_counter() - began:.0f} s", file=sys.stderr, end="\r")
     print(file=sys.stderr)
-    print(table(found), door_table(doors), *([] if options.rule else [fact_table(facts)]), sep="\n\n")
+    print(
+        table(found), door_table(doors), *([] if options.rule else [fact_table(facts), added_table(added)]), sep="\n\n"
+    )
     return 0
 
 
-def judge(weights: Path | None, seed: int, number: int) -> tuple[Accuracies, Doors, Facts]:
-    """Returns the figures of one model by variant, of its doors and facts; without weights, those of the rules."""
+def judge(weights: Path | None, seed: int, number: int) -> tuple[Accuracies, Doors, Facts, dict[str, Added]]:
+    """Returns the figures of one model by variant, its doors, facts and added parts; without weights, by the rules."""
     complete = complete_by_rule if weights is None else partial(complete_by_weights, open_network(weights))
     natural = specimen_pair(make_specimen(seed, number, FeatureConfig().points))
     pairs = asked_pairs(natural, number)
     completed = {name: complete(pair.input) for name, pair in pairs.items()}
     accuracies = {name: graph_accuracy(completed[name], pair.target) for name, pair in pairs.items()}
     facts = {(name, what): n for name in ASKED for what, n in judge_facts(completed[name], pairs[name]).items()}
-    return accuracies, judge_doors(completed["natural"].completed, natural), facts
+    added = {name: judge_added(completed[name].completed, pairs[name]) for name in ASKED_TO_ADD}
+    return accuracies, judge_doors(completed["natural"].completed, natural), facts, added
 
 
 def judge_facts(found: GraphCompletion, pair: GraphPair) -> dict[str, tuple[int, int, int]]:

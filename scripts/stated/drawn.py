@@ -43,6 +43,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("network.md", "network and rules"): beside(store),
         ("network.md", "doors"): doors(store),
         ("network.md", "facts"): copied(store["synthetic"], 2),
+        ("network.md", "added parts"): copied(store["synthetic"], 3),
         ("network.md", "motions"): motions(store),
         ("network.md", "causes"): causes(store),
         ("additions.md", "statics made"): copied(store["statics"], 0),
