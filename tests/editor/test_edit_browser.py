@@ -291,10 +291,10 @@ def test_a_handle_on_the_chosen_front_is_dragged_and_stays_on_it(browser, lastin
 
 def test_each_compartment_behind_a_door_has_its_own_shelves(browser, lasting):
     opened(browser, lasting)
-    corners = "(z) => [[0, 0, z + 0.1], [0, 0, z]]"
-    browser.run(
-        f"grafuEditor.state.compartments = [0.5, 0.1].map((z) => ({{behind: [{DOOR!r}], corners: ({corners})(z)}}));"
-        f"grafuEditor.pick({DOOR!r}); grafuEditor.choose = 0;"
-    )
+    made = f"[0.5, 0.1].map((z) => ({{behind: [{DOOR!r}], corners: [[0, 0, z]]}}))"
+    browser.run(f"grafuEditor.state.compartments = {made}; grafuEditor.pick({DOOR!r})")
     fields = "[...document.querySelectorAll('[data-shelves]')].map((one) => one.dataset.shelves)"
     assert browser.run(fields) == ["1", "0"]  # the lowest first
+    long = "Object.assign(document.querySelector('[data-do=join]'), {textContent: 'x'.repeat(60)})"
+    assert browser.run(f"{long}.scrollWidth <= document.getElementById('inspector').clientWidth")
+    assert browser.run("document.querySelector('[data-do=split]').offsetHeight") < 60  # its words are on one line
