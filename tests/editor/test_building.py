@@ -9,10 +9,12 @@ import pytest
 
 from grafu.editor.builder import STOPPED, BuildProcess
 from grafu.editor.building import GEOMETRY, STATE, TEXTURES, Bench, Order, order_of
+from grafu.editor.scripts import SCRIPTS
 from grafu.errors import NotBuilt
 from grafu.joints.motion_choice import FIXED
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings
+from grafu.pipeline.stages import RATIOS
 
 RULE = Settings(MotionSource.RULE)
 
@@ -59,3 +61,9 @@ def test_only_what_a_choice_touches_is_built_anew(model, tmp_path):
     assert "parse" not in again
     assert "sides" not in again
     assert bench.cache.made["surface"] - made["surface"] < made["surface"]
+
+
+def test_the_page_has_words_for_every_stage():
+    words = SCRIPTS["edit.js"]().partition("const STAGES = {")[2].partition("};")[0]
+    for stage in (*RATIOS, "load", "match", "plan", "export", "write", "page"):
+        assert f'{stage}: "' in words or f'"{stage}": "' in words, stage

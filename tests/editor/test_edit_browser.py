@@ -263,3 +263,38 @@ def test_axe_finds_nothing(browser, lasting):
     browser.run(AXE.read_text() + ";1")
     found = browser.run("axe.run().then((r) => r.violations.map((v) => [v.id, v.nodes.map((n) => n.html)]))")
     assert found == []
+
+
+def test_a_handle_on_the_chosen_front_is_dragged_and_stays_on_it(browser, lasting):
+    opened(browser, lasting)
+    browser.run(f"grafuEditor.choose('handle', {DOOR!r}, 'knob-round')")
+    settled(browser, shown(browser) + 1)
+    handle = browser.run(f"grafuEditor.state.report.added.find((one) => one.link === {DOOR!r}).part")
+    browser.run(f"grafuEditor.pick({DOOR!r})")
+    fronts = f"grafuEditor.state.settings.additions.fronts[{DOOR!r}].offset"
+    number, (x, y) = shown(browser), place_of(browser, handle)
+    browser.drag((x, y), (x, y - 10), (x, y - 20), (x, y - 30))
+    settled(browser, number + 1)
+    assert browser.run(f"{fronts}[1]") > 0.01
+    assert abs(place_of(browser, handle)[1] - (y - 30)) < 4
+    browser.drag((x, y - 30), (x, y - 300), (x, y - 400))  # far beyond the top of the door
+    settled(browser, number + 2)
+    assert browser.run(f"{fronts}[1]") < 0.7
+    browser.run(
+        "{const field = document.querySelector('[data-offset=\"1\"]');"
+        "field.value = '-5'; field.dispatchEvent(new Event('change'))}"
+    )
+    settled(browser, number + 3)
+    assert abs(browser.run(f"{fronts}[1]") + 0.05) < 1e-9
+    assert browser.complaints(lasting.address) == []
+
+
+def test_each_compartment_behind_a_door_has_its_own_shelves(browser, lasting):
+    opened(browser, lasting)
+    made = f"[0.5, 0.1].map((z) => ({{behind: [{DOOR!r}], corners: [[0, 0, z]]}}))"
+    browser.run(f"grafuEditor.state.compartments = {made}; grafuEditor.pick({DOOR!r})")
+    fields = "[...document.querySelectorAll('[data-shelves]')].map((one) => one.dataset.shelves)"
+    assert browser.run(fields) == ["1", "0"]  # the lowest first
+    long = "Object.assign(document.querySelector('[data-do=join]'), {textContent: 'x'.repeat(60)})"
+    assert browser.run(f"{long}.scrollWidth <= document.getElementById('inspector').clientWidth")
+    assert browser.run("document.querySelector('[data-do=split]').offsetHeight") < 60  # its words are on one line

@@ -17,7 +17,7 @@ SETTINGS = Settings(hinge="piano")
 @pytest.fixture(scope="module")
 def collecting(made) -> str:
     result = made.result
-    return model_page(result.asset, result.object, result.completion, made.report, None, SETTINGS)
+    return model_page(result.asset, result.object, result.completion, made.report, None, SETTINGS, ("glb", "mjcf"))
 
 
 @pytest.fixture
@@ -64,6 +64,7 @@ def test_choices_become_one_file_and_one_command(opened, made, tmp_path):
     assert stated.inputs == [Path(made.report.input.path)]
     assert stated.out == tmp_path / "a folder's results"
     assert stated.overwrite
+    assert stated.formats == "glb,mjcf"  # those of the results, which the command replaces
     assert opened.complaints() == []
 
 

@@ -66,31 +66,35 @@ def files_of(
         started = perf_counter()
         with budget.in_force():
             report, drawn, picture = within(
-                _PAGE, partial(_page, made, report, settings), partial(_page_of_words, made, report, settings)
+                _PAGE,
+                partial(_page, made, report, settings, formats),
+                partial(_page_of_words, made, report, settings, formats),
             )
         files = files.joined(drawn)
         report = report.model_copy(update={"timings": {**report.timings, "page": round(perf_counter() - started, 4)}})
     return Saved(files.joined(_json_files(made, report, settings)), report, picture)
 
 
-def _page(made: Functionalized, report: Report, settings: Settings | None) -> tuple[Report, ExportFiles, bytes]:
+def _page(
+    made: Functionalized, report: Report, settings: Settings | None, formats: Sequence[str]
+) -> tuple[Report, ExportFiles, bytes]:
     """Returns the report, its page as a file, and a small picture of the model."""
     from grafu.viewer.model_page import model_page
     from grafu.viewer.pictures import take_stills, thumbnail
 
     stills = take_stills(made.asset, made.object)
-    page = model_page(made.asset, made.object, made.completion, report, stills, settings)
+    page = model_page(made.asset, made.object, made.completion, report, stills, settings, formats)
     return report, ExportFiles({MODEL_PAGE: writable(page).encode()}), thumbnail(stills)
 
 
 def _page_of_words(
-    made: Functionalized, report: Report, settings: Settings | None, why: str
+    made: Functionalized, report: Report, settings: Settings | None, formats: Sequence[str], why: str
 ) -> tuple[Report, ExportFiles, bytes]:
     """Returns the report, which states what its page lacks, the page without pictures of the model, and no picture."""
     from grafu.viewer.model_page import model_page
 
     noted = with_notes(report, f"{MODEL_PAGE} has no 3D view and no pictures: {why}")
-    page = model_page(made.asset, made.object, made.completion, noted, None, settings)
+    page = model_page(made.asset, made.object, made.completion, noted, None, settings, formats)
     return noted, ExportFiles({MODEL_PAGE: writable(page).encode()}), b""
 
 

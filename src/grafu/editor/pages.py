@@ -29,6 +29,7 @@ _OTHERS: Final = (
     ("back", "Back edge"),
     ("fixed", "Fixed"),
 )
+_OFFSETS: Final = ("Handle right by", "Handle up by")
 _KEYS: Final = (
     ("n", "next doubtful joint"),
     ("a", "accept"),
@@ -146,8 +147,11 @@ def _inspector() -> Html:
         _select("template", "Hinge or rail", ()),
         _select("handle", "Handle", handle_styles()),
         _select("label", "Category", tuple(PartLabel)),
-        tag("label", "Shelves behind it (empty: automatic) ", _number("shelves", 1.0), id="shelves-field", hidden=True),
     ]
+    fields.insert(
+        3, tag("div", *(_offset(k, word) for k, word in enumerate(_OFFSETS)), id="offset-fields", hidden=True)
+    )
+    fields.append(tag("div", id="shelves-fields"))
     about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"), _handles(), divide)
     body = tag("div", *about, id="about-part", hidden=True)
     return tag("section", pick, body, id="inspector", class_="panel", aria_label="The part that is chosen")
@@ -189,6 +193,11 @@ def _keys() -> Html:
 def _select(name: str, label: str, values: Sequence[str]) -> Html:
     options = [tag("option", "automatic", value=""), *(tag("option", value, value=value) for value in values)]
     return tag("label", f"{label} ", tag("select", *options, data_choice=name, autocomplete="off"))
+
+
+def _offset(index: int, word: str) -> Html:
+    field = tag("input", type="number", step="0.1", placeholder="0", data_offset=index, autocomplete="off")
+    return tag("label", f"{word} ", field, tag("span", "cm"))
 
 
 def _number(name: str, step: float) -> Html:

@@ -3,6 +3,7 @@
 It writes nothing: the browser saves the file where its downloads go.
 """
 
+from collections.abc import Sequence
 from typing import Final
 
 from grafu.joints.motion_choice import choice_in_words
@@ -17,13 +18,17 @@ LEAD: Final = (
 LINES: Final = "A click on an option chooses it; the box at the end of the page makes one command of all."
 
 
-def collected(report: Report, settings: Settings) -> Html:
-    """Returns the box that fills as options are chosen, and the data that its script needs."""
+def collected(report: Report, settings: Settings, formats: Sequence[str] = ()) -> Html:
+    """Returns the box that fills as options are chosen, and the data that its script needs.
+
+    The command writes `formats` again, as names of export formats; without, those that are usual.
+    """
     words = {option.rpartition("=")[2] for options in report.moves.values() for option in options}
     choices = {word: choice_in_words(word) for word in sorted(words)}
     data = {
         "settings": settings.to_json(),
         "input": report.input.path,
+        "formats": list(formats),
         "words": {
             word: {"moves": str(choice.moves), "side": choice.side and str(choice.side), "inwards": choice.inwards}
             for word, choice in choices.items()

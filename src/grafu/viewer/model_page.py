@@ -5,6 +5,8 @@ moves by itself, pictures, the functional graph, and the report as tables. The v
 plays the animation of a GLB but has no slider per joint and adds 1 MB to each page; viser needs a server that runs.
 """
 
+from collections.abc import Sequence
+
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
@@ -76,11 +78,13 @@ def model_page(
     report: Report,
     stills: Stills | None,
     settings: Settings | None = None,
+    formats: Sequence[str] = (),
 ) -> str:
     """Returns the page of a model: the input, the result, and its report as text, tables and pictures.
 
     Without stills it is text and tables, and the graph: no 3D view, no pictures. With the settings that the result was
-    made with, options that are chosen on it are collected as new settings; without, an option can be copied.
+    made with, options that are chosen on it are collected as new settings, and a command that writes the same
+    `formats`; without, an option can be copied.
     """
     collects = settings is not None and bool(report.moves)
     shown: list[Html] = []
@@ -93,7 +97,7 @@ def model_page(
     body = joined([
         tag("header", tag("h1", report.input.name), verdict, header_facts(asset, report)),
         tag("main", *shown, *report_sections(report, completion, collecting.LEAD if collects else LEAD)),
-        *([collecting.collected(report, settings)] if settings is not None and collects else []),
+        *([collecting.collected(report, settings, formats)] if settings is not None and collects else []),
         tag("footer", f"grafu {report.version}"),
         *data,
     ])  # fmt: skip

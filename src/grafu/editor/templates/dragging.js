@@ -2,6 +2,7 @@
 
 const NEAR = 1e-9; // pixels squared for a full motion: less is a motion along the line of view
 const OPENING = 0.45; // seconds
+const NEARBY = 6; // pixels that a pointer may miss a handle by: many are three wide
 
 class LiveView extends ModelView {
   constructor(stage, { chosen, moved, movable }) {
@@ -65,11 +66,34 @@ class LiveView extends ModelView {
 
   grab(place) {
     if (this.lasso.active) return this.lasso.grab(place);
-    const index = this.renderer.pick(this.camera, this.joints.poses(), this.view, place.x, place.y);
-    if (index < 0 || this.view.chosen < 0 || this.subject(index) !== this.subject(this.view.chosen)) return null;
-    const item = this.scene.items[index], joint = this.jointOf(index);
-    if (item.role === "added" && item.label === "handle" && this.movable(item.name)) return this.grabHandle(index, place);
+    if (this.view.chosen < 0) return null;
+    const handle = this.handleNear(place);
+    if (handle >= 0) return this.grabHandle(handle, place);
+    const index = this.at(place.x, place.y), joint = this.jointOf(index);
+    if (index < 0 || this.subject(index) !== this.subject(this.view.chosen)) return null;
     return joint === null ? null : this.grabJoint(index, this.joints.leader(joint), place);
+  }
+
+  // Returns the item that is seen at a place, or -1.
+  at(x, y) {
+    return this.renderer.pick(this.camera, this.joints.poses(), this.view, x, y);
+  }
+
+  // Returns the handle at a place, or next to it, that can be moved: it is chosen, or is on the front that is. -1: none.
+  handleNear({ x, y }) {
+    const aside = NEARBY / this.canvas.clientWidth, up = NEARBY / this.canvas.clientHeight;
+    for (const [right, down] of [[0, 0], [-0.5, 0], [0.5, 0], [0, -0.5], [0, 0.5], [-1, 0], [1, 0], [0, -1], [0, 1]]) {
+      const index = this.at(x + right * aside, y + down * up), item = this.scene.items[index];
+      if (item && this.isOfChosen(index) && this.movable(item.name)) return index;
+    }
+    return -1;
+  }
+
+  // Whether an item is a handle that was added, which is chosen itself, or whose front is.
+  isOfChosen(index) {
+    const item = this.scene.items[index], chosen = this.subject(this.view.chosen), joint = this.jointOf(index);
+    if (item.role !== "added" || item.label !== "handle") return false;
+    return item.name === chosen || (joint !== null && this.scene.joints[joint].part === chosen);
   }
 
   grabJoint(index, joint, start) {
@@ -119,6 +143,7 @@ class LiveView extends ModelView {
     const [ax, ay] = clip([1e-3, 0, 0]), [bx, by] = clip([0, 0, 1e-3]), area = ax * by - ay * bx;
     if (Math.abs(area) < 1e-12) return null;
     let offset = [0, 0];
+    const room = this.roomOnFront(item);
     const finish = () => {
       if (offset[0] || offset[1]) this.moved(item.name, offset);
     };
@@ -126,9 +151,20 @@ class LiveView extends ModelView {
     return (place) => {
       const x = place.x - start.x, y = place.y - start.y;
       offset = [(1e-3 * (x * by - y * bx)) / area, (1e-3 * (ax * y - ay * x)) / area];
+      offset = offset.map((by, k) => clamp(by, ...room[k]));
       pieces.forEach((piece, k) => (piece.low = add(lows[k], [offset[0], 0, offset[1]])));
       this.redraw();
     };
+  }
+
+  // Returns how far an item can be moved over its front, aside (X) and up (Z): the least and the most, metres.
+  roomOnFront({ link, box: [low, high] }) {
+    const boxes = this.scene.items.filter((item) => item.link === link && item.role === "part").map((item) => item.box);
+    return [0, 2].map((axis) => {
+      const least = Math.min(...boxes.map((box) => box[0][axis])) - low[axis];
+      const most = Math.max(...boxes.map((box) => box[1][axis])) - high[axis];
+      return least < most ? [least, most] : [0, 0];
+    });
   }
 
   // Takes the place of a build that was shown: what stood open stays open, what was chosen stays chosen.

@@ -1,5 +1,8 @@
 // What can be chosen about one part, and about the whole piece: it shows what holds, and tells what the user chooses.
 
+// Returns the number in a field; null: none.
+const entered = (field) => (field.value.trim() === "" ? null : Number(field.value));
+
 class Inspector {
   constructor({ choose, picked }) {
     Object.assign(this, { choose, picked });
@@ -13,6 +16,10 @@ class Inspector {
       button.addEventListener("click", () => this.handle(button.dataset.handle)));
     document.querySelectorAll("[data-choice]").forEach((field) =>
       field.addEventListener("change", () => this.answer(field)));
+    document.querySelectorAll("[data-offset]").forEach((field) =>
+      field.addEventListener("change", () => this.place()));
+    document.getElementById("shelves-fields").addEventListener("change", ({ target }) =>
+      choose("shelves", target.dataset.shelves, entered(target)));
     document.getElementById("left-out").addEventListener("click", ({ target }) => {
       if (target.dataset.restore) choose("restore", target.dataset.restore, true);
     });
@@ -57,7 +64,7 @@ class Inspector {
   }
 
   showPart() {
-    const { settings, sides } = this.state, { part, joint } = this;
+    const { settings, sides, report } = this.state, { part, joint } = this;
     document.getElementById("certainty").textContent = this.said();
     const word = this.word();
     document.querySelectorAll("[data-motion]").forEach((button) => {
@@ -94,9 +101,34 @@ class Inspector {
     this.field("label").value = settings.labels[part] ?? "";
     ["opening", "template", "handle"].forEach((name) => (this.field(name).disabled = !joint));
     this.field("label").disabled = this.isAdded;
-    const number = this.compartment(), shelves = this.field("shelves");
-    document.getElementById("shelves-field").hidden = number < 0;
-    shelves.value = settings.additions.compartments[number]?.shelves ?? "";
+    const handle = report.added.some((one) => one.category === "handle" && one.link === part);
+    const offset = settings.additions.fronts[part]?.offset ?? [0, 0];
+    document.getElementById("offset-fields").hidden = !handle;
+    this.offsets.forEach((field, k) => (field.value = offset[k] ? String(Math.round(1000 * offset[k]) / 10) : ""));
+    this.showShelves();
+  }
+
+  get offsets() {
+    return [...document.querySelectorAll("[data-offset]")];
+  }
+
+  // Shows a field for each compartment that the part stands before, the lowest first.
+  showShelves() {
+    const { compartments, settings } = this.state;
+    const numbers = [...compartments.keys()].filter((k) => compartments[k].behind.includes(this.part));
+    const floor = (k) => Math.min(...compartments[k].corners.map((corner) => corner[2]));
+    const fields = numbers.sort((a, b) => floor(a) - floor(b)).map((number, k) => {
+      const which = numbers.length > 1 ? `, compartment ${k + 1} of ${numbers.length} from below` : "";
+      const label = document.createElement("label"), field = document.createElement("input");
+      Object.assign(field, { type: "number", min: "0", step: "1", autocomplete: "off" });
+      field.dataset.shelves = String(number);
+      field.value = settings.additions.compartments[number]?.shelves ?? "";
+      label.append(`Shelves behind it${which} (empty: automatic) `, field);
+      return label;
+    });
+    const box = document.getElementById("shelves-fields"), held = document.activeElement?.dataset?.shelves;
+    box.replaceChildren(...fields);
+    if (held) box.querySelector(`[data-shelves="${held}"]`)?.focus();
   }
 
   showWhole(settings) {
@@ -144,11 +176,6 @@ class Inspector {
     return `${this.part}: ${[category, ...static_, ...sure].join("; ")}`;
   }
 
-  // Returns the number of the compartment that the part stands before, or -1.
-  compartment() {
-    return this.state.compartments.findIndex((one) => one.behind.includes(this.part));
-  }
-
   motion(word) {
     if (this.part && word !== this.word()) this.choose("motion", this.part, word);
   }
@@ -158,11 +185,16 @@ class Inspector {
     if (this.part) this.choose("handle", this.part, this.field("handle").value === style ? null : style);
   }
 
+  // Moves the handle to where both fields state, centimetres.
+  place() {
+    const offset = this.offsets.map((field) => (entered(field) ?? 0) / 100);
+    this.choose("handle offset", this.part, offset.some(Boolean) ? offset : null);
+  }
+
   answer(field) {
-    const name = field.dataset.choice, text = field.value.trim(), number = text === "" ? null : Number(text);
+    const name = field.dataset.choice, text = field.value.trim();
     if (["top", "hinge", "handles"].includes(name)) this.choose(name, "", text || null);
-    else if (name === "opening") this.choose(this.slides ? "slide" : "turn", this.part, number);
-    else if (name === "shelves") this.choose("shelves", String(this.compartment()), number);
+    else if (name === "opening") this.choose(this.slides ? "slide" : "turn", this.part, entered(field));
     else this.choose(name, this.part, text || null);
   }
 

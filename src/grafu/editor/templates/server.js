@@ -5,6 +5,7 @@ const STAGES = {
   complete: "finding what moves", plan: "planning joints", close: "closing drawers that are drawn open",
   body: "building the body", realize: "fitting hinges and rails", fittings: "fitting handles and shelves",
   "small parts": "fitting knobs and wheels", "lift arms": "fitting lift arms", stays: "fitting stays",
+  match: "matching motions with parts", "grasp frames": "finding where grippers take hold", page: "drawing the page",
   export: "making the files", write: "writing",
 };
 
