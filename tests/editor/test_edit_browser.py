@@ -271,6 +271,7 @@ def test_a_handle_on_the_chosen_front_is_dragged_and_stays_on_it(browser, lastin
     settled(browser, shown(browser) + 1)
     handle = browser.run(f"grafuEditor.state.report.added.find((one) => one.link === {DOOR!r}).part")
     browser.run(f"grafuEditor.pick({DOOR!r})")
+    assert browser.run("[...document.querySelectorAll('[data-offset]')].map((one) => one.value)") == ["0", "0"]
     fronts = f"grafuEditor.state.settings.additions.fronts[{DOOR!r}].offset"
     number, (x, y) = shown(browser), place_of(browser, handle)
     browser.drag((x, y), (x, y - 10), (x, y - 20), (x, y - 30))

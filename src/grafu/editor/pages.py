@@ -146,12 +146,10 @@ def _inspector() -> Html:
         tag("label", "Opens at most ", _number("opening", 0.1), tag("span", id="unit")),
         _select("template", "Hinge or rail", ()),
         _select("handle", "Handle", handle_styles()),
+        tag("div", *(_offset(k, word) for k, word in enumerate(_OFFSETS)), id="offset-fields", hidden=True),
         _select("label", "Category", tuple(PartLabel)),
+        tag("div", id="shelves-fields"),
     ]
-    fields.insert(
-        3, tag("div", *(_offset(k, word) for k, word in enumerate(_OFFSETS)), id="offset-fields", hidden=True)
-    )
-    fields.append(tag("div", id="shelves-fields"))
     about = (verdict, buttons, clash, group, tag("div", *fields, class_="fields"), _handles(), divide)
     body = tag("div", *about, id="about-part", hidden=True)
     return tag("section", pick, body, id="inspector", class_="panel", aria_label="The part that is chosen")
@@ -196,7 +194,7 @@ def _select(name: str, label: str, values: Sequence[str]) -> Html:
 
 
 def _offset(index: int, word: str) -> Html:
-    field = tag("input", type="number", step="0.1", placeholder="0", data_offset=index, autocomplete="off")
+    field = tag("input", type="number", step="0.1", value="0", data_offset=index, autocomplete="off")
     return tag("label", f"{word} ", field, tag("span", "cm"))
 
 

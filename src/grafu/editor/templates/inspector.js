@@ -104,7 +104,7 @@ class Inspector {
     const handle = report.added.some((one) => one.category === "handle" && one.link === part);
     const offset = settings.additions.fronts[part]?.offset ?? [0, 0];
     document.getElementById("offset-fields").hidden = !handle;
-    this.offsets.forEach((field, k) => (field.value = offset[k] ? String(Math.round(1000 * offset[k]) / 10) : ""));
+    this.offsets.forEach((field, k) => (field.value = String(Math.round(1000 * offset[k]) / 10)));
     this.showShelves();
   }
 
