@@ -6,19 +6,21 @@ import pytest
 
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
+from grafu.errors import TooComplex
 from grafu.geometry.budget import UNLIMITED
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail
 from grafu.graph.motion import opening_face
 from grafu.graph.parse import parse_graph
 from grafu.joints.plan import PlanConfig
+from grafu.joints.realize import Realized
 from grafu.pipeline.certainty import certainty_words
 from grafu.pipeline.joint_stages import BuiltJoints, JointStages
 from grafu.pipeline.motion_methods import MOTIONS
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.second_choices import second_choices
-from grafu.pipeline.stages import Stages
+from grafu.pipeline.stages import Stages, without_joints
 from grafu.processes.cache import NO_CACHE
 from grafu.refusal import Reason, Refusal
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -112,3 +114,25 @@ def test_other_refusals_change_nothing(asset: Asset) -> None:
     assert second_choices(first, [Refusal(drawer, Reason.NO_ROOM)]) is None
     assert second_choices(first, [Refusal(drawer, Reason.BLOCKED)], turn=3) is None
     assert second_choices(first, [Refusal(drawer, Reason.BLOCKED)], config=PlanConfig(other_direction=0.5)) is None
+
+
+def test_a_try_that_was_given_up_leaves_no_note_behind(asset: Asset, monkeypatch: pytest.MonkeyPatch) -> None:
+    config, stages = PipelineConfig(), Stages(lambda _: None, UNLIMITED)
+    source = MotionSource.RULE
+    make = JointStages(asset, source, MOTIONS[source], {}, (), builtin_gallery(), config, stages, NO_CACHE)
+    first = make.built(wrong(asset, BACKWARDS))
+    built_once = iter([first])
+
+    def too_late(*_: object) -> BuiltJoints:
+        for one in built_once:
+            return one
+        nothing = without_joints(first.plan, asset, "time is up")
+        return first._replace(realized=stages.timed("realize", out_of_time, lambda _: nothing))
+
+    def out_of_time() -> Realized:
+        raise TooComplex("time is up")
+
+    monkeypatch.setattr(JointStages, "built", too_late)
+    assert make.with_second_choices(wrong(asset, BACKWARDS)) is first
+    assert stages.notes == []
+    assert not stages.gave_up("realize")

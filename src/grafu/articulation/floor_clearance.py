@@ -74,8 +74,14 @@ def off_floor(
     return found
 
 
-def _low(shapes: tuple[CollisionShape, ...]) -> float:
+def lowest_of(*shapes: CollisionShape) -> float:
+    """Returns the height of the lowest corner of shapes (metres); infinite where there is none."""
     return min((float(corners_of(shape)[:, 2].min()) for shape in shapes), default=np.inf)
+
+
+def floor_below(shapes: Mapping[str, tuple[CollisionShape, ...]]) -> float:
+    """Returns the height of the floor that a piece stands on as drawn: its lowest corner; infinite without shapes."""
+    return min((lowest_of(*held) for held in shapes.values()), default=np.inf)
 
 
 def _floor(
@@ -83,9 +89,8 @@ def _floor(
 ) -> float | None:
     """Returns the height of the floor; None: nothing stands on one."""
     fronts = {link.id for link in articulated.links if any(visual.label in _FRONTS for visual in link.visuals)}
-    others = min((_low(held) for link, held in shapes.items() if link not in fronts), default=np.inf)
-    lowest = min((_low(held) for held in shapes.values()), default=np.inf)
-    return others if np.isfinite(others) and others - lowest <= config.most else None
+    others = floor_below({link: held for link, held in shapes.items() if link not in fronts})
+    return others if np.isfinite(others) and others - floor_below(shapes) <= config.most else None
 
 
 def carrying_links(
@@ -98,9 +103,9 @@ def carrying_links(
 
     `floor` is the height of the floor (metres); shapes are in the object frame at rest.
     """
-    if _low(shapes[articulated.root]) <= floor + config.on_floor:
+    if lowest_of(*shapes[articulated.root]) <= floor + config.on_floor:
         return {articulated.root}
-    return {link for link, held in shapes.items() if floor <= _low(held) <= floor + config.on_floor}
+    return {link for link, held in shapes.items() if floor <= lowest_of(*held) <= floor + config.on_floor}
 
 
 def _poses(articulated: ArticulatedObject, config: FloorConfig) -> dict[str, list[Mat4]]:

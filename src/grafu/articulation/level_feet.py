@@ -14,7 +14,7 @@ from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.collision_clearance import Shapes
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
 from grafu.articulation.convex_pieces import hull_of
-from grafu.articulation.floor_clearance import carrying_links
+from grafu.articulation.floor_clearance import carrying_links, floor_below, lowest_of
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.stability import Stability, StabilityConfig, stability_of
@@ -71,34 +71,30 @@ def level_feet(
     where longer feet would not help. No foot grows into the way of what moves. Masses and shapes are those of all links
     by id, object frame at rest.
     """
-    floor = min((_low(shape) for held in shapes.values() for shape in held), default=0.0)
+    floor = floor_below(shapes)
     body = shapes[articulated.root]
     if not body or articulated.root not in carrying_links(articulated, shapes, floor):
         return dict(shapes), ""
     as_drawn = StabilityConfig(on_floor=config.touching)
     drawn = stability_of(articulated, masses, shapes, as_drawn)
-    short = [k for k, shape in enumerate(body) if floor + config.touching < _low(shape) <= floor + config.hanging]
+    short = [k for k, shape in enumerate(body) if floor + config.touching < lowest_of(shape) <= floor + config.hanging]
     if not short or (drawn is not None and drawn.margin >= config.steady):
         return dict(shapes), ""
     longer = {
         k: _lengthened(body[k], floor, config) for k in _with_room_below(articulated, shapes, short, floor, config)
     }
     found, note = dict(shapes), ""
-    for reach in _reaches([_low(body[k]) - floor for k in longer], drawn, config):
-        feet = {k: foot for k, foot in longer.items() if _low(body[k]) <= floor + reach}
+    for reach in _reaches([lowest_of(body[k]) - floor for k in longer], drawn, config):
+        feet = {k: foot for k, foot in longer.items() if lowest_of(body[k]) <= floor + reach}
         tried = {**shapes, articulated.root: tuple(feet.get(k, shape) for k, shape in enumerate(body))}
         level = stability_of(articulated, masses, tried, as_drawn)
         if not feet or level is None or (drawn is not None and level.margin <= drawn.margin):
             continue
         if reach <= config.short or level.closed_margin >= config.steady:
-            found, note = tried, _note(max(_low(body[k]) for k in feet) - floor)
+            found, note = tried, _note(max(lowest_of(body[k]) for k in feet) - floor)
         if level.closed_margin >= (0.0 if reach <= config.short else config.steady):
             break
     return found, note
-
-
-def _low(shape: CollisionShape) -> float:
-    return float(corners_of(shape)[:, 2].min())
 
 
 def _note(most: float) -> str:
@@ -137,7 +133,7 @@ def _with_room_below(
 
 def _below(foot: CollisionShape, floor: float, config: LevelFeetConfig) -> Box:
     """Returns the room between a shape's lower end and the floor."""
-    points, low = corners_of(foot), _low(foot)
+    points, low = corners_of(foot), lowest_of(foot)
     end = Box.around(points[points[:, 2] <= low + config.touching])
     return Box(vec3(end.low[0], end.low[1], floor), vec3(end.high[0], end.high[1], low))
 

@@ -12,7 +12,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_clearance import Shapes, halved
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
 from grafu.articulation.counterbalance import GRAVITY
-from grafu.articulation.floor_clearance import carrying_links
+from grafu.articulation.floor_clearance import carrying_links, floor_below
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.geometry.arrays import vec3
@@ -55,7 +55,7 @@ def on_flats(
 
     Shapes are in the object frame at rest.
     """
-    floor = _floor(shapes)
+    floor = floor_below(shapes)
     found = dict(shapes)
     for wheel in _wheels(articulated, shapes, floor, config):
         cut = (_above(shape, floor + config.flat) for shape in shapes[wheel.child])
@@ -75,7 +75,7 @@ def with_load_on_wheels(
     All wheels carry the same. Nothing changes where the root stands on the floor by itself. Masses and shapes are those
     of all links by id, object frame at rest.
     """
-    floor = _floor(shapes)
+    floor = floor_below(shapes)
     wheels, found = _wheels(articulated, shapes, floor, config), dict(dynamics)
     for wheel in wheels:
         load = GRAVITY * sum(held.mass for held in masses.values()) / len(wheels)
@@ -84,10 +84,6 @@ def with_load_on_wheels(
             if joint is not None and joint.id in found and not joint.kind.limited and radius > 0:
                 found[joint.id] = _braked(found[joint.id], config.resistance * load * radius, config)
     return found
-
-
-def _floor(shapes: Mapping[str, tuple[CollisionShape, ...]]) -> float:
-    return min((float(corners_of(shape)[:, 2].min()) for held in shapes.values() for shape in held), default=0.0)
 
 
 def _wheels(

@@ -15,7 +15,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
 from grafu.articulation.counterbalance import GRAVITY
-from grafu.articulation.floor_clearance import carrying_links
+from grafu.articulation.floor_clearance import carrying_links, floor_below
 from grafu.articulation.grip_point import grip_point
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.mass import MassProperties
@@ -131,7 +131,7 @@ def standing_points(
     A door that ends just above the floor carries nothing: where the root stands on it, moving links do not count.
     """
     corners = {link: [corners_of(shape) for shape in held] for link, held in shapes.items()}
-    floor = min((float(points[:, 2].min()) for held in corners.values() for points in held), default=0.0)
+    floor = floor_below(shapes)
     carry = carrying_links(articulated, shapes, floor) | {articulated.root}
     points = np.vstack([np.zeros((0, 3)), *(points for link in carry for points in corners[link])])
     return points[points[:, 2] <= floor + config.on_floor]

@@ -69,9 +69,11 @@ class JointStages:
             other = second_choices(best.completion, skipped, turn, config)
             if other is None or self.stages.gave_up("realize"):
                 break
-            tried = self.built(other)
-            is_better = len(tried.realized.report.installed) > len(best.realized.report.installed)
-            best = tried if is_better else best
+            before, tried = self.stages.given_up(), self.built(other)
+            if len(tried.realized.report.installed) > len(best.realized.report.installed):
+                best = tried
+            else:
+                self.stages.take_back(before)
         if best is first:
             return first
         report = noted(best.realized.report, completion, best.completion)

@@ -128,6 +128,14 @@ class Stages:
         """Whether something else was done instead of a stage."""
         return name in self._given_up
 
+    def given_up(self) -> tuple[tuple[str, ...], frozenset[str]]:
+        """Returns the notes and the stages that were given up so far, for `take_back`."""
+        return tuple(self.notes), frozenset(self._given_up)
+
+    def take_back(self, before: tuple[tuple[str, ...], frozenset[str]]) -> None:
+        """Drops what was given up since `before`: what these stages made is not used."""
+        self.notes, self._given_up = list(before[0]), set(before[1])
+
     def _other(self, name: str, instead: Callable[[str], T], why: str) -> T:
         self._given_up.add(name)
         self.notes.append(f"{_INSTEAD[name]}: {why}")
