@@ -1,5 +1,7 @@
 """Parts that are joined and split by hand: no face is lost, names of parts follow, and what cannot be is an error."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -76,6 +78,17 @@ def test_shells_get_ids_of_their_own_and_the_largest_stays_what_it_was():
     assert [one.part for one in made.annotation.joints] == ["door", "flap"]
 
 
+def test_what_is_left_of_a_part_stays_what_it_was_taken_for_where_the_input_states_no_category():
+    parts = (replace(DOOR, label=PartLabel.UNKNOWN, labelled_by="none"), HANDLE, FLAP)
+    nameless = replace(ASSET, parts=parts, annotation=None)
+    made = regrouped(nameless, [replace(split("door"), category=PartLabel.DRAWER)])
+    labels = {one.id: (one.label, one.labelled_by) for one in made.parts}
+    assert labels["door"] == (PartLabel.DRAWER, "prediction")
+    assert labels["door_2"] == (PartLabel.UNKNOWN, "none")
+    stated = regrouped(ASSET, [replace(split("door"), category=PartLabel.DRAWER)])
+    assert (stated.part("door").label, stated.part("door").labelled_by) == (PartLabel.DOOR, "name")
+
+
 @given(st.permutations(["handle", "flap", "door_2"]), st.booleans())
 def test_no_face_is_lost_and_what_is_split_can_be_joined_again(others, is_split):
     made = regrouped(ASSET, [*([split("door")] if is_split else []), join("door", *others)])
@@ -115,8 +128,8 @@ def test_settings_hold_the_changes_in_order_and_forget_what_was_chosen_of_parts_
     assert made.labels == {"door": PartLabel.DRAWER}
     assert settings_from_json(made.to_json()) == made
     assert made.to_json()["regrouped"] == [
-        {"do": "split", "parts": ["door"], "lasso": None},
-        {"do": "join", "parts": ["door", "flap"], "lasso": None},
+        {"do": "split", "parts": ["door"], "lasso": None, "category": None},
+        {"do": "join", "parts": ["door", "flap"], "lasso": None, "category": None},
     ]
 
 

@@ -3,6 +3,8 @@ from pathlib import Path
 
 import pytest
 
+from chromium import Chromium, chromium_path
+
 
 @pytest.fixture(scope="session")
 def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -31,3 +33,26 @@ def editing(model: Path, inside, tmp_path: Path) -> Iterator:
 
     with Editing(open_all([model], tmp_path / "out"), tmp_path / "scratch", inside) as found:
         yield found
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Chromium]:
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no Chromium here")
+    try:
+        browser = Chromium(path)
+    except (AssertionError, OSError) as error:
+        pytest.skip(f"Chromium does not start: {error}")
+    yield browser
+    browser.close()
+
+
+@pytest.fixture(scope="session")
+def lasting(model: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator:
+    """A server that many tests share, with what was changed before."""
+    from edit_page import Server
+
+    server = Server(str(model), "--out", str(tmp_path_factory.mktemp("lasting") / "out"))
+    yield server
+    server.kill()

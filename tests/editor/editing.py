@@ -3,12 +3,14 @@
 import json
 import struct
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from starlette.testclient import TestClient
 
 from grafu.asset.edit import as_static_object
+from grafu.asset.part import Part
 from grafu.editor.builder import Answer
 from grafu.editor.building import Bench, Order
 from grafu.editor.server import EditedModels, application
@@ -25,9 +27,10 @@ TOKEN, PORT = "a-token-of-tests", 4711
 DOOR, DRAWER = "door", "drawer"
 
 
-def write_model(path: Path) -> Path:
-    """Writes a cabinet with a drawer above a door; the node of its bottom has a name that is an attack."""
+def write_model(path: Path, *more: Part) -> Path:
+    """Writes a cabinet with a drawer above a door, and more parts; the name of its bottom's node is an attack."""
     cabinet = make_cabinet(Cabinet("made", Case(0.5, 0.9), Stack((Drawer(), Door()), (1.0, 3.0))))
+    cabinet = replace(cabinet, parts=(*cabinet.parts, *more))
     data = export_glb(as_static_object(cabinet))["model.glb"]
     length = struct.unpack_from("<I", data, 12)[0]
     tree = json.loads(data[20 : 20 + length])

@@ -2,20 +2,30 @@
 
 import json
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 from threading import Thread
 
+import numpy as np
 import pytest
+from editing import write_model
 
+from grafu.asset.part import Part, PartSource
 from grafu.editor.builder import STOPPED, BuildProcess
 from grafu.editor.building import GEOMETRY, STATE, TEXTURES, Bench, Order, order_of
 from grafu.editor.scripts import SCRIPTS
 from grafu.errors import NotBuilt
+from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.box import Box
+from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.motion_choice import FIXED
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.stages import RATIOS
+from grafu.vocabulary import PartLabel
 
+ROWS = (0.2, 0.35, 0.5, 0.65)
 RULE = Settings(MotionSource.RULE)
 
 
@@ -63,7 +73,25 @@ def test_only_what_a_choice_touches_is_built_anew(model, tmp_path):
     assert bench.cache.made["surface"] - made["surface"] < made["surface"]
 
 
+def test_the_verdict_is_that_of_the_report_that_is_written(tmp_path):
+    places = product(np.linspace(-0.2, 0.2, 5), np.linspace(0.35, 0.65, 4), ROWS)
+    bars = [Box(vec3(x, y, z), vec3(x + 0.02, y + 0.02, z + 0.06)) for x, y, z in places]
+    boards = tuple(Surface(TriangleMesh.box_mesh(bar)) for bar in bars)
+    grille = Part("grille", PartLabel.MISC, boards, PartSource("", "grille"), "name")
+    bench, made = Bench(lambda _: None), write_model(tmp_path / "cabinet.glb", grille)
+    bench.carry_out(order(made, tmp_path))
+    shown = json.loads((tmp_path / STATE).read_text())["report"]["verdict"]
+    judged = bench.carry_out(replace(order(made, tmp_path), do="judge"))
+    exported = bench.carry_out(replace(order(made, tmp_path / "out"), do="export"))
+    written = json.loads((tmp_path / "out" / "report.json").read_text())
+
+    assert "64 shapes are kept" in written["notes"][0]
+    assert shown != written["verdict"]
+    assert judged["report"]["verdict"] == written["verdict"] == exported["report"]["verdict"]
+    assert written["notes"][0] in judged["markup"]["header"]
+
+
 def test_the_page_has_words_for_every_stage():
     words = SCRIPTS["edit.js"]().partition("const STAGES = {")[2].partition("};")[0]
-    for stage in (*RATIOS, "load", "match", "plan", "export", "write", "page"):
+    for stage in (*RATIOS, "judge", "load", "match", "plan", "export", "write", "page"):
         assert f'{stage}: "' in words or f'"{stage}": "' in words, stage

@@ -15,7 +15,12 @@ from grafu.vocabulary import MOTION_WORDS, PartLabel
 
 LEFT = MotionChoice(Moves.TURNS, Side.LEFT)
 KNOWN = Known(
-    frozenset({"door", "side", "odd"}), frozenset({"handle_1"}), frozenset({"door", "odd"}), {"door": LEFT}, 2
+    frozenset({"door", "side", "odd"}),
+    frozenset({"handle_1"}),
+    frozenset({"door", "odd"}),
+    {"door": LEFT},
+    2,
+    {"door": PartLabel.DOOR},
 )
 NUMBERS = st.floats(1.0, 300.0)
 ANSWERS: dict[Choose, st.SearchStrategy[Any]] = {
@@ -92,6 +97,7 @@ def test_a_part_is_cut_by_a_loop():
     (change,) = made.regrouped
     assert (str(change.do), change.parts, change.lasso.through) == ("cut", ("door",), True)
     assert [list(corner) for corner in change.lasso.corners] == corners
+    assert change.category is PartLabel.DOOR  # what is left of it stays one
     assert settings_from_json(made.to_json()) == made
 
 

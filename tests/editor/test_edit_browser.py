@@ -1,53 +1,18 @@
 """`grafu edit` in a real browser: a wrong hinge is set right, undone, the server is killed, opened again, exported."""
 
-import os
 import shutil
-import subprocess
-import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from edit_page import Server, opened, place_of, settled, shown, side, wait
 from editing import DOOR
 
-from chromium import Chromium, chromium_path
 from grafu.pipeline.settings import settings_from_bytes
 
 pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 AXE = ROOT / "node_modules" / "axe-core" / "axe.min.js"
-LATE = 300.0  # seconds: a first build on a busy machine
-
-
-class Server:
-    """`grafu edit` in a process of its own."""
-
-    def __init__(self, *arguments: str) -> None:
-        command = [sys.executable, "-m", "grafu", "edit", *arguments, "--no-browser"]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ})
-        assert self.process.stdout is not None
-        self.address = self.process.stdout.readline().split()[-1]
-        assert self.address.startswith("http://127.0.0.1:")
-
-    def kill(self) -> None:
-        self.process.kill()
-        self.process.wait()
-        assert self.process.stdout is not None
-        self.process.stdout.close()
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Chromium]:
-    path = chromium_path()
-    if path is None:
-        pytest.skip("no Chromium here")
-    try:
-        browser = Chromium(path)
-    except (AssertionError, OSError) as error:
-        pytest.skip(f"Chromium does not start: {error}")
-    yield browser
-    browser.close()
 
 
 @pytest.fixture
@@ -61,52 +26,6 @@ def server(model: Path, out: Path) -> Iterator[Server]:
     server = Server(str(model), "--out", str(out))
     yield server
     server.kill()
-
-
-@pytest.fixture(scope="module")
-def lasting(model: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
-    """A server that the other tests share, with what was changed before."""
-    server = Server(str(model), "--out", str(tmp_path_factory.mktemp("lasting") / "out"))
-    yield server
-    server.kill()
-
-
-def wait(browser: Chromium, condition: str) -> None:
-    end = time.monotonic() + LATE
-    while not browser.run(condition):
-        assert time.monotonic() < end, f"never came true: {condition}"
-        time.sleep(0.1)
-
-
-def opened(browser: Chromium, server: Server) -> None:
-    browser.go(server.address)
-    wait(browser, "document.getElementById('stage').className !== ''")
-    if browser.run("document.getElementById('stage').className") == "without":
-        pytest.skip("no WebGL here")
-    settled(browser)
-
-
-def settled(browser: Chromium, build: int = 1) -> None:
-    """Waits until the page shows a build of this number, or a later one, and nothing more is built."""
-    wait(browser, f"grafuEditor.shown >= {build} && !grafuEditor.building")
-
-
-def shown(browser: Chromium) -> int:
-    return browser.run("grafuEditor.shown")
-
-
-def side(browser: Chromium) -> str:
-    return browser.run(f"grafuEditor.state.motions[{DOOR!r}]?.side ?? ''")
-
-
-def place_of(browser: Chromium, part: str) -> tuple[float, float]:
-    """Returns where the middle of a part is seen, pixels of the window."""
-    x, y = browser.run(
-        "((view, part) => {document.querySelector('canvas').scrollIntoView({block: 'center'});"
-        "const b = view.canvas.getBoundingClientRect(), [x, y] = view.onScreen(view.itemNamed(part));"
-        f"return [b.x + x * b.width, b.y + y * b.height]}})(grafuEditor.view, {part!r})"
-    )
-    return x, y
 
 
 def saved(out: Path):
@@ -181,7 +100,7 @@ def test_all_can_be_done_by_keys_and_dragging_moves_the_front(browser, lasting):
         browser.run(f"grafuEditor.pick({one!r})")
     browser.press("g", "KeyG")
     settled(browser, number + 2)
-    joined = {"do": "join", "parts": still[:2], "lasso": None}
+    joined = {"do": "join", "parts": still[:2], "lasso": None, "category": None}
     assert browser.run("grafuEditor.state.settings.regrouped") == [joined]
     assert browser.run("grafuEditor.inspector.part") == still[0]
     browser.press("z", "KeyZ", control=True)

@@ -263,12 +263,12 @@ def test_the_wall_shows_every_model_with_its_light(editing, model, tmp_path):
     assert editing.get("/", follow_redirects=False).headers["location"] == "m/0/"
 
 
-def test_stages_are_told_in_order(editing, model, tmp_path, inside):
+def test_stages_are_told_in_order(editing, model, tmp_path):
     async def told() -> list[str]:
         (workspace,) = open_all([model], tmp_path / "out")
         folder = tmp_path / "told"
         folder.mkdir()
-        session = Session(workspace, inside, folder)
+        session = Session(workspace, Inside(), folder)
         stages: list[str] = []
 
         async def listen() -> None:

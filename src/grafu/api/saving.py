@@ -1,13 +1,14 @@
 """Which files a result is saved as: models, graph, report, settings and page. It writes nothing."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 from typing import Final, final
 
+from grafu.articulation.physics import physics_of
 from grafu.export.files import ExportFiles
-from grafu.export.formats import export
+from grafu.export.formats import FORMATS, export
 from grafu.geometry.budget import UNLIMITED, Budget, within
 from grafu.graph.serialize import completion_to_json, dump_json
 from grafu.pipeline.caught import with_caught
@@ -60,8 +61,7 @@ def files_of(
     with budget.in_force():
         files = export(made.object, formats, made.completion)
     seconds = {**(timings or {}), "export": perf_counter() - started}
-    stated = with_caught(with_stability(report_of(made, name, seconds), made.object), made.object, files.names)
-    report, picture = with_notes(stated, *files.notes), b""
+    report, picture = _with_physics(made, report_of(made, name, seconds), files.names, files.notes), b""
     if page:
         started = perf_counter()
         with budget.in_force():
@@ -73,6 +73,17 @@ def files_of(
         files = files.joined(drawn)
         report = report.model_copy(update={"timings": {**report.timings, "page": round(perf_counter() - started, 4)}})
     return Saved(files.joined(_json_files(made, report, settings)), report, picture)
+
+
+def report_before_saving(made: Functionalized, name: str, formats: Sequence[str]) -> Report:
+    """Returns the report as it will be once these formats are written, but for what only writing them shows."""
+    files = {file for one in formats for file in FORMATS[one].files}
+    return _with_physics(made, report_of(made, name), files, physics_of(made.object).notes)
+
+
+def _with_physics(made: Functionalized, report: Report, files: Collection[str], notes: Sequence[str]) -> Report:
+    """Returns a report with what masses and shapes show, which files have the catches, and more notes."""
+    return with_notes(with_caught(with_stability(report, made.object), made.object, files), *notes)
 
 
 def _page(

@@ -34,6 +34,9 @@ _DONE = {Regroup.SPLIT: "split", Regroup.CUT: "cut"}
 class Regrouping:
     """One change of how a model is divided into parts, by their ids; see `regrouped`.
 
+    `category` is what a part was taken for that is split or cut: what is left of it is that still, where the input
+    states none.
+
     Raises:
         ValueError: if it joins less than two parts or one twice, or splits or cuts more than one, or if a lasso is
             missing where one is to cut, or given where none is.
@@ -42,6 +45,7 @@ class Regrouping:
     do: Regroup
     parts: tuple[str, ...]
     lasso: Lasso | None = None
+    category: PartLabel | None = None
 
     def __post_init__(self) -> None:
         if self.do is Regroup.JOIN and (len(self.parts) < 2 or len(set(self.parts)) < len(self.parts)):
@@ -66,10 +70,20 @@ def regrouped(asset: Asset, changes: Sequence[Regrouping]) -> Asset:
     for change in changes:
         _require_parts(asset, change)
         if change.lasso is not None:
-            asset = _cut_out(asset, change.parts[0], change.lasso)
+            asset = _cut_out(_taken_for(asset, change), change.parts[0], change.lasso)
+        elif change.do is Regroup.SPLIT:
+            asset = _split(_taken_for(asset, change), change.parts[0])
         else:
-            asset = _joined(asset, change.parts) if change.do is Regroup.JOIN else _split(asset, change.parts[0])
+            asset = _joined(asset, change.parts)
     return asset
+
+
+def _taken_for(asset: Asset, change: Regrouping) -> Asset:
+    """Returns the asset in which a part without a category has that of the change."""
+    if change.category is None or asset.part(change.parts[0]).label is not PartLabel.UNKNOWN:
+        return asset
+    named = replace(asset.part(change.parts[0]), label=change.category, labelled_by="prediction")
+    return replace(asset, parts=_put(asset.parts, named.id, [named]))
 
 
 def _require_parts(asset: Asset, change: Regrouping) -> None:

@@ -20,25 +20,28 @@ from typing import Any, Literal, TextIO, final
 
 import numpy as np
 
+from grafu.additions.interior.making import named_in
 from grafu.additions.interior.turned import compartments_of
-from grafu.api.saving import files_of
+from grafu.api.saving import files_of, report_before_saving
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
 from grafu.errors import ExportError, FunctionalizationError, OptionError
 from grafu.export.files import write_files
 from grafu.export.formats import FORMATS, exporter_for
-from grafu.geometry.transform import transform_points
+from grafu.geometry.transform import invert, transform_points
 from grafu.joints.motion_choice import TURNING_SIDES, axis_of_motion, choice_in_words
 from grafu.metrics.collision import TOLERANT, CollisionConfig, first_collisions
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_choices import motions_of
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
+from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings, settings_from_json
 from grafu.processes.cache import CACHED_VALUES, Cache
 from grafu.templates.gallery import builtin_gallery
-from grafu.viewer.live import live_page
+from grafu.viewer.live import live_markup, live_page
+from grafu.vocabulary import PartLabel
 
 Say = Callable[[dict[str, Any]], None]
 STATE, GEOMETRY, TEXTURES = "state.json", "geometry.bin", "textures.json"
@@ -50,10 +53,12 @@ FILES = {"geometry": GEOMETRY, "textures": TEXTURES}
 class Order:
     """What is asked for: `build` writes what the page shows into `folder`, `export` the results into it.
 
+    `judge` returns what the page states once masses and collision shapes are known, too: that takes longer.
+
     `source` is the input, `name` that of the results, `settings` are as in `settings.json`.
     """
 
-    do: Literal["build", "export"]
+    do: Literal["build", "judge", "export"]
     source: Path
     name: str
     folder: Path
@@ -78,6 +83,7 @@ class Bench:
     say: Say
     cache: Cache = field(default_factory=lambda: Cache(CACHED_VALUES))
     _read: tuple[object, Asset] | None = None
+    _made: tuple[object, Functionalized] | None = None
 
     def carry_out(self, order: Order) -> dict[str, Any]:
         """Does what is asked for and returns what it made, as JSON values.
@@ -89,14 +95,20 @@ class Bench:
         made = self.made(order.source, settings)
         if order.do == "export":
             return self._export(order, made, settings)
+        if order.do == "judge":
+            self._tell("judge")
+            return _stated(made, report_before_saving(made, order.name, formats_here()[0]))
         self._tell("write")
         return write_page(Shown(made, order.name, self.cache), order.folder)
 
     def made(self, source: Path, settings: Settings) -> Functionalized:
-        """Returns what the settings make of an input, which is read once."""
-        asset = self._asset(source, settings)
-        config = PipelineConfig(settings)
-        return functionalize(asset, settings.motion, builtin_gallery(), config, self._tell, self.cache)
+        """Returns what the settings make of an input, which is read once; the last one is kept, too."""
+        key = (source, settings)
+        if self._made is None or self._made[0] != key:
+            asset, config = self._asset(source, settings), PipelineConfig(settings)
+            made = functionalize(asset, settings.motion, builtin_gallery(), config, self._tell, self.cache)
+            self._made = (key, made)
+        return self._made[1]
 
     def _asset(self, source: Path, settings: Settings) -> Asset:
         key = (source, settings.reading)
@@ -111,10 +123,19 @@ class Bench:
         saved = files_of(made, order.name, formats, settings)
         self._tell("write")
         write_files(saved.files, order.folder, overwrite=True)
-        return {"folder": str(order.folder), "formats": list(formats), "left out": left_out}
+        told = {"folder": str(order.folder), "formats": list(formats), "left out": left_out}
+        return told | _stated(made, saved.report)
 
     def _tell(self, stage: str) -> None:
         self.say({"stage": stage})
+
+
+def _stated(made: Functionalized, report: Report) -> dict[str, Any]:
+    """Returns what the page states of a build."""
+    return {
+        "report": report.to_json(),
+        "markup": live_markup(made.asset, made.object, made.completion, report),
+    }
 
 
 def formats_here() -> tuple[tuple[str, ...], dict[str, str]]:
@@ -139,10 +160,24 @@ class Shown:
 
     @cached_property
     def compartments(self) -> list[dict[str, Any]]:
-        """By number the corners of the compartments (metres, object frame), and the moving bodies before each."""
+        """By number the corners of the compartments (metres, object frame), and the moving bodies before each.
+
+        Also how many shelves were added to each, and why no more (empty: as many as were wanted).
+        """
         found, T = compartments_of(self.made.before_panels)
-        corners = (np.round(transform_points(T, one.box.corners()), 6).tolist() for one in found)
-        return [{"corners": eight, "behind": list(one.behind)} for eight, one in zip(corners, found, strict=True)]
+        fittings = self.made.fittings
+        shelves = [one.part.box.center for one in fittings.additions if one.part.label is PartLabel.SHELF]
+        places = transform_points(invert(T), np.array(shelves).reshape(-1, 3))
+        whys = {one.part: str(one) for one in reversed(fittings.refusals)}
+        return [
+            {
+                "corners": np.round(transform_points(T, one.box.corners()), 6).tolist(),
+                "behind": list(one.behind),
+                "shelves": int(((places > one.box.low) & (places < one.box.high)).all(axis=1).sum()),
+                "why": whys.get(named_in(number, PartLabel.SHELF), ""),
+            }
+            for number, one in enumerate(found)
+        ]
 
     @property
     def motions(self) -> dict[str, dict[str, Any]]:

@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from math import isfinite, radians
-from typing import Any, final
+from types import MappingProxyType
+from typing import Any, Final, final
 
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
@@ -27,6 +28,10 @@ WHOLE = ""
 """The part of questions about the whole piece."""
 _CENTIMETRE = 0.01
 FARTHEST = 10_000.0  # metres: no point that is pointed at lies farther off
+
+
+LIMITS: Final = MappingProxyType({"turn": (1.0, 360.0), "slide": (0.1, 1000.0), "shelves": (0.0, float(MOST_PANELS))})
+"""By question the least and the greatest number that is an answer: degrees, centimetres, shelves."""
 
 
 class Choose(StrEnum):
@@ -57,7 +62,8 @@ class Known:
     """What the last build knows of the parts that are asked about.
 
     `parts` are the ids of the input's parts, `added` those of the parts that were added, `moving` those that move,
-    `motions` how they do (none of a part whose motion no choice can state). `compartments` counts these.
+    `motions` how they do (none of a part whose motion no choice can state). `compartments` counts these. `categories`
+    are those of parts that have one.
     """
 
     parts: frozenset[str]
@@ -65,6 +71,7 @@ class Known:
     moving: frozenset[str] = frozenset()
     motions: Mapping[str, MotionChoice] = field(default_factory=dict)
     compartments: int = 0
+    categories: Mapping[str, PartLabel] = field(default_factory=dict)
 
 
 def with_choice(settings: Settings, question: str, part: str, value: Any, known: Known) -> Settings:
@@ -132,12 +139,12 @@ def _restore(settings: Settings, part: str, _: Any, __: Known) -> Settings:
 
 
 def _turn(settings: Settings, part: str, value: Any, _: Known) -> Settings:
-    opening = None if value is None else radians(_number(value, 1.0, 360.0, "degrees"))
+    opening = None if value is None else radians(_number(value, *LIMITS["turn"], "degrees"))
     return _with_joint(settings, part, opening=opening)
 
 
 def _slide(settings: Settings, part: str, value: Any, _: Known) -> Settings:
-    opening = None if value is None else _CENTIMETRE * _number(value, 0.1, 1000.0, "centimetres")
+    opening = None if value is None else _CENTIMETRE * _number(value, *LIMITS["slide"], "centimetres")
     return _with_joint(settings, part, opening=opening)
 
 
@@ -176,18 +183,18 @@ def _join(settings: Settings, part: str, value: Any, known: Known) -> Settings:
     return settings.with_regrouping(Regrouping(Regroup.JOIN, (part, value)))
 
 
-def _split(settings: Settings, part: str, _: Any, __: Known) -> Settings:
-    return settings.with_regrouping(Regrouping(Regroup.SPLIT, (part,)))
+def _split(settings: Settings, part: str, _: Any, known: Known) -> Settings:
+    return settings.with_regrouping(Regrouping(Regroup.SPLIT, (part,), category=known.categories.get(part)))
 
 
-def _cut(settings: Settings, part: str, value: Any, _: Known) -> Settings:
+def _cut(settings: Settings, part: str, value: Any, known: Known) -> Settings:
     if not isinstance(value, dict) or set(value) - {"eye", "corners", "through"}:
         raise OptionError(f"a part is cut by a lasso, `eye`, `corners` and `through`: got {_said(value)}")
     corners = value.get("corners")
     if not isinstance(corners, list):
         raise OptionError(f"the corners of a lasso must be a list of points: got {_said(corners)}")
     lasso = Lasso(_point(value.get("eye")), tuple(_point(corner) for corner in corners), value.get("through") is True)
-    return settings.with_regrouping(Regrouping(Regroup.CUT, (part,), lasso))
+    return settings.with_regrouping(Regrouping(Regroup.CUT, (part,), lasso, known.categories.get(part)))
 
 
 def _point(value: Any) -> tuple[float, float, float]:
@@ -200,7 +207,7 @@ def _point(value: Any) -> tuple[float, float, float]:
 def _shelves(settings: Settings, part: str, value: Any, _: Known) -> Settings:
     if value is None:
         return settings.with_compartment(int(part), None)
-    count = _number(value, 0.0, float(MOST_PANELS), "shelves")
+    count = _number(value, *LIMITS["shelves"], "shelves")
     if count != int(count):
         raise OptionError(f"shelves are counted in whole numbers: got {_said(value)}")
     before = settings.additions.compartments.get(int(part), CompartmentChoice())

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, Final
 
-from grafu.editor.choices import handle_styles, hinge_templates, rail_templates
+from grafu.editor.choices import LIMITS, handle_styles, hinge_templates, rail_templates
 from grafu.pipeline.addition_choice import TOP_SHAPES
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.verdict import verdict_of
@@ -40,18 +40,22 @@ _KEYS: Final = (
     ("g", "join with the part that was chosen before"),
     ("s", "split the part into its shells"),
     ("c", "cut out of the part what the next lasso encloses"),
+    ("arrows", "of a lasso: move the cursor; with Shift by little"),
+    ("Enter", "of a lasso: set a corner; again at the same place: close it"),
+    ("Backspace", "of a lasso: take the last corner back"),
     ("Ctrl Z / Ctrl Y", "undo / redo"),
     ("j / k", "next / previous model"),
-    ("Esc", "choose no part"),
+    ("Esc", "choose no part; leave a lasso"),
 )
 
 
 def model_page_of(name: str, number: int, count: int) -> str:
     """Returns the page of one model, the `number`th of `count`, before anything of it is built."""
-    at = {"number": number, "count": count, "rails": list(rail_templates()), "hinges": list(hinge_templates())}
+    lists = {"rails": list(rail_templates()), "hinges": list(hinge_templates())}
+    at = {"number": number, "count": count, "limits": dict(LIMITS), **lists}
     body = joined([
         tag("header", tag("h1", name), id="model-header"),
-        _toolbar(count),
+        _toolbar(name, count),
         tag("main", _stage(), tag("div", id="sections")),
         tag("footer", f"grafu {__version__}"),
         json_block("editor", at),
@@ -106,7 +110,7 @@ def _page(title: str, body: Html, script: str) -> str:
     return f"<!DOCTYPE html>\n{tag('html', head, main, lang='en')}\n"
 
 
-def _toolbar(count: int) -> Html:
+def _toolbar(name: str, count: int) -> Html:
     actions = (
         ("undo", "Undo"),
         ("redo", "Redo"),
@@ -114,11 +118,11 @@ def _toolbar(count: int) -> Html:
         ("anew", "Start anew"),
         ("export", "Export"),
     )
-    buttons = [tag("button", word, type="button", data_do=name, disabled=True) for name, word in actions]
+    buttons = [tag("button", word, type="button", data_do=do, disabled=True) for do, word in actions]
     wall = [tag("a", "All models", href="../../")] if count > 1 else []
     stop = tag("button", "Stop", type="button", data_do="stop", hidden=True)
-    bar = tag("progress", id="bar", hidden=True, aria_label="Building")
-    said = tag("p", id="progress", role="status", class_="note")
+    bar = tag("progress", id="bar", aria_label="Building")
+    said = tag("p", f"Reading {name} ...", id="progress", role="status", class_="note")
     fault = tag("p", id="fault", role="alert", class_="flag", hidden=True)
     tools = tag("div", *wall, *buttons, bar, stop, class_="toolbar", role="toolbar", aria_label="Actions")
     return tag("section", tools, said, fault, id="editing", aria_label="Editing")
@@ -143,7 +147,7 @@ def _inspector() -> Html:
     divide = tag("div", *(tag("button", w, type="button", data_do=k) for k, w in divisions), through, class_="actions")
     clash = tag("button", "Show the collision", type="button", data_do="collision", hidden=True)
     fields = [
-        tag("label", "Opens at most ", _number("opening", 0.1), tag("span", id="unit")),
+        tag("label", "Opens at most ", _number("opening"), tag("span", id="unit")),
         _select("template", "Hinge or rail", ()),
         _select("handle", "Handle", handle_styles()),
         tag("div", *(_offset(k, word) for k, word in enumerate(_OFFSETS)), id="offset-fields", hidden=True),
@@ -194,9 +198,9 @@ def _select(name: str, label: str, values: Sequence[str]) -> Html:
 
 
 def _offset(index: int, word: str) -> Html:
-    field = tag("input", type="number", step="0.1", value="0", data_offset=index, autocomplete="off")
+    field = tag("input", type="number", step="any", value="0", data_offset=index, autocomplete="off")
     return tag("label", f"{word} ", field, tag("span", "cm"))
 
 
-def _number(name: str, step: float) -> Html:
-    return tag("input", type="number", min=0, step=f"{step:g}", data_choice=name, autocomplete="off")
+def _number(name: str) -> Html:
+    return tag("input", type="number", step="any", data_choice=name, autocomplete="off")

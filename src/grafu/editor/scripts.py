@@ -9,7 +9,9 @@ from typing import Final
 from grafu.viewer.model_page import STYLES, VIEW_SCRIPTS
 from grafu.viewer.shell import in_one_scope, template_text
 
-_EDITING: Final = ("server.js", "lasso.js", "dragging.js", "inspector.js", "toolbar.js", "keys.js", "edit.js")
+_EDITING: Final = (
+    "server.js", "fields.js", "focus.js", "lasso.js", "dragging.js", "inspector.js", "toolbar.js", "keys.js", "edit.js",
+)  # fmt: skip
 
 
 def style() -> str:

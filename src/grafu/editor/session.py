@@ -5,8 +5,9 @@ All of it runs on the server's event loop; only what the builder does runs in a 
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Callable
-from dataclasses import dataclass, field
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, final
@@ -22,10 +23,14 @@ from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.pipeline.decisions import DECISIONS, Key, decided_before
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
+from grafu.vocabulary import PartLabel
 
 Event = dict[str, Any]
 WAITING = "wait"
 """The stage before the builder begins."""
+JUDGING = "judge"
+"""The stage after a build that is shown already."""
+_STATED = ("report", "markup")  # of the state
 
 
 @final
@@ -33,7 +38,8 @@ WAITING = "wait"
 class LastBuild:
     """One build: its number, the settings that it was built with, and its state as the page gets it.
 
-    `files` are what the page fetches besides, by the names that the state gives their digests.
+    It `is_judged` once masses and collision shapes are known, which the verdict of its report depends on, too. `files`
+    are what the page fetches besides, by the names that the state gives their digests.
     """
 
     number: int
@@ -41,6 +47,11 @@ class LastBuild:
     state: dict[str, Any]
     files: dict[str, bytes]
     seconds: float
+    is_judged: bool = False
+
+    def judged(self, stated: Mapping[str, Any]) -> "LastBuild":
+        """Returns the build with its report as it is now known, and what the page states of it."""
+        return replace(self, state={**self.state, **stated}, is_judged=True)
 
     @cached_property
     def report(self) -> Report:
@@ -64,6 +75,7 @@ class LastBuild:
             frozenset(joint.part for joint in self.report.joints),
             self.motions,
             len(self.state["compartments"]),
+            {part.id: part.category for part in self.report.parts if part.category is not PartLabel.UNKNOWN},
         )
 
 
@@ -88,6 +100,7 @@ class Session:
     _logged: dict[Key, Any] = field(init=False)
     _task: "asyncio.Task[None] | None" = None
     _stage: str = ""
+    _version: int = 0
 
     def __post_init__(self) -> None:
         self.history = History(self.workspace.settings)
@@ -150,6 +163,8 @@ class Session:
     async def _build_all(self) -> None:
         while not self._is_up_to_date and not self.error:
             await self._build(self.history.present)
+            if self._is_up_to_date:
+                await self._judge()
 
     async def _build(self, settings: Settings) -> None:
         try:
@@ -160,10 +175,25 @@ class Session:
             self.built = LastBuild(number, settings, state, files, answer.seconds)
         except FunctionalizationError as error:
             self._take_back(settings, str(error))
+            self._stage = ""
         else:
             self._log(self.built)
+            self._stage = JUDGING
+        self._tell_anew()
+
+    async def _judge(self) -> None:
+        """Completes the report of the last build; where that fails or is stopped, it stays as it is."""
+        built = self.built
+        if built is not None and not built.is_judged:
+            with suppress(FunctionalizationError):
+                answer = await self._ask("judge", self.folder, built.settings)
+                self._learn(built, answer.made)
         self._stage = ""
-        self.tell()
+        self._tell_anew()
+
+    def _learn(self, built: LastBuild | None, made: Mapping[str, Any]) -> None:
+        if built is not None and self.built is built:
+            self.built = built.judged({name: made[name] for name in _STATED})
 
     def _take_back(self, settings: Settings, why: str) -> None:
         """States why a choice cannot be built, and goes back to what was; a later choice stays, and is built next."""
@@ -197,12 +227,15 @@ class Session:
             FunctionalizationError: if it cannot be written.
         """
         await self.finished()
+        built = self.built
         try:
-            self.exported = (await self._ask("export", self.workspace.folder, self.history.present)).made
+            made = (await self._ask("export", self.workspace.folder, self.history.present)).made
+            self._learn(built, made)
+            self.exported = {name: value for name, value in made.items() if name not in _STATED}
             return self.exported
         finally:
             self._stage = ""
-            self.tell()
+            self._tell_anew()
 
     async def _ask(self, do: Any, folder: Path, settings: Settings) -> Answer:
         source, name = self.workspace.source, self.workspace.name
@@ -219,6 +252,11 @@ class Session:
         self._stage = stage
         self.tell()
 
+    def _tell_anew(self) -> None:
+        """Tells that what the page shows may be another now."""
+        self._version += 1
+        self.tell()
+
     def tell(self) -> None:
         """Tells every open page how things are."""
         event = self.status()
@@ -229,6 +267,7 @@ class Session:
         """Returns how things are, as JSON values."""
         return {
             "build": self.built.number if self.built else 0,
+            "version": self._version,
             "seconds": self.built.seconds if self.built else 0,
             "stage": self._stage,
             "error": self.error,
@@ -253,4 +292,5 @@ class Session:
         assert self.built is not None
         settings = self.history.present
         chosen = {**settings.to_json(), "words": [[*key, value] for key, value in decided(settings).items()]}
-        return {**self.built.state, "build": self.built.number, "settings": chosen}
+        numbers = {"build": self.built.number, "version": self._version}
+        return {**self.built.state, **numbers, "settings": chosen}

@@ -37,13 +37,20 @@ def live_page(
 ) -> LivePage:
     """Returns what is shown of a model; surfaces that the `cache` holds are not packed again."""
     scene = scene_data(articulated, report, cache)
+    markup = live_markup(asset, articulated, completion, report)
+    tables = {name: table for name, table in scene.tables.items() if name != "textures"}
+    return LivePage(markup, tables, list(scene.tables["textures"]), scene.buffer)
+
+
+def live_markup(
+    asset: Asset, articulated: ArticulatedObject, completion: GraphCompletion, report: Report
+) -> dict[str, str]:
+    """Returns the markup of a model by the place that it takes on the page: header, panel, sections."""
     lead = "A click on an option applies it."
     verdict = verdict_view(report, verdict_of(report), lead)
     header = joined([tag("h1", report.input.name), verdict, header_facts(asset, report)])
-    markup = {
+    return {
         "header": str(header),
         "panel": str(joint_panel(articulated)),
         "sections": str(joined(report_sections(report, completion, lead=""))),
     }
-    tables = {name: table for name, table in scene.tables.items() if name != "textures"}
-    return LivePage(markup, tables, list(scene.tables["textures"]), scene.buffer)

@@ -159,12 +159,22 @@ class LiveView extends ModelView {
 
   // Returns how far an item can be moved over its front, aside (X) and up (Z): the least and the most, metres.
   roomOnFront({ link, box: [low, high] }) {
-    const boxes = this.scene.items.filter((item) => item.link === link && item.role === "part").map((item) => item.box);
+    const boxes = this.boxesOf(link);
     return [0, 2].map((axis) => {
       const least = Math.min(...boxes.map((box) => box[0][axis])) - low[axis];
       const most = Math.max(...boxes.map((box) => box[1][axis])) - high[axis];
       return least < most ? [least, most] : [0, 0];
     });
+  }
+
+  // Returns the longest side of the front that an item is on, metres.
+  longestSide({ link }) {
+    return Math.max(...this.boxesOf(link).flatMap(([low, high]) => minus(high, low)));
+  }
+
+  // Returns the boxes of the input's parts on a link: lowest and highest corner, metres.
+  boxesOf(link) {
+    return this.scene.items.filter((item) => item.link === link && item.role === "part").map((item) => item.box);
   }
 
   // Takes the place of a build that was shown: what stood open stays open, what was chosen stays chosen.

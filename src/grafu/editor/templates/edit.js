@@ -14,8 +14,9 @@ class Editor {
     this.inspector = new Inspector({
       choose: (question, part, value) => this.choose(question, part, value),
       picked: (part) => this.pick(part),
+      room: (part) => this.roomForHandles(part),
+      at: this.at,
     });
-    Object.assign(this.inspector, { hinges: this.at.hinges, rails: this.at.rails });
     this.toolbar = new Toolbar({
       undo: () => this.server.act("undo"), redo: () => this.server.act("redo"), anew: () => this.server.act("anew"),
       stop: () => this.server.act("stop"), export: () => this.server.act("export"), next: () => this.next(),
@@ -25,39 +26,51 @@ class Editor {
       automatic: () => this.about("motion"), open: () => this.view.toggle(this.view.jointOf(this.view.view.chosen)),
     });
     this.server = new Server({ told: (status) => this.hear(status), failed: (why) => this.fail(why) });
-    this.shown = 0;
+    this.shown = this.version = 0;
     listenToKeys({ toolbar: this.toolbar, inspector: this.inspector, at: this.at, leave: () => this.pick("") });
     document.addEventListener("click", ({ target }) => this.apply(target.closest("[data-copy]")));
   }
 
   async hear(status) {
-    this.latest = status.build;
+    this.latest = status.build && status.version;
     this.toolbar.show(status);
     this.building = Boolean(status.stage);
     if (!this.fetching) await this.catchUp();
   }
 
-  // Shows the last build; one that comes meanwhile is shown next.
+  // Shows the last build, and what was learned of it later; what comes meanwhile is shown next.
   async catchUp() {
     this.fetching = true;
-    while (this.latest !== this.shown) {
-      const built = await this.server.built().catch(() => null);
-      if (built) this.show(built);
-      else await new Promise((done) => setTimeout(done, AGAIN)); // it was built anew meanwhile, or the server is gone
+    while (this.latest > this.version) {
+      const shown = await this.learn().catch(() => false);
+      if (!shown) await new Promise((done) => setTimeout(done, AGAIN)); // it was built anew meanwhile, or the server is gone
     }
     this.fetching = false;
   }
 
-  show({ state, scene, images }) {
+  async learn() {
+    const state = await this.server.state(), isNew = state.build !== this.shown;
+    const built = isNew ? await this.server.sceneOf(state) : null;
+    this.show(state, built);
+    return true;
+  }
+
+  // Shows a state; `built` is its scene where that is another one than before.
+  show(state, built) {
+    const giveBack = heldFocus();
     this.state = state;
-    this.shown = state.build;
     document.getElementById("model-header").innerHTML = state.markup.header;
-    document.getElementById("joint-panel").innerHTML = state.markup.panel;
     document.getElementById("sections").innerHTML = state.markup.sections;
+    if (built) {
+      document.getElementById("joint-panel").innerHTML = state.markup.panel;
+      this.view.replace(built.scene, built.images);
+    }
     this.inspector.show(state);
     this.toolbar.doubtful(this.inspector.doubtful(), state.report.verdict.least_confidence);
-    this.view.replace(scene, images);
     this.stage.className = "ready";
+    this.shown = state.build;
+    this.version = state.version;
+    giveBack();
   }
 
   choose(question, part, value) {
@@ -80,8 +93,7 @@ class Editor {
   cut() {
     const { part } = this.inspector;
     if (!part) return;
-    document.getElementById("chosen").textContent = `Draw a lasso around what is to be cut out of ${part}. Esc leaves.`;
-    this.view.lasso.begin((lasso) => {
+    this.view.lasso.begin(part, (lasso) => {
       this.choose("cut", part, { ...lasso, through: document.getElementById("through").checked });
     });
   }
@@ -108,6 +120,19 @@ class Editor {
     return ["left", "right", "top", "bottom"].every((side) => sides.includes(side));
   }
 
+  // Returns how far the handles that were added to a front can be moved over it: aside and up, the least and the most,
+  // metres. Of a front that lies, or looks aside, that is its longest side either way.
+  roomForHandles(part) {
+    const handles = this.state.report.added.filter((one) => one.category === "handle" && one.link === part);
+    const items = handles.map((one) => this.view.scene.items[this.view.itemNamed(one.part)]);
+    if (handles.every((one) => this.isOnUprightFront(one.part))) {
+      const rooms = items.map((item) => this.view.roomOnFront(item));
+      return [0, 1].map((k) => [Math.max(...rooms.map((room) => room[k][0])), Math.min(...rooms.map((room) => room[k][1]))]);
+    }
+    const longest = Math.max(...items.map((item) => this.view.longestSide(item)));
+    return [[-longest, longest], [-longest, longest]];
+  }
+
   // Applies an option that the tables name, such as `--move door_1=left`.
   apply(button) {
     const found = button && /^--move (.+)=([a-z-]+)$/.exec(button.dataset.copy);
@@ -121,6 +146,7 @@ class Editor {
 
 function startEditor() {
   const stage = document.getElementById("stage");
+  performance.mark("view");
   try {
     window.grafuEditor = new Editor(stage);
   } catch (error) {
@@ -128,4 +154,4 @@ function startEditor() {
   }
 }
 
-startEditor();
+whenSeen().then(startEditor);

@@ -1,11 +1,12 @@
 // What can be chosen about one part, and about the whole piece: it shows what holds, and tells what the user chooses.
 
-// Returns the number in a field; null: none.
-const entered = (field) => (field.value.trim() === "" ? null : Number(field.value));
+const DEGREES = 180 / Math.PI;
+const CENTIMETRES = 100;
+const tenths = (value, round = Math.round) => round(10 * value) / 10;
 
 class Inspector {
-  constructor({ choose, picked }) {
-    Object.assign(this, { choose, picked });
+  constructor({ choose, picked, room, at }) {
+    Object.assign(this, { choose, picked, room, hinges: at.hinges, rails: at.rails, limits: at.limits });
     this.part = this.before = "";
     this.pick = document.getElementById("pick");
     this.about = document.getElementById("about-part");
@@ -19,7 +20,7 @@ class Inspector {
     document.querySelectorAll("[data-offset]").forEach((field) =>
       field.addEventListener("change", () => this.place()));
     document.getElementById("shelves-fields").addEventListener("change", ({ target }) =>
-      choose("shelves", target.dataset.shelves, entered(target)));
+      mayBeSent(target) && choose("shelves", target.dataset.shelves, entered(target)));
     document.getElementById("left-out").addEventListener("click", ({ target }) => {
       if (target.dataset.restore) choose("restore", target.dataset.restore, true);
     });
@@ -82,11 +83,11 @@ class Inspector {
     for (const name of ["split", "cut"]) document.querySelector(`[data-do="${name}"]`).disabled = this.isAdded;
     document.querySelector('[data-do="collision"]').hidden = !this.state.collisions[part];
     const choice = settings.joints[part] ?? {}, slides = this.slides;
-    const unit = slides ? "cm" : "degrees", factor = slides ? 100 : 180 / Math.PI;
-    const round = (value) => String(Math.round(value * factor * 10) / 10);
+    const unit = slides ? "cm" : "degrees", factor = slides ? CENTIMETRES : DEGREES;
     const opening = this.field("opening");
-    opening.value = choice.opening ? round(choice.opening) : "";
-    opening.placeholder = joint ? round(joint.upper) : "automatic";
+    limit(opening, this.limits[slides ? "slide" : "turn"], slides ? "centimetres" : "degrees");
+    put(opening, choice.opening ? String(tenths(choice.opening * factor)) : "", part);
+    opening.placeholder = joint ? String(tenths(joint.upper * factor)) : "automatic";
     document.getElementById("unit").textContent = unit;
     this.field("template").replaceChildren(
       new Option(joint ? `automatic (${joint.template})` : "automatic", ""),
@@ -102,10 +103,18 @@ class Inspector {
     ["opening", "template", "handle"].forEach((name) => (this.field(name).disabled = !joint));
     this.field("label").disabled = this.isAdded;
     const handle = report.added.some((one) => one.category === "handle" && one.link === part);
-    const offset = settings.additions.fronts[part]?.offset ?? [0, 0];
     document.getElementById("offset-fields").hidden = !handle;
-    this.offsets.forEach((field, k) => (field.value = String(Math.round(1000 * offset[k]) / 10)));
+    if (handle) this.showPlace(settings.additions.fronts[part]?.offset ?? [0, 0]);
     this.showShelves();
+  }
+
+  // Shows how far the handle is moved aside and up, metres; no field takes it beyond its front.
+  showPlace(offset) {
+    this.room(this.part).forEach(([least, most], k) => {
+      const [low, high] = [[least, Math.ceil], [most, Math.floor]].map(([by, round]) => tenths(CENTIMETRES * (offset[k] + by), round));
+      limit(this.offsets[k], [Math.min(low, high), Math.max(low, high)], "centimetres: farther, it is not on its front");
+      put(this.offsets[k], String(tenths(CENTIMETRES * offset[k])), this.part);
+    });
   }
 
   get offsets() {
@@ -114,21 +123,34 @@ class Inspector {
 
   // Shows a field for each compartment that the part stands before, the lowest first.
   showShelves() {
-    const { compartments, settings } = this.state;
+    const { compartments, settings } = this.state, box = document.getElementById("shelves-fields");
     const numbers = [...compartments.keys()].filter((k) => compartments[k].behind.includes(this.part));
     const floor = (k) => Math.min(...compartments[k].corners.map((corner) => corner[2]));
-    const fields = numbers.sort((a, b) => floor(a) - floor(b)).map((number, k) => {
-      const which = numbers.length > 1 ? `, compartment ${k + 1} of ${numbers.length} from below` : "";
-      const label = document.createElement("label"), field = document.createElement("input");
-      Object.assign(field, { type: "number", min: "0", step: "1", autocomplete: "off" });
-      field.dataset.shelves = String(number);
-      field.value = settings.additions.compartments[number]?.shelves ?? "";
-      label.append(`Shelves behind it${which} (empty: automatic) `, field);
-      return label;
-    });
-    const box = document.getElementById("shelves-fields"), held = document.activeElement?.dataset?.shelves;
-    box.replaceChildren(...fields);
-    if (held) box.querySelector(`[data-shelves="${held}"]`)?.focus();
+    numbers.sort((a, b) => floor(a) - floor(b));
+    const about = [this.part, ...numbers].join(" ");
+    if (box.dataset.about !== about) {
+      box.dataset.about = about;
+      box.replaceChildren(...numbers.map((number, k) => this.shelvesField(number, k, numbers.length)));
+    }
+    for (const number of numbers) {
+      const chosen = settings.additions.compartments[number], { shelves, why } = compartments[number];
+      put(box.querySelector(`[data-shelves="${number}"]`), String(chosen?.shelves ?? ""), about);
+      const built = chosen && shelves < chosen.shelves ? `${shelves} of ${chosen.shelves} built${why ? `: ${why}` : ""}` : "";
+      Object.assign(document.getElementById(`built-${number}`), { textContent: built, hidden: !built });
+    }
+  }
+
+  shelvesField(number, k, count) {
+    const which = count > 1 ? `, compartment ${k + 1} of ${count} from below` : "";
+    const row = document.createElement("div"), label = document.createElement("label");
+    const field = Object.assign(document.createElement("input"), { type: "number", step: "1", autocomplete: "off" });
+    const line = Object.assign(document.createElement("p"), { id: `built-${number}`, className: "fewer", hidden: true });
+    limit(field, this.limits.shelves, "");
+    field.dataset.shelves = String(number);
+    line.setAttribute("role", "status");
+    label.append(`Shelves behind it${which} (empty: automatic) `, field);
+    row.append(label, line);
+    return row;
   }
 
   showWhole(settings) {
@@ -187,15 +209,16 @@ class Inspector {
 
   // Moves the handle to where both fields state, centimetres.
   place() {
-    const offset = this.offsets.map((field) => (entered(field) ?? 0) / 100);
-    this.choose("handle offset", this.part, offset.some(Boolean) ? offset : null);
+    const may = this.offsets.map(mayBeSent);
+    const offset = this.offsets.map((field) => (entered(field) ?? 0) / CENTIMETRES);
+    if (may.every(Boolean)) this.choose("handle offset", this.part, offset.some(Boolean) ? offset : null);
   }
 
   answer(field) {
     const name = field.dataset.choice, text = field.value.trim();
     if (["top", "hinge", "handles"].includes(name)) this.choose(name, "", text || null);
-    else if (name === "opening") this.choose(this.slides ? "slide" : "turn", this.part, entered(field));
-    else this.choose(name, this.part, text || null);
+    else if (name !== "opening") this.choose(name, this.part, text || null);
+    else if (mayBeSent(field)) this.choose(this.slides ? "slide" : "turn", this.part, entered(field));
   }
 
   // Returns the parts whose motion was guessed and is not decided, each with its confidence, the least first.

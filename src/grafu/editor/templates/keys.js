@@ -1,4 +1,5 @@
-// Keys for all that is done often; none of them acts while text is typed or a list is open.
+// Keys for all that is done often. Letters and digits do not act where text is typed or a list has the focus; undo and
+// redo act there, too, but where what is typed was not sent: that is undone by the browser.
 
 const MOTIONS = { 1: "left", 2: "right", 3: "top", 4: "bottom", 5: "pull", 6: "fixed" };
 
@@ -10,13 +11,15 @@ function listenToKeys({ toolbar, inspector, at, leave }) {
     j: () => go(1), k: () => go(-1), Escape: leave,
   };
   document.addEventListener("keydown", (event) => {
-    const typing = event.target.closest("input:not([type=checkbox]):not([type=range]), select, textarea");
-    if (event.altKey || event.defaultPrevented || typing) return;
+    const typing = event.target.closest("input:not([type=checkbox]):not([type=range]), select");
+    if (event.altKey || event.defaultPrevented) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     if (event.ctrlKey || event.metaKey) {
       const name = key === "z" ? (event.shiftKey ? "redo" : "undo") : key === "y" ? "redo" : "";
-      if (!name) return;
+      if (!name || (typing?.matches("input") && isUnsent(typing))) return;
       toolbar.do(name);
+    } else if (typing) {
+      return;
     } else if (MOTIONS[key]) {
       const button = document.querySelector(`[data-motion="${MOTIONS[key]}"]`);
       if (!inspector.part || button.disabled) return;

@@ -5,7 +5,7 @@ const STAGES = {
   complete: "finding what moves", plan: "planning joints", close: "closing drawers that are drawn open",
   body: "building the body", realize: "fitting hinges and rails", fittings: "fitting handles and shelves",
   "small parts": "fitting knobs and wheels", "lift arms": "fitting lift arms", stays: "fitting stays",
-  match: "matching motions with parts", "grasp frames": "finding where grippers take hold", page: "drawing the page",
+  judge: "checking masses and collision shapes", match: "matching motions with parts", "grasp frames": "finding where grippers take hold", page: "drawing the page",
   export: "making the files", write: "writing",
 };
 
@@ -37,13 +37,19 @@ class Server {
     return this.act("choose", { question, part, value });
   }
 
-  // Returns the last build: its state, its scene ready for upload, and its images.
-  async built() {
-    const state = await (await fetch("state")).json();
+  // Returns the last build as a page shows it, without its scene.
+  async state() {
+    const answer = await fetch("state");
+    if (!answer.ok) throw new Error("nothing is built");
+    return answer.json();
+  }
+
+  // Returns the scene of a build, ready for upload, and its images.
+  async sceneOf(state) {
     const buffer = await this.resource("geometry", state.geometry, (answer) => answer.arrayBuffer());
     const uris = await this.resource("textures", state.textures, (answer) => answer.json());
     const images = await Promise.all(uris.map(loadImage));
-    return { state, scene: cutScene(state.scene, buffer), images };
+    return { scene: cutScene(state.scene, buffer), images };
   }
 
   async resource(name, digest, read) {

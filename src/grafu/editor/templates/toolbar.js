@@ -22,7 +22,8 @@ class Toolbar {
     const busy = Boolean(stage);
     this.button("undo").disabled = !undo;
     this.button("redo").disabled = !redo;
-    for (const name of ["anew", "export"]) this.button(name).disabled = !build && !error;
+    this.button("anew").disabled = !build && !error;
+    this.button("export").disabled = !build;
     this.button("stop").hidden = !busy;
     document.getElementById("bar").hidden = !busy;
     document.body.toggleAttribute("data-busy", busy);
@@ -47,6 +48,6 @@ class Toolbar {
 
 function exportedWords({ folder, formats, "left out": leftOut }) {
   const left = Object.keys(leftOut);
-  const without = left.length ? `; without ${left.join(", ")}, which need more to be installed` : "";
+  const without = left.length ? `; without ${left.join(", ")}: more must be installed for ${left.length > 1 ? "them" : "it"}` : "";
   return `exported to ${folder}: ${formats.join(", ")}${without}`;
 }

@@ -1,5 +1,13 @@
 // The page of one model: brings data, picture, gestures and controls together.
 
+const PATIENCE = 3000; // milliseconds: a page that lies behind others is not painted
+
+// Waits until what the page states is seen: then WebGL takes its second or two, in which nothing is painted.
+function whenSeen() {
+  const painted = new Promise((done) => new PerformanceObserver(done).observe({ type: "paint", buffered: true }));
+  return Promise.race([painted, new Promise((done) => setTimeout(done, PATIENCE))]);
+}
+
 function goWithout(stage, why) {
   stage.className = "without";
   document.getElementById("view-note").textContent =

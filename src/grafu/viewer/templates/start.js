@@ -14,4 +14,4 @@ async function startModel() {
   }
 }
 
-startModel();
+whenSeen().then(startModel);
