@@ -47,7 +47,7 @@ def opened(browser: Chromium, server: Server) -> None:
 
 def settled(browser: Chromium, build: int = 1) -> None:
     """Waits until the page shows a build of this number, or a later one, and nothing more is built."""
-    wait(browser, f"grafuEditor.shown >= {build} && !grafuEditor.building")
+    wait(browser, f"grafuEditor.shown >= {build} && !grafuEditor.building && !grafuEditor.fetching")
 
 
 def shown(browser: Chromium) -> int:

@@ -13,8 +13,12 @@ HELD = "document.activeElement"
 
 @pytest.fixture
 def page(browser, lasting):
-    """The page with the door chosen; nothing was complained of once the test ends."""
+    """The page with nothing decided and the door chosen; nothing was complained of once the test ends."""
     opened(browser, lasting)
+    if browser.run("grafuEditor.state.settings.words.length"):
+        number = shown(browser)
+        browser.run("grafuEditor.server.act('anew')")
+        settled(browser, number + 1)
     browser.run(f"grafuEditor.pick({DOOR!r})")
     yield browser
     assert browser.complaints(lasting.address) == []
@@ -34,13 +38,13 @@ def undo(page) -> None:
 
 @pytest.mark.parametrize("typed", ["0", "400"])
 def test_an_opening_that_cannot_be_is_refused_beside_its_field(page, typed):
-    before = page.run("grafuEditor.state.version")
+    number = shown(page)
     enter(page, OPENING, typed)
     assert page.run(REFUSED) == ["from 1 to 360 degrees"]
     said = f"document.getElementById(document.querySelector('{OPENING}').getAttribute('aria-describedby')).textContent"
     assert page.run(said) == "from 1 to 360 degrees"
     enter(page, OPENING, "45")
-    wait(page, f"grafuEditor.state.version > {before} && !grafuEditor.building")
+    settled(page, number + 1)
     assert page.run(REFUSED) == []
     assert page.run(f"grafuEditor.state.settings.joints[{DOOR!r}].opening") == pytest.approx(0.7854, abs=1e-4)
     undo(page)

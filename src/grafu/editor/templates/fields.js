@@ -3,9 +3,9 @@
 // Returns the number in a field; null: none.
 const entered = (field) => (field.value.trim() === "" ? null : Number(field.value));
 
-// Shows a value in a field; what the user is typing there about the same thing stays.
+// Shows a value in a field; what the user is typing there about the same thing stays, and so does what was refused.
 function put(field, value, about = "") {
-  if (isUnsent(field) && field.dataset.about === about) return;
+  if ((isUnsent(field) || field.hasAttribute("aria-invalid")) && field.dataset.about === about) return;
   if (field.value !== value || field.validity.badInput) field.value = value;
   Object.assign(field.dataset, { put: value, about });
   complain(field, "");
