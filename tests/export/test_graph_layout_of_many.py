@@ -6,7 +6,7 @@ import numpy as np
 
 from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.render.graph_picture import node_places
+from grafu.render.graph_layout import node_places
 from grafu.vocabulary import PartLabel
 
 

@@ -9,6 +9,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.edges import Attached, Contact, Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.render.graph_layout import node_places
 from grafu.render.graph_picture import (
     EDGE_COLORS,
     SHORT_LABELS,
@@ -17,7 +18,6 @@ from grafu.render.graph_picture import (
     drawing_picture,
     drawing_svg,
     motion_words,
-    node_places,
 )
 from grafu.vocabulary import EdgeKind, PartLabel
 
@@ -106,6 +106,30 @@ def test_names_are_written_where_there_is_room():
     assert "other_side" in written
     assert "n0" not in {w.text for w in draw_graph(many(60)).writings}
     assert "n0" in {w.text for w in draw_graph(many(60), names=True).writings}
+
+
+def boxes_of(writings):
+    """Returns the corners of writings, as a browser draws them: letters are about half as wide as high."""
+    half = np.array([(0.25 * w.size * len(w.text), 0.45 * w.size) for w in writings])
+    middles = np.array([w.center for w in writings])
+    return middles - half, middles + half
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_name_covers_another_or_a_motion(seed):
+    rng = np.random.default_rng(seed)
+    centers = np.concatenate([rng.uniform(-1, 1, (18, 3)), rng.normal(0, 0.05, (9, 3))])  # nine stand in one corner
+    named = enumerate(centers.tolist())
+    fronts = tuple(node(f"drawer_front_number_{k}", PartLabel.DRAWER, c, (0.1, 0.1, 0.1)) for k, c in named)
+    nodes = (node("drawer_side", PartLabel.SIDE_PANEL, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1)), *fronts[1:])
+    edges = tuple(Rail("drawer_side", one.id, 2) for one in nodes[1:9])
+    drawing = draw_graph(FunctionalGraph("crowded", nodes, edges), (880, 560), names=True)
+    low, high = boxes_of(drawing.writings)
+    meets = ((low[:, None] < high[None]) & (low[None] < high[:, None])).all(axis=2)
+    np.fill_diagonal(meets, val=False)
+    assert not meets.any()
+    named = sum(writing.text.startswith("drawer") for writing in drawing.writings)
+    assert named >= 20
 
 
 def test_writings_stay_in_the_picture():

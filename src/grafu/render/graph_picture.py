@@ -11,60 +11,15 @@ from html import escape
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 from PIL import Image, ImageDraw, ImageFont
 
 from grafu.graph.edges import Contact, Edge, MotionEdge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import AXIS_NAMES, border_to_face, border_to_signed_axis
 from grafu.render.exposure import displayed
+from grafu.render.graph_layout import Places, in_the_way, node_places, with_room
 from grafu.render.picture import CATEGORY_COLORS, Picture
 from grafu.vocabulary import EdgeKind, PartLabel
-
-Places = Float[np.ndarray, "n 2"]
-
-_OBLIQUE = np.array([0.22, -0.30])  # how far depth shifts a node right and up, so that front and back stay apart
-_STEPS = 250
-_MOST_PUSHED = 500  # nodes: more find no room beside each other anyway, and all pairs of them would take minutes
-_PULL = 0.04  # fraction of the distance to its place that a node is drawn back in each step
-
-
-def node_places(graph: FunctionalGraph, size: tuple[int, int], margin: float, apart: float) -> Places:
-    """Returns the middle of each node in a picture of `size`, y downwards, in the graph's order.
-
-    Nodes keep `margin` from the picture's border, and `apart` from each other where there is room for that; very many
-    stand where they are seen.
-    """
-    if not graph.nodes:
-        return np.zeros((0, 2))
-    low, room = np.full(2, margin), np.array(size, dtype=np.float64) - 2 * margin
-    home = low + _projected(graph) * room
-    if len(home) > _MOST_PUSHED:
-        return home
-    rng = np.random.default_rng(0)  # parts in one place have no side to go to: the same one every time
-    places = home + rng.uniform(-0.5, 0.5, home.shape)
-    apart = min(apart, 0.95 * float(np.sqrt(room.prod() / len(home))))
-    for _ in range(_STEPS):
-        places = np.clip(places + _PULL * (home - places) + _pushes(places, apart), low, low + room)
-    return places
-
-
-def _projected(graph: FunctionalGraph) -> Places:
-    """Returns the box middles seen from the front and a little from above, in 0..1, y downwards."""
-    middles = np.array([node.box.center for node in graph.nodes])
-    sides = np.maximum(np.ptp(middles, axis=0), 1e-9)
-    x, y, z = ((middles - middles.min(axis=0)) / sides).T
-    flat = np.stack([x + _OBLIQUE[0] * y, 1.0 - z + _OBLIQUE[1] * y], axis=1)
-    return (flat - flat.min(axis=0)) / np.maximum(np.ptp(flat, axis=0), 1e-9)
-
-
-def _pushes(places: Places, apart: float) -> Places:
-    away = places[:, None] - places[None]
-    distance = np.maximum(np.linalg.norm(away, axis=2), 1e-6)
-    lacking = np.maximum(apart - distance, 0.0)
-    np.fill_diagonal(lacking, 0.0)
-    return (away * (0.4 * lacking / distance)[..., None]).sum(axis=1)
-
 
 Rgb = tuple[int, int, int]
 Point = tuple[float, float]
@@ -98,6 +53,7 @@ SHORT_LABELS: dict[PartLabel, str] = {
 """What is written in a node."""
 
 _INK: Rgb = (38, 38, 40)
+_NAME = 10.0  # pixels: the size of a name
 _FINE = 3  # the raster is drawn so many times as large, then made smaller
 
 
@@ -155,7 +111,8 @@ def draw_graph(
 ) -> GraphDrawing:
     """Returns the drawing of a graph; `missing` are the ids of nodes that are drawn dashed.
 
-    With `names` the ids stand below the nodes; None writes them where there is room.
+    With `names` the ids stand below the nodes; None writes them where there is room. No name covers another node or its
+    writings: one that finds no such place is left out, and is the node's title alone.
 
     Raises:
         ValueError: if the size is not positive.
@@ -166,6 +123,8 @@ def draw_graph(
     radius = float(np.clip(0.2 * room, 4.0, 15.0))
     names = room > 105 if names is None else names
     places = node_places(graph, size, 2.2 * radius + (4 if names else 0), (5.0 if names else 3.3) * radius)
+    halves = _halves(graph, radius) if names else np.zeros((0, 2))
+    places = with_room(places, halves, size) if names else places
     place_of = {node.id: (float(x), float(y)) for node, (x, y) in zip(graph.nodes, places, strict=True)}
     kinds = list(EDGE_COLORS)  # contacts first, so that they lie at the back
     edges = sorted(graph.edges, key=lambda edge: kinds.index(kind_of(edge)))
@@ -173,7 +132,10 @@ def draw_graph(
     discs = tuple(_disc(node, place_of[node.id], radius, node.id in missing) for node in graph.nodes)
     writings = _motions(graph, place_of, radius, above=names)
     if names:
-        writings += [Writing((x, y + radius + 7), i, 10.0, _INK) for i, (x, y) in place_of.items()]
+        moving = {move.child for move in graph.motions}
+        hidden = in_the_way(places, halves, np.array([node.id in moving for node in graph.nodes], dtype=bool))
+        named = [item for item, is_hidden in zip(place_of.items(), hidden, strict=True) if not is_hidden]
+        writings += [Writing((x, y + radius + 7), i, _NAME, _INK) for i, (x, y) in named]
     return GraphDrawing(size, strokes, discs, tuple(_within(w, size) for w in writings))
 
 
@@ -233,7 +195,7 @@ def _motions(graph: FunctionalGraph, place_of: dict[str, Point], radius: float, 
     first: dict[str, MotionEdge] = {}
     for edge in sorted(graph.motions, key=lambda edge: list(EDGE_COLORS).index(kind_of(edge))):
         first.setdefault(edge.child, edge)
-    size = float(np.clip(0.85 * radius, 7.0, 11.0))
+    size = _motion_size(radius)
     found = []
     for child, move in first.items():
         x, y = place_of[child]
@@ -243,9 +205,28 @@ def _motions(graph: FunctionalGraph, place_of: dict[str, Point], radius: float, 
     return found
 
 
+def _motion_size(radius: float) -> float:
+    return float(np.clip(0.85 * radius, 7.0, 11.0))
+
+
+def _halves(graph: FunctionalGraph, radius: float) -> Places:
+    """Returns half the width and height of each node with its name and motion, pixels."""
+    size = _motion_size(radius)
+    wide = {node.id: _half_width(node.id, _NAME) for node in graph.nodes}
+    for move in graph.motions:
+        wide[move.child] = max(wide[move.child], _half_width(motion_words(graph, move), size))
+    high = radius + max(1.3 * size, 1.3 * _NAME)
+    return np.array([(max(wide[node.id], radius + 1.0), high) for node in graph.nodes]).reshape(-1, 2)
+
+
+def _half_width(text: str, size: float) -> float:
+    """Returns half the width of a line of text, pixels: letters are about half as wide as high."""
+    return 0.27 * size * len(text) + 2
+
+
 def _within(writing: Writing, size: tuple[int, int]) -> Writing:
-    """Returns the writing shifted into the picture; letters are about half as wide as high."""
-    half = np.array([0.27 * writing.size * len(writing.text) + 2, 0.6 * writing.size])
+    """Returns the writing shifted into the picture."""
+    half = np.array([_half_width(writing.text, writing.size), 0.6 * writing.size])
     x, y = np.clip(writing.center, np.minimum(half, np.array(size) / 2), np.maximum(size - half, np.array(size) / 2))
     return replace(writing, center=(float(x), float(y)))
 
