@@ -137,6 +137,40 @@ def test_inputs_of_one_name_get_the_names_of_their_folders(tmp_path: Path) -> No
     assert sorted(path.name for path in out.iterdir()) == ["a", "b"]
 
 
+def test_a_name_that_is_stated_is_that_of_the_results_and_the_page_states_it(tmp_path: Path) -> None:
+    (tmp_path / "d1").mkdir()
+    made = write_cabinet(tmp_path / "d1")
+    out, plain = tmp_path / "out", ("--formats", "urdf")
+    assert main(["functionalize", str(made), "--name", "d1", "--out", str(out), *plain]) == 0
+    report = Report.model_validate_json((out / "d1" / "report.json").read_text())
+    page = (out / "d1" / "report.html").read_text()
+
+    assert [one.name for one in out.iterdir() if one.is_dir()] == ["d1"]
+    assert report.input.name == "d1"
+    assert '"name":"d1","formats"' in page  # of the command that it makes
+    again = ["--settings", str(out / "d1" / "settings.json"), "--name", "d1", "--out", str(out), "--overwrite", *LEAST]
+    assert main(["functionalize", str(made), *again]) == 0
+    assert [one.name for one in out.iterdir() if one.is_dir()] == ["d1"]
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        (["--name", "both"], "the results of one model: got 2 inputs"),
+        (["--name", "../up"], "cannot be in a folder's name"),
+    ],
+)
+def test_a_name_that_cannot_be_is_refused(
+    more: list[str], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "d1").mkdir()
+    made = [str(write_cabinet(tmp_path / "d1")), str(write_cabinet(tmp_path))]
+    given = made if told.endswith("inputs") else made[:1]
+    assert main(["functionalize", *given, "--out", str(tmp_path / "out"), *LEAST, *more]) == 2
+    assert told in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 def test_inputs_of_one_name_in_folders_of_one_name_are_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -65,6 +65,7 @@ def test_choices_become_one_file_and_one_command(opened, made, tmp_path):
     assert stated.out == tmp_path / "a folder's results"
     assert stated.overwrite
     assert stated.formats == "glb,mjcf"  # those of the results, which the command replaces
+    assert stated.name == made.report.input.name
     assert opened.complaints() == []
 
 

@@ -24,7 +24,7 @@ from grafu.cli.verb import complain
 from grafu.errors import OptionError
 
 if TYPE_CHECKING:
-    from grafu.cli.job import JobOptions, JobResult
+    from grafu.cli.job import Failed, Job, JobOptions, JobResult
 
 _DESCRIPTION = """\
 Reads part-segmented furniture (GLB, glTF, USD, FBX, COLLADA, URDF, SDF, MJCF, OBJ, a folder of meshes, a
@@ -56,6 +56,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser.add_argument(
         "--out", required=True, type=place_option, metavar="DIR", help="where the results go: DIR/<name>/; also a URL"
     )
+    parser.add_argument("--name", metavar="NAME", help="of one input, what its results are called: DIR/NAME/")
     parser.add_argument(
         "--motion",
         type=motion_choice,
@@ -139,6 +140,8 @@ def run(options: argparse.Namespace) -> int:
     from grafu.export.whole_file import clear_remains
 
     if is_remote(options):
+        if options.name:
+            raise OptionError("`--name` names results on this disk: leave it out")
         from grafu.cli.remote_run import run_remote
 
         return run_remote(options, _job_options(options, alone=len(options.inputs) == 1))
@@ -146,7 +149,7 @@ def run(options: argparse.Namespace) -> int:
         require_simulator(options.formats)
     inputs = _distinct(options.inputs)
     shared = _job_options(options, alone=len(inputs) == 1)
-    jobs, refused = jobs_of(inputs, shared)
+    jobs, refused = _named_job(inputs, shared, options.name) if options.name else jobs_of(inputs, shared)
     clear_remains(options.out)
     if shared.settings.reading.pieces == "split":
         jobs, unread = pieces_apart(jobs, inputs, options)
@@ -163,6 +166,17 @@ def run(options: argparse.Namespace) -> int:
     if not options.no_page and (page := write_index(results, options.out)):
         print_place("all on one page", page)
     return _exit_code(results)
+
+
+def _named_job(inputs: list[Path], shared: "JobOptions", name: str) -> "tuple[list[Job], list[Failed]]":
+    """Returns the job of the one input, whose results have a name that the user states."""
+    from grafu.cli.job import Job, with_places_apart
+    from grafu.export.output_names import name_that_is_safe
+
+    if len(inputs) > 1 or shared.settings.reading.pieces == "split":
+        what = f"{len(inputs)} inputs" if len(inputs) > 1 else "--pieces split"
+        raise OptionError(f"`--name` names the results of one model: got {what}")
+    return with_places_apart([Job(inputs[0], name_that_is_safe(name, str(inputs[0])), shared)], inputs)
 
 
 def _job_options(options: argparse.Namespace, alone: bool) -> "JobOptions":
@@ -228,7 +242,7 @@ def _tell_stopped(options: argparse.Namespace, why: str) -> None:
     from grafu.export.output_names import output_name
 
     path = options.inputs[0]
-    tell(options, Failed(Job(path, output_name(path), JobOptions(options.out)), why, users_fault=True))
+    tell(options, Failed(Job(path, options.name or output_name(path), JobOptions(options.out)), why, users_fault=True))
 
 
 def _exit_code(results: "list[JobResult]") -> int:

@@ -4,8 +4,11 @@ It writes nothing: the browser saves the file where its downloads go.
 """
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Final
 
+from grafu.errors import AssetError
+from grafu.export.output_names import output_name
 from grafu.joints.motion_choice import choice_in_words
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
@@ -28,6 +31,7 @@ def collected(report: Report, settings: Settings, formats: Sequence[str] = ()) -
     data = {
         "settings": settings.to_json(),
         "input": report.input.path,
+        "name": _stated_name(report, settings),
         "formats": list(formats),
         "words": {
             word: {"moves": str(choice.moves), "side": choice.side and str(choice.side), "inwards": choice.inwards}
@@ -41,3 +45,14 @@ def collected(report: Report, settings: Settings, formats: Sequence[str] = ()) -
     said = tag("p", "", id="collected-said", role="status", class_="lead")
     box = tag("section", head, said, steps, id="collected", class_="panel", hidden=True, aria_label="Chosen")
     return joined([box, json_block("collecting", data)])
+
+
+def _stated_name(report: Report, settings: Settings) -> str:
+    """Returns the name that the command must state, so that it writes to the place of these results; empty: none."""
+    if settings.reading.pieces == "split":
+        return ""  # pieces get their names from the input
+    try:
+        usual = output_name(Path(report.input.path))
+    except AssetError:
+        usual = ""
+    return "" if report.input.name == usual else report.input.name

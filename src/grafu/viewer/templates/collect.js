@@ -21,6 +21,7 @@ function collectedSettings() {
 
 function showCollected() {
   const command = ["grafu", "functionalize", collecting.input, "--settings", "settings.json", "--out", resultsFolder(), "--overwrite"];
+  if (collecting.name) command.push("--name", collecting.name);
   if (collecting.formats.length) command.push("--formats", collecting.formats.join(","));
   const button = document.getElementById("collected-command");
   button.textContent = button.dataset.copy = command.map(quoted).join(" ");
