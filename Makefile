@@ -61,7 +61,8 @@ demo: .venv/installed
 	@echo "look: out/sideboard/report.html (any browser), model.glb (animated: any glTF viewer), model.urdf (any robot simulator)"
 	@echo "correct by a click: $(BIN)/pip install 'grafu[edit]', then $(BIN)/grafu edit out/sideboard"
 
-# With npm the exported GLBs also pass the Khronos validator; without it, or where it cannot be fetched, those tests skip.
+# With npm the exported GLBs also pass the Khronos validator, and the types of scripts are checked; without it, or where
+# it cannot be fetched, those tests and that check skip.
 .venv/installed-validator: .venv/made package.json
 	@command -v npm >/dev/null && npm install --no-package-lock --no-audit --no-fund --loglevel=error || true
 	@touch $@
@@ -69,12 +70,13 @@ demo: .venv/installed
 test: .venv/installed-dev .venv/installed-train .venv/installed-validator
 	$(BIN)/pytest -n auto --dist worksteal
 
-check: .venv/installed-dev .venv/installed-train
+check: .venv/installed-dev .venv/installed-train .venv/installed-validator
 	$(BIN)/ruff check src tests scripts examples blender_addon
 	$(BIN)/ruff format --check src tests scripts examples blender_addon
 	$(BIN)/mypy --num-workers 2
 	$(BIN)/lint-imports
 	$(BIN)/python scripts/docs.py --check
+	$(BIN)/python scripts/check_javascript.py
 
 format: .venv/installed-dev
 	$(BIN)/ruff check --fix src tests scripts examples blender_addon

@@ -9,9 +9,12 @@ from typing import Final
 from grafu.viewer.model_page import STYLES, VIEW_SCRIPTS
 from grafu.viewer.shell import in_one_scope, template_text
 
-_EDITING: Final = (
+EDITING: Final = (
     "server.js", "fields.js", "focus.js", "lasso.js", "dragging.js", "inspector.js", "toolbar.js", "keys.js", "edit.js",
 )  # fmt: skip
+
+
+WALL: Final = ("wall.js",)
 
 
 def style() -> str:
@@ -21,12 +24,12 @@ def style() -> str:
 
 def edit_script() -> str:
     """Returns the script of a model's page."""
-    return in_one_scope(template_text(VIEW_SCRIPTS) + _own(_EDITING))
+    return in_one_scope(template_text(VIEW_SCRIPTS) + _own(EDITING))
 
 
 def wall_script() -> str:
     """Returns the script of the page of several models."""
-    return in_one_scope(_own(("wall.js",)))
+    return in_one_scope(template_text(("dom.js",)) + _own(WALL))
 
 
 SCRIPTS: Final = MappingProxyType[str, Callable[[], str]]({"edit.js": edit_script, "wall.js": wall_script})

@@ -59,11 +59,12 @@ def _line(fault: FaultRecord, known: set[str]) -> Html:
 
 STYLES = ("page.css", "model.css")
 VIEW_SCRIPTS = (
-    "matrices.js", "scene.js", "joints.js", "camera.js", "shaders.js", "renderer.js", "view.js", "gestures.js",
-    "overlay.js", "controls.js", "model.js",
+    "dom.js", "matrices.js", "scene.js", "joints.js", "camera.js", "shaders.js", "renderer.js", "view.js",
+    "gestures.js", "overlay.js", "controls.js", "model.js",
 )  # fmt: skip
-_SCRIPTS = (*VIEW_SCRIPTS, "copy.js", "start.js")
-_SCRIPTS_OF_WORDS = ("scene.js", "copy.js")
+PAGE_SCRIPTS = (*VIEW_SCRIPTS, "copy.js", "start.js")
+COLLECTING_SCRIPT = "collect.js"
+_SCRIPTS_OF_WORDS = ("dom.js", "scene.js", "copy.js")
 _NAMED = 28  # nodes whose names have room below them; of more the name shows under the pointer
 _HINT = (
     "Select a part to see its name and its axis. Drag to turn; two fingers or Shift to move; click, then wheel to zoom."
@@ -101,7 +102,7 @@ def model_page(
         tag("footer", f"grafu {report.version}"),
         *data,
     ])  # fmt: skip
-    scripts = (*(_SCRIPTS if shown else _SCRIPTS_OF_WORDS), *(("collect.js",) if collects else ()))
+    scripts = (*(PAGE_SCRIPTS if shown else _SCRIPTS_OF_WORDS), *((COLLECTING_SCRIPT,) if collects else ()))
     return whole_page(report.input.name, body, STYLES, scripts)
 
 

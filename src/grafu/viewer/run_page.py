@@ -73,7 +73,7 @@ def _bar(x: float, step: float, height: float, title: str) -> Html:
 
 
 _STYLES = ("page.css", "run.css")
-_SCRIPTS = ("run.js",)
+RUN_SCRIPTS = ("dom.js", "run.js")
 _FILTERED = 8  # rows from which on a table can be searched
 _SPREAD = 8  # and from which on it states something how their numbers are spread
 
@@ -86,7 +86,7 @@ def run_page(run: Run) -> str:
         tag("header", tag("h1", run.title), *lead),
         tag("main", *figures, *(_table_section(table, k) for k, table in enumerate(run.tables))),
     ]
-    return whole_page(run.title, joined(body), _STYLES, _SCRIPTS)
+    return whole_page(run.title, joined(body), _STYLES, RUN_SCRIPTS)
 
 
 def _figure(figure: RunFigure) -> Html:

@@ -1,3 +1,4 @@
+// @ts-check
 // The 3D view of a model that is edited: a click opens a front, and one that is chosen is dragged along its joint.
 
 const NEAR = 1e-9; // pixels squared for a full motion: less is a motion along the line of view
@@ -7,7 +8,9 @@ const NEARBY = 6; // pixels that a pointer may miss a handle by: many are three 
 class LiveView extends ModelView {
   constructor(stage, { chosen, moved, movable }) {
     super(stage);
-    Object.assign(this, { told: chosen, moved, movable });
+    this.told = chosen;
+    this.moved = moved;
+    this.movable = movable;
     this.lasso = new LassoTool(this, this.canvas);
   }
 
@@ -187,7 +190,7 @@ class LiveView extends ModelView {
     this.show(scene, images);
     if (!before) return;
     before.switches.forEach(([name, on]) => {
-      const box = document.querySelector(`input[data-switch="${name}"]`);
+      const box = controlAt(`input[data-switch="${name}"]`);
       if (box) box.checked = this.view[name] = on;
     });
     this.joints.joints.forEach((joint, k) => {

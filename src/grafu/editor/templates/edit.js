@@ -1,3 +1,4 @@
+// @ts-check
 // The page of a model that is edited: brings the view, the choices, the toolbar and the server together.
 
 const AGAIN = 500; // milliseconds until it is asked again
@@ -28,7 +29,7 @@ class Editor {
     this.server = new Server({ told: (status) => this.hear(status), failed: (why) => this.fail(why) });
     this.shown = this.version = 0;
     listenToKeys({ toolbar: this.toolbar, inspector: this.inspector, at: this.at, leave: () => this.pick("") });
-    document.addEventListener("click", ({ target }) => this.apply(target.closest("[data-copy]")));
+    document.addEventListener("click", (event) => this.apply(elementOf(event).closest("[data-copy]")));
   }
 
   async hear(status) {
@@ -94,7 +95,7 @@ class Editor {
     const { part } = this.inspector;
     if (!part) return;
     this.view.lasso.begin(part, (lasso) => {
-      this.choose("cut", part, { ...lasso, through: document.getElementById("through").checked });
+      this.choose("cut", part, { ...lasso, through: controlAt("#through").checked });
     });
   }
 
@@ -148,7 +149,7 @@ function startEditor() {
   const stage = document.getElementById("stage");
   performance.mark("view");
   try {
-    window.grafuEditor = new Editor(stage);
+    Object.assign(window, { grafuEditor: new Editor(stage) });
   } catch (error) {
     goWithout(stage, error.message || error);
   }

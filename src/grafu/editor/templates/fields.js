@@ -1,3 +1,4 @@
+// @ts-check
 // Fields in which something is typed: what is typed and not sent yet stays, what cannot be is refused beside the field.
 
 // Returns the number in a field; null: none.

@@ -1,3 +1,4 @@
+// @ts-check
 // What can be chosen about one part, and about the whole piece: it shows what holds, and tells what the user chooses.
 
 const DEGREES = 180 / Math.PI;
@@ -6,23 +7,30 @@ const tenths = (value, round = Math.round) => round(10 * value) / 10;
 
 class Inspector {
   constructor({ choose, picked, room, at }) {
-    Object.assign(this, { choose, picked, room, hinges: at.hinges, rails: at.rails, limits: at.limits });
+    this.choose = choose;
+    this.room = room;
+    this.hinges = at.hinges;
+    this.rails = at.rails;
+    this.limits = at.limits;
     this.part = this.before = "";
-    this.pick = document.getElementById("pick");
+    this.pick = /** @type {HTMLSelectElement} */ (document.getElementById("pick"));
     this.about = document.getElementById("about-part");
     this.pick.addEventListener("change", () => picked(this.pick.value));
-    document.querySelectorAll("[data-motion]").forEach((button) =>
+    controlsAt("[data-motion]").forEach((button) =>
       button.addEventListener("click", () => this.motion(button.dataset.motion)));
-    document.querySelectorAll("[data-handle]").forEach((button) =>
+    controlsAt("[data-handle]").forEach((button) =>
       button.addEventListener("click", () => this.handle(button.dataset.handle)));
-    document.querySelectorAll("[data-choice]").forEach((field) =>
+    controlsAt("[data-choice]").forEach((field) =>
       field.addEventListener("change", () => this.answer(field)));
-    document.querySelectorAll("[data-offset]").forEach((field) =>
+    controlsAt("[data-offset]").forEach((field) =>
       field.addEventListener("change", () => this.place()));
-    document.getElementById("shelves-fields").addEventListener("change", ({ target }) =>
-      mayBeSent(target) && choose("shelves", target.dataset.shelves, entered(target)));
-    document.getElementById("left-out").addEventListener("click", ({ target }) => {
-      if (target.dataset.restore) choose("restore", target.dataset.restore, true);
+    document.getElementById("shelves-fields").addEventListener("change", (event) => {
+      const field = /** @type {HTMLInputElement} */ (event.target);
+      if (mayBeSent(field)) choose("shelves", field.dataset.shelves, entered(field));
+    });
+    document.getElementById("left-out").addEventListener("click", (event) => {
+      const { restore } = elementOf(event).dataset;
+      if (restore) choose("restore", restore, true);
     });
   }
 
@@ -68,20 +76,20 @@ class Inspector {
     const { settings, sides, report } = this.state, { part, joint } = this;
     document.getElementById("certainty").textContent = this.said();
     const word = this.word();
-    document.querySelectorAll("[data-motion]").forEach((button) => {
+    controlsAt("[data-motion]").forEach((button) => {
       const side = button.dataset.motion;
       const borders = ["left", "right", "top", "bottom", "front", "back"];
       button.setAttribute("aria-pressed", String(side === word));
       button.disabled = this.isAdded || (borders.includes(side) && !sides[part].includes(side));
     });
     for (const name of ["accept", "automatic", "open"]) {
-      document.querySelector(`[data-do="${name}"]`).disabled = this.isAdded || (name === "open" && !joint);
+      controlAt(`[data-do="${name}"]`).disabled = this.isAdded || (name === "open" && !joint);
     }
-    const join = document.querySelector('[data-do="join"]');
+    const join = controlAt('[data-do="join"]');
     join.disabled = this.isAdded || !this.before;
     join.textContent = this.before ? `Join with ${this.before}` : "Join with the part before";
-    for (const name of ["split", "cut"]) document.querySelector(`[data-do="${name}"]`).disabled = this.isAdded;
-    document.querySelector('[data-do="collision"]').hidden = !this.state.collisions[part];
+    for (const name of ["split", "cut"]) controlAt(`[data-do="${name}"]`).disabled = this.isAdded;
+    controlAt('[data-do="collision"]').hidden = !this.state.collisions[part];
     const choice = settings.joints[part] ?? {}, slides = this.slides;
     const unit = slides ? "cm" : "degrees", factor = slides ? CENTIMETRES : DEGREES;
     const opening = this.field("opening");
@@ -95,7 +103,7 @@ class Inspector {
     this.field("template").value = choice.template ?? "";
     const style = settings.additions.fronts[part]?.style ?? "";
     this.field("handle").value = style;
-    document.querySelectorAll("[data-handle]").forEach((button) => {
+    controlsAt("[data-handle]").forEach((button) => {
       button.disabled = !joint;
       button.setAttribute("aria-pressed", String(button.dataset.handle === style));
     });
@@ -118,7 +126,7 @@ class Inspector {
   }
 
   get offsets() {
-    return [...document.querySelectorAll("[data-offset]")];
+    return controlsAt("[data-offset]");
   }
 
   // Shows a field for each compartment that the part stands before, the lowest first.
@@ -167,7 +175,7 @@ class Inspector {
   }
 
   field(name) {
-    return document.querySelector(`[data-choice="${name}"]`);
+    return controlAt(`[data-choice="${name}"]`);
   }
 
   // Returns the word for how the part moves: as chosen, else as built.

@@ -1,3 +1,4 @@
+// @ts-check
 // Keys for all that is done often. Letters and digits do not act where text is typed or a list has the focus; undo and
 // redo act there, too, but where what is typed was not sent: that is undone by the browser.
 
@@ -11,7 +12,7 @@ function listenToKeys({ toolbar, inspector, at, leave }) {
     j: () => go(1), k: () => go(-1), Escape: leave,
   };
   document.addEventListener("keydown", (event) => {
-    const typing = event.target.closest("input:not([type=checkbox]):not([type=range]), select");
+    const typing = /** @type {HTMLInputElement} */ (elementOf(event).closest("input:not([type=checkbox]):not([type=range]), select"));
     if (event.altKey || event.defaultPrevented) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     if (event.ctrlKey || event.metaKey) {
@@ -21,7 +22,7 @@ function listenToKeys({ toolbar, inspector, at, leave }) {
     } else if (typing) {
       return;
     } else if (MOTIONS[key]) {
-      const button = document.querySelector(`[data-motion="${MOTIONS[key]}"]`);
+      const button = controlAt(`[data-motion="${MOTIONS[key]}"]`);
       if (!inspector.part || button.disabled) return;
       inspector.motion(MOTIONS[key]);
     } else if (plain[key]) {

@@ -1,3 +1,4 @@
+// @ts-check
 // A lasso that is drawn over the view around what is to be a part of its own: the next drag draws it, or the keyboard
 // sets its corners one by one.
 
@@ -21,6 +22,8 @@ class LassoTool {
     this.svg.setAttribute("aria-hidden", "true");
     this.svg.append(this.shape, this.mark);
     this.said = document.getElementById("chosen");
+    this.corners = [];
+    this.cursor = { x: 0.5, y: 0.5 };
     canvas.after(this.svg);
     canvas.addEventListener("keydown", (event) => this.active && this.key(event));
     this.leave();
@@ -37,7 +40,8 @@ class LassoTool {
     this.canvas.classList.add("drawing");
     this.canvas.focus();
     const [x, y] = this.view.onScreen(this.view.itemNamed(part));
-    Object.assign(this, { cursor: { x: clamp(x, 0, 1), y: clamp(y, 0, 1) }, corners: [] });
+    this.cursor = { x: clamp(x, 0, 1), y: clamp(y, 0, 1) };
+    this.corners = [];
     this.show();
     this.said.textContent =
       `Draw a lasso around what is to be cut out of ${part}. By keys: the arrows move the cursor (with Shift by little), ` +

@@ -1,3 +1,4 @@
+// @ts-check
 // What the page asks the server: choices, what was built, and how things go. All addresses are below the page's own.
 
 const STAGES = {
@@ -11,7 +12,8 @@ const STAGES = {
 
 class Server {
   constructor({ told, failed }) {
-    Object.assign(this, { told, failed });
+    this.told = told;
+    this.failed = failed;
     this.held = { geometry: ["", null], textures: ["", null] };
     this.source = new EventSource("events");
     this.source.onmessage = ({ data }) => told(JSON.parse(data));

@@ -1,3 +1,4 @@
+// @ts-check
 // The buttons above the view and the lines below them: what is being built, what went wrong, what was exported.
 
 class Toolbar {
@@ -5,12 +6,12 @@ class Toolbar {
     this.actions = actions;
     this.progress = document.getElementById("progress");
     this.fault = document.getElementById("fault");
-    document.querySelectorAll("[data-do]").forEach((button) =>
+    controlsAt("[data-do]").forEach((button) =>
       button.addEventListener("click", () => this.do(button.dataset.do)));
   }
 
   button(name) {
-    return document.querySelector(`[data-do="${name}"]`);
+    return controlAt(`[data-do="${name}"]`);
   }
 
   do(name) {

@@ -1,8 +1,9 @@
+// @ts-check
 // The wall of models: a word and colours filter it, j and k go through what is shown.
 
-const cards = [...document.querySelectorAll("#wall > li")];
-const box = document.getElementById("filter");
-const colours = [...document.querySelectorAll("button[data-colour]")];
+const cards = /** @type {HTMLElement[]} */ ([...document.querySelectorAll("#wall > li")]);
+const box = controlAt("#filter");
+const colours = controlsAt("button[data-colour]");
 
 function filterWall() {
   const word = box.value.trim().toLowerCase();
@@ -24,7 +25,7 @@ document.addEventListener("keydown", (event) => {
   const by = { j: 1, k: -1 }[event.key];
   if (!by || event.ctrlKey || event.metaKey || event.altKey || event.target === box) return;
   const shown = cards.filter((card) => !card.hidden).map((card) => card.querySelector("a"));
-  const at = shown.indexOf(document.activeElement);
+  const at = shown.findIndex((link) => link === document.activeElement);
   shown[at < 0 ? (by > 0 ? 0 : shown.length - 1) : Math.min(Math.max(at + by, 0), shown.length - 1)]?.focus();
   event.preventDefault();
 });

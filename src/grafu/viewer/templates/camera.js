@@ -1,3 +1,4 @@
+// @ts-check
 // A camera that goes round a point: azimuth from straight ahead (negative towards -X), elevation above the horizon.
 
 const FOV = (28 * Math.PI) / 180;
@@ -8,6 +9,9 @@ class OrbitCamera {
     this.box = box;
     this.size = Math.hypot(...minus(box[1], box[0])) || 1;
     this.aspect = 4 / 3;
+    this.azimuth = START.azimuth;
+    this.elevation = START.elevation;
+    this.target = times(add(box[0], box[1]), 0.5);
     this.touched = false;
     this.reset();
   }

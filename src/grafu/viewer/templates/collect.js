@@ -1,3 +1,4 @@
+// @ts-check
 // Collects the options that are chosen on a page from a disk: one settings.json, and one command that uses it.
 
 const collecting = readJson("collecting");
@@ -39,7 +40,7 @@ function moveOf(button) {
 }
 
 document.addEventListener("click", (event) => {
-  const found = moveOf(event.target.closest("[data-copy]"));
+  const found = moveOf(elementOf(event).closest("[data-copy]"));
   if (!found) return;
   event.stopPropagation(); // it is chosen, not copied alone
   if (collectedMoves.get(found[1]) === found[2]) collectedMoves.delete(found[1]);

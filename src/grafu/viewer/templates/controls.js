@@ -1,3 +1,4 @@
+// @ts-check
 // The sliders, buttons and switches beside the 3D view. The page holds them already; here they begin to act.
 
 const SECONDS = 1.2; // a stage of opening
@@ -5,7 +6,10 @@ const PAUSE = 0.7; // seconds at either end while it plays
 
 class Controls {
   constructor(root, joints, view, { changed, focused }) {
-    Object.assign(this, { root, joints, view, changed });
+    this.root = root;
+    this.joints = joints;
+    this.view = view;
+    this.changed = changed;
     this.sliders = [...root.querySelectorAll("input[data-joint]")];
     this.sliders.forEach((slider) => {
       const index = Number(slider.dataset.joint);

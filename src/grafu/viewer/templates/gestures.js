@@ -1,3 +1,4 @@
+// @ts-check
 // Mouse, touch and keys on the 3D view. One finger up and down scrolls the page, so that the view never traps the page's scroll.
 
 const STEP = 0.12; // radians a key press
@@ -5,7 +6,12 @@ const SLACK = 5; // pixels that a click may move
 
 class Gestures {
   constructor(canvas, camera, { changed, pointed, clicked, grabbed }) {
-    Object.assign(this, { canvas, camera, changed, pointed, clicked, grabbed });
+    this.canvas = canvas;
+    this.camera = camera;
+    this.changed = changed;
+    this.pointed = pointed;
+    this.clicked = clicked;
+    this.grabbed = grabbed;
     this.pointers = new Map();
     this.moved = 0;
     canvas.addEventListener("pointerdown", (event) => this.down(event));

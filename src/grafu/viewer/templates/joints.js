@@ -1,3 +1,4 @@
+// @ts-check
 // Joint values and the motion that they give every link; a joint behind a door waits until that is open, and a coupled
 // joint follows its leader.
 

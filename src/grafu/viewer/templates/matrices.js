@@ -1,3 +1,4 @@
+// @ts-check
 // 4x4 matrices as arrays of 16 numbers, column by column, as WebGL takes them; vectors as arrays of three.
 
 const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];

@@ -1,3 +1,4 @@
+// @ts-check
 // The page of one model: brings data, picture, gestures and controls together.
 
 const PATIENCE = 3000; // milliseconds: a page that lies behind others is not painted
@@ -22,8 +23,8 @@ class ModelView {
     this.renderer = new Renderer(this.canvas);
     this.overlay = new Overlay(stage.querySelector("svg.overlay"));
     this.frames = 0;
-    document.addEventListener("click", ({ target }) => {
-      const button = target.closest("[data-part]");
+    document.addEventListener("click", (event) => {
+      const button = /** @type {HTMLElement} */ (elementOf(event).closest("[data-part]"));
       if (button && this.scene) this.chooseItem(this.itemNamed(button.dataset.part), true);
     });
     this.canvas.addEventListener("webglcontextlost", () => goWithout(stage, "the graphics card went away"));
@@ -120,7 +121,8 @@ class ModelView {
   }
 
   // Returns what moves with the pointer from a place on, or nothing: then the camera turns.
-  grab() {
+  /** @param {{x: number, y: number}} place @returns {((place: {x: number, y: number}) => void) | null} */
+  grab(place) {
     return null;
   }
 

@@ -1,3 +1,4 @@
+// @ts-check
 // Draws the scene with WebGL 2: opaque surfaces, then the floor's shadow, then glass from far to near.
 
 const SHADOW_SIDE = 2048;

@@ -1,3 +1,4 @@
+// @ts-check
 // The tables of a run: a heading sorts by its column, a word in the search box keeps the rows that hold it.
 
 // Returns the order of two cells' values: numbers as numbers, words as words; what is missing is null.
@@ -16,7 +17,7 @@ function valueOf(row, column) {
 function sortTable(table, column, falling) {
   const body = table.tBodies[0], keyed = [...body.rows].map((row) => ({ row, value: valueOf(row, column) }));
   keyed.sort((a, b) => {
-    if (a.value === null || b.value === null) return (a.value === null) - (b.value === null);
+    if (a.value === null || b.value === null) return Number(a.value === null) - Number(b.value === null);
     return falling ? compared(b.value, a.value) : compared(a.value, b.value);
   });
   body.append(...keyed.map(({ row }) => row));
@@ -26,7 +27,7 @@ function sortTable(table, column, falling) {
   });
 }
 
-document.querySelectorAll("button[data-sort]").forEach((button) => {
+controlsAt("button[data-sort]").forEach((button) => {
   const head = button.closest("th"), column = Number(button.dataset.sort);
   button.addEventListener("click", () => {
     const now = head.getAttribute("aria-sort"), numbers = head.classList.contains("number") && column > 0;
@@ -34,8 +35,8 @@ document.querySelectorAll("button[data-sort]").forEach((button) => {
   });
 });
 
-document.querySelectorAll("input[data-filter]").forEach((box) => {
-  const rows = [...document.getElementById(box.dataset.filter).tBodies[0].rows];
+controlsAt("input[data-filter]").forEach((box) => {
+  const table = /** @type {HTMLTableElement} */ (document.getElementById(box.dataset.filter)), rows = [...table.tBodies[0].rows];
   box.addEventListener("input", () => {
     const word = box.value.trim().toLowerCase();
     rows.forEach((row) => (row.hidden = !row.textContent.toLowerCase().includes(word)));

@@ -1,3 +1,4 @@
+// @ts-check
 // The data of the page: JSON tables and one buffer (zlib, then base64). docs/pages.md describes the form.
 
 const readJson = (id) => JSON.parse(document.getElementById(id).textContent);

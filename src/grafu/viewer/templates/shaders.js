@@ -1,3 +1,4 @@
+// @ts-check
 // What the graphics card runs: one program for surfaces, one for their depth as the light sees it, one for the floor.
 
 const VERTEX = `#version 300 es

@@ -1,3 +1,4 @@
+// @ts-check
 // The page of a disk: its data stand in it.
 
 async function startModel() {
@@ -6,8 +7,9 @@ async function startModel() {
   try {
     const scene = await loadScene();
     const images = await Promise.all(scene.textures.map(loadImage));
-    window.grafu = new ModelView(stage);
-    window.grafu.show(scene, images);
+    const view = new ModelView(stage);
+    Object.assign(window, { grafu: view });
+    view.show(scene, images);
     stage.classList.add("ready");
   } catch (error) {
     goWithout(stage, error.message || error);

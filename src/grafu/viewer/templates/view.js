@@ -1,3 +1,4 @@
+// @ts-check
 // What is shown and how: switches, the part under the pointer, the part that was chosen. It draws nothing.
 
 const PLAIN = { texture: null, metallic: 0, roughness: 0.7, emissive: [0, 0, 0], mode: "OPAQUE", cutoff: 0.5 };
