@@ -70,6 +70,11 @@ def test_only_what_a_choice_touches_is_built_anew(model, tmp_path):
     again = {name for name, count in bench.cache.made.items() if count != made.get(name)}
     assert "parse" not in again
     assert "sides" not in again
+    made = dict(bench.cache.made)
+    stages: list[str] = []
+    bench.say = lambda said: stages.append(said["stage"])
+    bench.carry_out(order(model, tmp_path))  # undone
+    assert (bench.cache.made, stages) == (made, ["write"])
     assert bench.cache.made["surface"] - made["surface"] < made["surface"]
 
 

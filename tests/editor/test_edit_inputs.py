@@ -2,7 +2,7 @@
 
 import pytest
 from edit_page import enter, opened, settled, shown, wait
-from editing import DOOR
+from editing import DOOR, DRAWER
 
 pytestmark = pytest.mark.slow
 OPENING = "[data-choice=opening]"
@@ -101,6 +101,19 @@ def test_a_handle_is_not_moved_beyond_its_front(page):
     assert 0 <= page.run(f"{top} - {handle}.box[1][2]") < 0.02
     undo(page)
     undo(page)
+
+
+def test_a_handle_on_a_drawer_has_the_room_of_its_front(page):
+    number = shown(page)
+    page.run(f"grafuEditor.choose('handle', {DRAWER!r}, 'knob-round')")
+    settled(page, number + 1)
+    added = "grafuEditor.state.report.added.find((one) => one.category === 'handle' && one.link ==="
+    handle = page.run(f"{added} {DRAWER!r}).part")
+    assert page.run(f"grafuEditor.isOnUprightFront({handle!r})")  # so that it can be dragged, too
+    box = f"grafuEditor.view.scene.items[grafuEditor.view.itemNamed({DRAWER!r})].box"
+    low, high = page.run(f"{box}.map((one) => one[2])")
+    least, most = page.run(f"grafuEditor.roomForHandles({DRAWER!r})[1]")
+    assert 0.5 * (high - low) < most - least < high - low
 
 
 def test_fewer_shelves_than_wanted_are_stated_with_the_reason(page):

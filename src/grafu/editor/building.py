@@ -45,6 +45,7 @@ from grafu.vocabulary import PartLabel
 
 Say = Callable[[dict[str, Any]], None]
 STATE, GEOMETRY, TEXTURES = "state.json", "geometry.bin", "textures.json"
+_KEPT = 8  # builds: most share their meshes
 FILES = {"geometry": GEOMETRY, "textures": TEXTURES}
 
 
@@ -78,12 +79,12 @@ def order_of(line: str) -> Order:
 @final
 @dataclass
 class Bench:
-    """What stays from one order to the next: assets as they were read, and the cache; not a value."""
+    """What stays from one order to the next: assets as they were read, what was made, and the cache; not a value."""
 
     say: Say
     cache: Cache = field(default_factory=lambda: Cache(CACHED_VALUES))
     _read: tuple[object, Asset] | None = None
-    _made: tuple[object, Functionalized] | None = None
+    _made: list[tuple[object, Functionalized]] = field(default_factory=list)
 
     def carry_out(self, order: Order) -> dict[str, Any]:
         """Does what is asked for and returns what it made, as JSON values.
@@ -102,13 +103,15 @@ class Bench:
         return write_page(Shown(made, order.name, self.cache), order.folder)
 
     def made(self, source: Path, settings: Settings) -> Functionalized:
-        """Returns what the settings make of an input, which is read once; the last one is kept, too."""
+        """Returns what the settings make of an input, which is read once; the last few are kept, for undo and redo."""
         key = (source, settings)
-        if self._made is None or self._made[0] != key:
-            asset, config = self._asset(source, settings), PipelineConfig(settings)
-            made = functionalize(asset, settings.motion, builtin_gallery(), config, self._tell, self.cache)
-            self._made = (key, made)
-        return self._made[1]
+        for known, made in self._made:
+            if known == key:
+                return made
+        asset, config = self._asset(source, settings), PipelineConfig(settings)
+        made = functionalize(asset, settings.motion, builtin_gallery(), config, self._tell, self.cache)
+        self._made = [(key, made), *self._made[: _KEPT - 1]]
+        return made
 
     def _asset(self, source: Path, settings: Settings) -> Asset:
         key = (source, settings.reading)

@@ -115,9 +115,12 @@ class Editor {
     this.choose("handle offset", link, [x + aside, y + up]);
   }
 
-  // Whether a handle is on a front that stands upright and looks to the front: there X is aside and Z is up.
+  // Whether a handle is on a front that stands upright and looks to the front: there X is aside and Z is up. So does
+  // that of a drawer which is pulled out to the front, however deep its box is.
   isOnUprightFront(handle) {
-    const sides = this.state.sides[this.state.report.added.find((one) => one.part === handle)?.link] ?? [];
+    const front = this.state.report.added.find((one) => one.part === handle)?.link;
+    const { moves, side } = this.state.motions[front] ?? {}, sides = this.state.sides[front] ?? [];
+    if (moves === "slides" && side === "front") return true;
     return ["left", "right", "top", "bottom"].every((side) => sides.includes(side));
   }
 
