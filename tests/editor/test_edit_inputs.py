@@ -83,8 +83,15 @@ def test_the_focus_stays_on_its_control_when_the_panel_is_made_anew(page):
     choose(page, "handle", "knob-round")
     assert page.run(f"{HELD} === {slider}")
     page.run("document.querySelector('#joint-panel [data-action=play]').focus()")
-    undo(page)
+    choose(page, "handle", "bar-round")
     assert page.run(f"{HELD}.dataset.action") == "play"
+    undo(page)
+    number = shown(page)
+    page.run("document.querySelector('[data-do=redo]').focus()")
+    page.run(f"{HELD}.click()")
+    settled(page, number + 1)
+    assert page.run("document.querySelector('[data-do=redo]').disabled")
+    assert page.run(f"{HELD}.closest('.toolbar') !== null")  # beside the button that is no more
 
 
 def test_a_handle_is_not_moved_beyond_its_front(page):

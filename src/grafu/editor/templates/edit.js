@@ -34,7 +34,9 @@ class Editor {
 
   async hear(status) {
     this.latest = status.build && status.version;
+    const giveBack = heldFocus();
     this.toolbar.show(status);
+    giveBack();
     this.building = Boolean(status.stage);
     if (!this.fetching) await this.catchUp();
   }

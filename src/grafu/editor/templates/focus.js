@@ -21,7 +21,7 @@ function heldFocus() {
   for (let box = held.parentElement; box && box !== document.body; box = box.parentElement) around.push(box);
   const words = namesOf(held), root = around.find((box) => box.id), place = root && words[0] ? found(root, words[0]).indexOf(held) : 0;
   return () => {
-    if (document.activeElement === held && !held.disabled) return;
+    if (document.activeElement === held && !held.disabled && !held.hidden) return;
     const within = around.find((box) => box.isConnected && box.querySelector(CONTROLS));
     const same = held.isConnected ? [held] : words.map((word) => inPlace(found(within, word), place));
     const near = within ? controlsIn(within) : [];
