@@ -8,7 +8,10 @@ import pytest
 from edit_page import Server, opened, place_of, settled, shown, side, wait
 from editing import DOOR
 
-from grafu.pipeline.settings import settings_from_bytes
+from grafu.export.files import ExportFiles, write_files
+from grafu.graph.serialize import dump_json
+from grafu.joints.motion_choice import FIXED
+from grafu.pipeline.settings import Settings, settings_from_bytes
 
 pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
@@ -150,6 +153,26 @@ def test_a_line_around_a_piece_of_a_part_cuts_it_out(browser, lasting):
     browser.press("Escape")
     assert not browser.run("grafuEditor.view.lasso.active")
     assert browser.complaints(lasting.address) == []
+
+
+def test_a_first_build_that_fails_is_stated_and_can_be_started_anew(browser, model, out):
+    (out / "cabinet").mkdir(parents=True)
+    settings = dump_json(Settings().with_motion("gate", FIXED).to_json())
+    write_files(ExportFiles({"settings.json": settings.encode()}), out / "cabinet")
+    server = Server(str(model), "--out", str(out))
+    try:
+        browser.go(server.address)
+        wait(browser, "document.getElementById('stage').className === 'failed'")
+        assert "gate" in browser.run("document.getElementById('fault').textContent")
+        before = "getComputedStyle(document.querySelector('.view'), '::before').content"
+        assert browser.run(before) == "none"  # nothing is read any more
+        assert browser.run("document.querySelector('[data-do=export]').disabled")
+        browser.run("document.querySelector('[data-do=anew]').click()")
+        settled(browser)
+        assert browser.run("document.getElementById('stage').className") == "ready"
+        assert browser.complaints(server.address) == []
+    finally:
+        server.kill()
 
 
 def test_without_the_token_a_browser_sees_nothing(browser, lasting):

@@ -38,6 +38,7 @@ class Editor {
     this.toolbar.show(status);
     giveBack();
     this.building = Boolean(status.stage);
+    if (status.error && !status.build) this.stage.className = "failed"; // there is nothing to show: the toolbar states why
     if (!this.fetching) await this.catchUp();
   }
 
