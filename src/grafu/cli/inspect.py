@@ -106,9 +106,9 @@ def _parts_table(inspection: "Inspection") -> "Table":
 
     from grafu.cli.terminal import plain_table
 
-    table = plain_table("part", "category", "by", "size (cm)", "faces", "rides on")
+    table = plain_table("part", "category", "by", "size (cm)", "faces", "moves with")
     for part in inspection.parts:
-        mesh = f"{part.faces}{'' if part.closed else ' (open)'}"
+        mesh = f"{part.faces}{'' if part.closed else ' (not closed)'}"
         row = (part.id, part.category, part.labelled_by, _size(part), mesh, part.rides_on or "")
         table.add_row(*(escape(cell) for cell in row))
     return table
