@@ -14,7 +14,7 @@ from grafu.cli.argument_parser import ArgumentParser
 from grafu.cli.input_options import join_directions
 from grafu.cli.light_start import without_shape_checks
 from grafu.cli.pool import run_supervised
-from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb
+from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb, unread
 from grafu.processes.lifetime import end_requests_heard, keep_private
 from grafu.version import __version__
 
@@ -50,7 +50,7 @@ examples:
   grafu dataset results --out furniture
 
 exit codes: 0 done; 1 some of several inputs failed, or an error of our own; 2 bad input or arguments;
-130 after Ctrl-C, 143 after SIGTERM
+130 after Ctrl-C, 141 where the reader of its output ended, 143 after SIGTERM
 """
 
 
@@ -60,6 +60,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     `arguments` are those of the process (None), or given by a caller, without the program's name: then a single model
     stays in the caller's process, where nothing can stop it, while of several each has a process and limits.
     """
+    try:
+        try:
+            return _run(arguments)
+        finally:
+            sys.stdout.flush()  # of a help that ends the process, too
+    except BrokenPipeError:
+        return unread()
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     if arguments is None:
         without_shape_checks()
     words = _asked(join_directions(sys.argv[1:] if arguments is None else arguments))
