@@ -167,7 +167,13 @@ def test_help_is_a_word_too(words: list[str], usage: str, capsys: pytest.Capture
 
 @pytest.mark.parametrize(
     ("given", "meant"),
-    [("models/dek.glb", "models/desk.glb"), ("modles/desk.glb", "models/desk.glb"), ("models/x", "")],
+    [
+        ("models/dek.glb", "models/desk.glb"),
+        ("models/desk.gltf", "models/desk.glb"),
+        ("modles/desk.glb", "models/desk.glb"),
+        ("models/zero.glb", ""),  # the same ending makes no likeness
+        ("models/x", ""),
+    ],
 )
 def test_a_model_that_is_not_there_is_answered_with_the_one_that_is_spelled_so(
     given: str, meant: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -179,6 +185,14 @@ def test_a_model_that_is_not_there_is_answered_with_the_one_that_is_spelled_so(
     said = capsys.readouterr().err
     assert f"{given} does not exist" in said
     assert (f"; did you mean `{meant}`?" in said) if meant else ("expected a PartNet-Mobility folder" in said)
+
+
+def test_a_link_to_nothing_and_an_empty_file_are_called_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "link.glb").symlink_to(tmp_path / "gone.glb")
+    (tmp_path / "empty.urdf").touch()
+    for name, said in (("link.glb", "does not exist: it is a link"), ("empty.urdf", "is empty: fetch or export")):
+        assert main(["inspect", str(tmp_path / name)]) == 2
+        assert f"{name} {said}" in capsys.readouterr().err
 
 
 def test_what_looks_like_nothing_gets_no_offer(capsys: pytest.CaptureFixture[str]) -> None:

@@ -138,6 +138,8 @@ def detect(path: Path) -> tuple[str, Path]:
     try:
         if not path.exists():
             raise UnreadableAsset(f"{path} does not exist{_like(path) or f': expected {EXPECTED}'}")
+        if path.is_file() and path.stat().st_size == 0:
+            raise UnreadableAsset(f"{path} is empty: fetch or export it again")
         return _detect_folder(path) if path.is_dir() else _detect_file(path)
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or "no file can have this name"
@@ -146,11 +148,14 @@ def detect(path: Path) -> tuple[str, Path]:
 
 def _like(path: Path) -> str:
     """Returns `; did you mean X?` with a path that is there and has one name spelled otherwise; empty where none is."""
+    if path.is_symlink():
+        return ": it is a link to what is not there"
     missing = next(one for one in reversed((path, *path.parents)) if not one.exists())
     rest = path.relative_to(missing)
     beside = islice(missing.parent.iterdir(), _MOST_BESIDE) if missing.parent.is_dir() else ()
-    near = nearest(missing.name, (found.name for found in beside if (found / rest).exists()))
-    return f"; did you mean `{missing.parent / near / rest}`?" if near else ""
+    by_stem = {found.stem: found for found in sorted(beside) if (found / rest).exists()}  # endings are all alike
+    near = by_stem.get(nearest(missing.stem, by_stem))
+    return f"; did you mean `{near / rest}`?" if near else ""
 
 
 def is_partnet_mobility(folder: Path) -> bool:
