@@ -1,7 +1,7 @@
 """Which files a result is saved as: models, graph, report, settings and page. It writes nothing."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
 from typing import Final, final
@@ -47,7 +47,7 @@ def files_of(
 
     Args:
         made: what the pipeline made.
-        name: the name of the results, for the report and the page.
+        name: the name of the results, which files, the report and the page carry.
         formats: names of export formats; see `grafu.export.formats`.
         settings: what was chosen, for `settings.json`; None: no such file, as for another system's motions.
         page: whether `report.html` is drawn.
@@ -58,6 +58,7 @@ def files_of(
         ExportError: if a format is unknown, or cannot say what the object holds.
     """
     started = perf_counter()
+    made = replace(made, object=replace(made.object, name=name))
     with budget.in_force():
         files = export(made.object, formats, made.completion)
     seconds = {**(timings or {}), "export": perf_counter() - started}
