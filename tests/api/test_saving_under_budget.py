@@ -95,3 +95,11 @@ def test_shapes_and_masses_are_simple_before_a_format_is_left_out(made: Function
     found = saved(made, Budget.lasting(20.0, clock=Clock(step=1.0)))
     assert any(words in " ".join(found.report.notes) for words in SIMPLER)
     assert "urdf" in found.files.formats
+
+
+def test_what_tips_it_over_is_reported_whatever_the_results_are_called(plain: Saved, made: Functionalized) -> None:
+    found = files_of(made, "another", ("urdf",), None, page=False)
+    assert b'<robot name="another"' in found.files["model.urdf"]
+    assert plain.report.base is not None
+    assert found.report.base == plain.report.base
+    assert plain.report.base.stability is not None
