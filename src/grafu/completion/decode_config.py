@@ -87,7 +87,7 @@ class RegularConfig(ShortRepr):
     """When a row of shelves is regular, so that one is missing where a gap is a multiple of the others.
 
     Lengths are fractions of the object's largest side. Of 200 synthetic pieces (seed 990001) none that is whole gets a
-    shelf by it, while of those that lack half of their shelves 20 of 24 that it states were missing.
+    shelf by it, while of those that lack half of their shelves 17 of 22 that it states were missing.
 
     Raises:
         ValueError: if a number is not above 0.
