@@ -148,9 +148,11 @@ class GRAFU_OT_finalize(Applies, bpy.types.Operator):
 
 
 def _verdict(report) -> str:
+    from grafu.pipeline.words import counted
+
     joints = report["joints"]
     colliding = sum(joint["collision_share"] > 0 for joint in joints)
-    return f"{len(joints)} joints, {colliding} collide, {len(report['skipped'])} left out"
+    return f"{counted(len(joints), 'joint')}, {colliding} collide, {len(report['skipped'])} left out"
 
 
 CLASSES = (GRAFU_OT_finalize,)

@@ -145,7 +145,7 @@ class GRAFU_PT_view(_ResultPanel, bpy.types.Panel):
         shown = any(row.object is not None and not row.object.hide_viewport for row in session.sources)
         column.prop(context.scene, "grafu_overlay", icon="DRIVER_ROTATIONAL_DIFFERENCE", toggle=True)
         if session.sources:
-            button = column.operator("grafu.show_sources", text="What was handed over", icon="HIDE_OFF", depress=shown)
+            button = column.operator("grafu.show_sources", text="Source objects", icon="HIDE_OFF", depress=shown)
             button.on = not shown
 
 

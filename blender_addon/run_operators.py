@@ -135,6 +135,7 @@ class Applies:
 
     def _shown(self, context):
         from grafu.pipeline.report_schema import Report
+        from grafu.pipeline.words import counted
 
         scene = bpy.data.scenes.get(self._scene)
         if scene is None:
@@ -154,7 +155,8 @@ class Applies:
         session.colours = False
         if remove_boxes(session):
             draw_boxes(session)
-        session.status = f"{len(after.joints)} joints, {len(after.added)} parts added, {len(after.skipped)} left out"
+        joints, added = counted(len(after.joints), "joint"), counted(len(after.added), "added part")
+        session.status = f"{joints}, {added}, {len(after.skipped)} left out"
         self.report({"INFO"}, session.status)
         thumbnails.begin()
         return {"FINISHED"}

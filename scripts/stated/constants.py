@@ -159,6 +159,11 @@ def others() -> Iterator[Sentence]:
     yield "pages.md", "it opens less than {:g} % of what it should; how", (per_cent(VERDICT.least_opening),)
     yield "pages.md", "with a score below {:g} %", (per_cent(VERDICT.least_confidence),)
     yield "pages.md", "a part lost more than {:g} % to carving", (per_cent(VERDICT.most_carved),)
+    yield (
+        "pages.md",
+        "it is higher than {:g} m or its largest side is shorter than {:g} cm",
+        (VERDICT.tallest, round(100 * VERDICT.smallest, 6)),
+    )
     yield "limits.md", "{:g} s for a model (`evaluate`: {:g} s for a task)", (limit_options.SECONDS, evaluate._SECONDS)
     yield "limits.md", "goes more than {:g} GB beyond", (round(limits._SPARE / 1e9),)
     yield "limits.md", "after {} times as long it is stopped", (PATIENCE,)

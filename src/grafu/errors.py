@@ -27,11 +27,17 @@ _LONGEST = 2000  # characters of a message
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """Returns `; did you mean X?` with the known word that looks most like the given one; empty where none does."""
+    near = nearest(word, known)
+    return f"; did you mean `{near}`?" if near else ""
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Returns the known word that looks most like the given one, whatever its case; empty where none does."""
     from difflib import get_close_matches  # late: only where something is wrong
 
     by_case = {one.casefold(): one for one in known}
     near = get_close_matches(word[:100].casefold(), by_case, 1)
-    return f"; did you mean `{by_case[near[0]]}`?" if near else ""
+    return by_case[near[0]] if near else ""
 
 
 class FunctionalizationError(Exception):

@@ -110,7 +110,8 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 @pytest.mark.parametrize(
     ("name", "data", "error", "said"),
     [
-        ("a.obj", "", UnreadableAsset, "no part with faces"),
+        ("a.obj", "", UnreadableAsset, "is empty: fetch or export it again"),
+        ("a.obj", "\n", UnreadableAsset, "no part with faces"),
         ("a.obj", "hello world", UnreadableAsset, "holds no vertices"),
         ("a.obj", TRIANGLE, UnsegmentedAsset, "one part, `a`: expected several; it is one connected shell"),
         ("a.obj", TRIANGLE.replace("1 0 0", "nan 0 0"), UnreadableAsset, "NaN"),

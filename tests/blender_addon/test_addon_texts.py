@@ -1,6 +1,8 @@
 """Words in the sidebar: lines are broken, never lost; a list gives names the room that they need. Without Blender."""
 
+import ast
 import importlib
+import re
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -65,3 +67,12 @@ def test_a_name_is_cut_exactly_where_it_gets_less_than_it_needs(texts, scale):
     assert not texts.is_cut(sidebar(WIDE, scale), fits)
     assert texts.is_cut(sidebar(WIDE, scale), cut)
     assert texts.is_cut(sidebar(WIDE, scale), fits, rest=60.0)
+
+
+def test_every_button_and_box_that_the_page_names_is_called_so():
+    modules = [ast.parse(path.read_text()) for path in (ROOT / "blender_addon").glob("*.py")]
+    strings = {node.value for tree in modules for node in ast.walk(tree) if isinstance(node, ast.Constant)}
+    called = {text.removesuffix(" ...") for text in strings if isinstance(text, str)}
+    named = set(re.findall(r"(?<!\*)\*([A-Z][^*\n]*)\*(?!\*)", (ROOT / "docs" / "blender.md").read_text()))
+    assert len(named) > 10
+    assert named - called == set()

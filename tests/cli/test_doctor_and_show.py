@@ -4,6 +4,7 @@ from importlib.metadata import metadata
 from pathlib import Path
 
 import pytest
+from obj_inputs import write_cabinet
 
 from grafu.cli import doctor, show
 from grafu.cli.main import main
@@ -61,6 +62,21 @@ def test_show_opens_the_page_of_a_result_of_a_run_and_of_the_only_one(
     (tmp_path / "index.html").write_text("<html></html>")
     assert show.page_of(tmp_path) == tmp_path / "index.html"
     assert capsys.readouterr().out.splitlines() == opened
+
+
+def test_show_writes_the_page_over_results_that_were_made_one_by_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    for name in ("a", "b"):
+        cabinet = write_cabinet(tmp_path / "models", name)
+        assert main(["functionalize", str(cabinet), "--out", str(tmp_path / "out")]) == 0
+    page = tmp_path / "out" / "index.html"
+    assert not page.exists()
+    assert main(["show", str(tmp_path / "out")]) == 0
+    assert opened == [page.as_uri()]
+    assert all(f'href="{name}/report.html"' in page.read_text() for name in ("a", "b"))
 
 
 def test_a_folder_without_a_page_is_refused(tmp_path: Path) -> None:

@@ -38,6 +38,15 @@ def test_the_report_keeps_its_form(result: Path) -> None:
     assert {"load", "parse", "complete", "plan", "realize", "export"} <= set(report.timings)
 
 
+def test_a_model_whose_name_is_generic_is_called_as_its_folder_in_all_files(tmp_path: Path) -> None:
+    for place in ("45526", "7128"):  # each by a run of its own, as a loop of a shell does
+        model = write_cabinet(tmp_path / place, "mobility")
+        assert main(["functionalize", str(model), *LEAST, "--out", str(tmp_path / "out")]) == 0
+        result = tmp_path / "out" / place
+        assert f'<robot name="{place}">' in (result / "model.urdf").read_text()
+        assert json.loads((result / "report.json").read_text())["input"]["name"] == place
+
+
 def test_the_graph_reads_back(result: Path) -> None:
     completion = completion_from_json(json.loads((result / "graph.json").read_text()))
 

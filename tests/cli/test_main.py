@@ -102,6 +102,14 @@ def test_the_bare_command_shows_its_help(capsys: pytest.CaptureFixture[str]) -> 
         (["inspect", "a.glb", "--labels=nome"], "`none`"),
         (["inspect", "a.glb", "--hieght=0.7"], "`--height`"),
         (["train", "--out", "x", "--config", "tiney"], "`tiny`"),
+        (["--verison"], "`--version`"),
+        (["functionalize", "a.glb", "--outt", "x"], "`--out`"),  # not: --out is missing
+        (["functionalize", "a.glb", "--outt=x"], "`--out`"),
+        (["functionalize", "a.glb", "--out", "x", "--base", "fixd"], "`fixed`"),
+        (["functionalize", "a.glb", "--out", "x", "--catch", "detnt"], "`detent`"),
+        (["functionalize", "a.glb", "--out", "x", "--motion", "ntwork"], "`network`"),
+        (["functionalize", "a.glb", "--out", "x", "--move", "door_1=rigth"], "`right`"),
+        (["functionalize", "a.glb", "--out", "x", "--limit", "faecs=3"], "`faces`"),
     ],
 )
 def test_what_looks_alike_is_offered(arguments: list[str], near: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -109,6 +117,82 @@ def test_what_looks_alike_is_offered(arguments: list[str], near: str, capsys: py
         main(arguments)
     assert end.value.code == 2
     assert f"did you mean {near}?" in capsys.readouterr().err
+
+
+def test_what_is_missing_is_named_where_all_words_are_known(capsys: pytest.CaptureFixture[str]) -> None:
+    for words in (["a.glb"], ["a.glb", "--formats=glb", "-v"], ["a.glb", "--", "--outt"], ["a.glb", "--scale", "-1"]):
+        with pytest.raises(SystemExit):
+            main(["functionalize", *words])
+        assert "required: --out" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["functionalize", "-desk.glb", "--out", "x"], "write ./-desk.glb for the file of this name"),
+        (["functionalize", "a.glb", "--out", "x", "--height", "72", "cm"], "one word, such as 72cm"),
+        (["desk.glb"], "; for a model: grafu functionalize desk.glb --out results"),
+    ],
+)
+def test_a_slip_is_answered_with_what_to_write(
+    words: list[str], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("-desk.glb", "desk.glb"):
+        (tmp_path / name).touch()
+    with pytest.raises(SystemExit) as end:
+        main(words)
+    assert end.value.code == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_file_whose_name_steers_a_terminal_is_shown_with_escapes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("-\x1b[31m.glb", "\x1b[31m.glb"):
+        (tmp_path / name).touch()
+        with pytest.raises(SystemExit):
+            main([name])
+        assert "\x1b" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("words", "usage"), [([], "grafu [-h]"), (["inspect"], "grafu inspect [-h]")])
+def test_help_is_a_word_too(words: list[str], usage: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["help", *words])
+    assert end.value.code == 0
+    assert capsys.readouterr().out.startswith(f"usage: {usage}")
+
+
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [
+        ("models/dek.glb", "models/desk.glb"),
+        ("models/desk.gltf", "models/desk.glb"),
+        ("modles/desk.glb", "models/desk.glb"),
+        ("models/zero.glb", ""),  # the same ending makes no likeness
+        ("models/x", ""),
+    ],
+)
+def test_a_model_that_is_not_there_is_answered_with_the_one_that_is_spelled_so(
+    given: str, meant: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "models").mkdir()
+    (tmp_path / "models" / "desk.glb").touch()
+    monkeypatch.chdir(tmp_path)
+    assert main(["inspect", given]) == 2
+    said = capsys.readouterr().err
+    assert f"{given} does not exist" in said
+    assert (f"; did you mean `{meant}`?" in said) if meant else ("expected a PartNet-Mobility folder" in said)
+
+
+def test_a_link_to_nothing_and_an_empty_file_are_called_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "link.glb").symlink_to(tmp_path / "gone.glb")
+    (tmp_path / "empty.urdf").touch()
+    for name, said in (("link.glb", "does not exist: it is a link"), ("empty.urdf", "is empty: fetch or export")):
+        assert main(["inspect", str(tmp_path / name)]) == 2
+        assert f"{name} {said}" in capsys.readouterr().err
 
 
 def test_what_looks_like_nothing_gets_no_offer(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,6 +1,7 @@
 """`inspect` and `templates` through the real command."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,8 @@ from obj_inputs import CABINET, write_cabinet
 
 from grafu.cli.main import main
 from grafu.pipeline.inspection import Inspection
+
+SAMPLES = Path(__file__).parents[2] / "samples"
 
 
 def blank_sheet(*_: object) -> np.ndarray:
@@ -21,6 +24,18 @@ def test_inspect_prints_a_table_of_all_parts(tmp_path: Path, capsys: pytest.Capt
     said = capsys.readouterr().out
     assert all(name in said for name in CABINET)
     assert "pairs of parts touch" in said
+
+
+def test_on_a_terminal_of_80_columns_each_part_has_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("grafu.cli.terminal.PIPE_WIDTH", 80)
+    assert main(["inspect", str(SAMPLES / "wardrobe.glb")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("part ")) + 1
+    last = lines.index("* its mesh is not watertight")
+    assert last - first == 23
+    assert any(re.search(r"door_1 .* x \d+\.\d +60 \*$", line.rstrip()) for line in lines[first:last])
 
 
 def test_inspect_prints_json_that_reads_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,6 +8,7 @@ from shutil import copyfile
 
 import pytest
 
+from grafu.cli.input_options import join_directions
 from grafu.cli.main import build_parser, main
 
 ROOT = Path(__file__).parent.parent.parent
@@ -33,6 +34,28 @@ def test_every_line_is_a_command_on_what_the_checkout_holds() -> None:
         if words[-1] != "--formats":  # it prints a table and ends
             build_parser().parse_args(words)
         assert all((ROOT / word).exists() for word in words if word.startswith("samples/"))
+
+
+EVERY_PAGE = (*ROOT.glob("docs/*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples" / "README.md")
+
+
+@pytest.mark.parametrize("page", EVERY_PAGE, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_command_of_every_page_is_read_as_it_stands(page: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = re.sub(r"\s*\\?\n +(?=--)", " ", page.read_text()).replace("\\\n", " ")  # lines that go on
+    fenced = "\n".join(re.findall(r"^ *```\w*\n(.*?)^ *```", text, re.MULTILINE | re.DOTALL))
+    lines = re.findall(r"^ {4,6}(?:\.venv/bin/)?grafu ([^\n]+)", text, re.MULTILINE)
+    for line in lines + re.findall(r"^(?:\.venv/bin/)?grafu ([^\n]+)", fenced, re.MULTILINE):
+        words = shlex.split(re.sub(r" (\||&&|> \S+)( .*)?$", "", line), comments=True)
+        assert not code_of(words), (line, capsys.readouterr().err)
+
+
+def code_of(words: list[str]) -> str | int | None:
+    """Returns 0 where the words are read; a help, or the table of formats, ends with it, too."""
+    try:
+        build_parser(words).parse_args(join_directions(words))
+    except SystemExit as end:
+        return end.code
+    return 0
 
 
 def copy_samples(folder: Path, lines: list[str]) -> None:

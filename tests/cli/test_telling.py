@@ -94,7 +94,7 @@ def test_the_log_holds_all_with_times_whatever_is_printed(
     more: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("FORCE_COLOR", "1")  # colours are for terminals
-    log = tmp_path / "run.log"
+    log = tmp_path / "logs" / "new" / "run.log"  # in folders that are not there yet
     for code in (0, 2):  # the second time it is there already
         assert main(command(tmp_path, "--log", str(log), *more)) == code
     lines = log.read_text(encoding="utf-8").splitlines()

@@ -188,13 +188,33 @@ def test_long_names_within_results_stay_apart() -> None:
 
 
 @pytest.mark.parametrize(
+    ("path", "name"),
+    [
+        ("45526/mobility.urdf", "45526"),
+        ("chair/Model.GLB", "chair"),
+        ("v1.5/scene.gltf", "v1.5"),
+        ("a/robot.xml", "a"),
+        ("a/model_2.glb", "model_2"),
+        ("con/object.obj", "object"),  # Windows has no folder of this name
+        ("/scene.glb", "scene"),
+    ],
+)
+def test_a_file_whose_name_is_generic_is_named_by_its_folder(path: str, name: str) -> None:
+    assert output_name(Path(path)) == name
+
+
+@pytest.mark.parametrize(
     ("paths", "names"),
     [
         (["d1/model.glb", "d2/model.glb", "e/other.glb"], ("d1", "d2", "other")),
-        (["x/d/model.glb", "y/d/model.glb"], ("model", "model")),  # their folders are called alike, too
+        (["x/d/model.glb", "y/d/model.glb"], ("x", "y")),  # their folders are called alike, too
+        (["x/d/model.glb", "x/d/scene.glb"], ("model", "scene")),  # one folder holds both
+        (["x/d/model.glb", "x/d/model.obj"], ("d", "d")),
+        (["x/cabinet.glb", "y/cabinet.glb"], ("x", "y")),
+        (["x/d/cabinet.glb", "y/d/cabinet.glb"], ("cabinet", "cabinet")),
         (["d1/model.glb", "d2/MODEL.obj"], ("d1", "d2")),
-        (["d1/model.glb", "d2/model.glb", "e/d1.glb"], ("model", "model", "d1")),  # a folder has another's name
-        (["con/model.glb", "d2/model.glb"], ("model", "model")),  # no folder may be called so
+        (["d1/model.glb", "d2/model.glb", "e/d1.glb"], ("model", "d2", "d1")),  # a folder has another's name
+        (["con/model.glb", "d2/model.glb"], ("model", "d2")),  # no folder may be called so
         ([], ()),
     ],
 )

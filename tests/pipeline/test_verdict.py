@@ -261,10 +261,30 @@ def test_the_option_beside_a_guessed_side_is_the_next_likeliest():
     assert line.option == ""
 
 
-@pytest.mark.parametrize("field", fields(VerdictConfig), ids=lambda field: field.name)
-def test_a_threshold_of_faults_is_a_fraction(field):
-    with pytest.raises(ValueError, match=f"`VerdictConfig.{field.name}` must be between 0 and 1"):
-        VerdictConfig(**{field.name: 1.2})
+LENGTHS = ("tallest", "smallest")
+
+
+@pytest.mark.parametrize("name", [field.name for field in fields(VerdictConfig) if field.name not in LENGTHS])
+def test_a_threshold_of_faults_is_a_fraction(name):
+    with pytest.raises(ValueError, match=f"`VerdictConfig.{name}` must be between 0 and 1"):
+        VerdictConfig(**{name: 1.2})
+
+
+@pytest.mark.parametrize("name", LENGTHS)
+def test_a_size_is_above_nothing(name):
+    with pytest.raises(ValueError, match=f"`VerdictConfig.{name}`"):
+        VerdictConfig(**{name: 0.0})
+
+
+@pytest.mark.parametrize("size", [(0.6, 0.5, 72.0), (0.0006, 0.0005, 0.00072)])
+def test_a_size_that_no_furniture_has_is_to_be_checked(size):
+    report = sound(0)
+    assert verdict_of(report.model_copy(update={"size": (3.0, 0.6, DEFAULT.tallest)})).lines == ()
+    made = verdict_of(report.model_copy(update={"size": size}))
+    [line] = [line for line in made.lines if line.option == "--height"]
+    assert made.colour is not Colour.GREEN
+    assert (line.colour, line.part) == (Colour.YELLOW, "")
+    assert f"it is {size[2]:.4g} m high" in line.why
 
 
 def test_with_other_thresholds_the_verdict_is_another():

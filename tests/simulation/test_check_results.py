@@ -105,20 +105,46 @@ def test_a_damaged_file_is_an_error_of_the_file_and_another_folder_is_refused(re
     assert code == 1
     assert "MuJoCo does not load" in report.files[0].error
 
-    assert main(["check", str(tmp_path)]) == 2
+    (tmp_path / "other").mkdir()
+    assert main(["check", str(tmp_path / "other")]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_of_the_folder_of_a_run_every_result_is_checked(result, tmp_path, capsys):
+    copied(result, tmp_path, ("</mujoco>", "<nonsense/></mujoco>"))
+    shutil.copytree(tmp_path / "broken", tmp_path / "second")
+    assert main(["check", str(tmp_path)]) == 1
+    assert [line.partition(":")[0] for line in capsys.readouterr().out.splitlines()] == ["broken", "second"]
+
+
+def test_a_lid_that_is_too_heavy_in_urdf_is_explained(tmp_path):
+    from grafu.simulation.check import NO_SPRINGS, check_folder
+    from grafu.simulation.words import sentences
+
+    chest = DRESSER.with_name("chest.glb")
+    assert main(["functionalize", str(chest), "--formats", "urdf,mjcf", "--no-page", "--out", str(tmp_path)]) == 0
+    found = check_folder(tmp_path / "chest", replace(CheckConfig(), frames=2)).report
+
+    [mjcf], [urdf] = (file.joints for file in found.files)
+    assert (mjcf.works, mjcf.hint) == (True, "")
+    assert (urdf.works, urdf.hint) == (False, NO_SPRINGS)
+    of_mjcf, of_urdf = sentences(found)
+    assert "1 of 1 joint open and close when they are pulled;" in of_mjcf
+    assert f"(lid_joint opens by {urdf.opened:.0%} under 20 N, for {NO_SPRINGS});".replace("%", " %") in of_urdf
 
 
 def test_a_line_of_json_for_each_result_and_for_what_is_none(result, tmp_path, capsys):
     broken = copied(result, tmp_path, ("</mujoco>", "<nonsense/></mujoco>"))
-    assert main(["check", "--json", str(broken), str(tmp_path)]) == 1
+    other = tmp_path / "other"
+    other.mkdir()
+    assert main(["check", "--json", str(broken), str(other)]) == 1
     first, second = map(json.loads, capsys.readouterr().out.splitlines())
     assert (first["check"], first["folder"], first["works"], first["error"]) == ("broken", str(broken), False, None)
     assert any("MuJoCo does not load" in finding for finding in first["findings"])
     assert (second["works"], second["findings"]) == (False, [])
     assert second["error"]
     assert set(first) == set(second)
-    assert main(["check", "--json", str(tmp_path)]) == 2
+    assert main(["check", "--json", str(other)]) == 2
     assert json.loads(capsys.readouterr().out) == second
 
 

@@ -114,5 +114,5 @@ def test_decisions_are_said_as_sides(made):
     completion = made.result.completion
     words = {joint.part: certainty_words(completion, joint.part) for joint in made.report.joints}
 
-    assert any(line.startswith("pinned ") for lines in words.values() for line in lines)
+    assert any(line.startswith("hinge side ") for lines in words.values() for line in lines)
     assert any(line.startswith("slides to the front") for lines in words.values() for line in lines)

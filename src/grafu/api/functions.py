@@ -186,7 +186,7 @@ def _base(word: str | None) -> BaseKind | None:
     if word is None:
         return None
     if require_word(word, "base", "`free`, `fixed`, `wall` or None") not in {known.value for known in BaseKind}:
-        raise OptionError(f"`base` must be one of {', '.join(BaseKind)}: got {word!r}")
+        raise OptionError(f"`base` must be one of {', '.join(BaseKind)}: got {word!r}{did_you_mean(word, BaseKind)}")
     return BaseKind(word)
 
 

@@ -13,7 +13,7 @@ from grafu.api.saving import files_of
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
-from grafu.errors import ExportError, OptionError
+from grafu.errors import ExportError, OptionError, did_you_mean
 from grafu.export.files import write_files
 from grafu.export.formats import DEFAULT_FORMATS, exporter_for
 from grafu.export.output_names import why_not_apart
@@ -231,7 +231,7 @@ class Result:
         """
         known = (*open_handles(self.request.templates), *GRIPS, NO_HANDLE)
         if require_word(style, "style", "a style such as `knob-round`") not in known:
-            raise OptionError(f"`style` must be one of {', '.join(known)}: got {style!r}")
+            raise OptionError(f"`style` must be one of {', '.join(known)}: got {style!r}{did_you_mean(style, known)}")
         return self._with(self.settings.with_front(self.joint(part).part, HandleChoice(style=style)))
 
     def with_label(self, part: str, label: str) -> "Result":
@@ -243,7 +243,8 @@ class Result:
         """
         require_word(part, "part")
         if require_word(label, "label", "a category such as `door`") not in {known.value for known in PartLabel}:
-            raise OptionError(f"`label` must be one of {', '.join(PartLabel)}: got {label!r}")
+            near = did_you_mean(label, PartLabel)
+            raise OptionError(f"`label` must be one of {', '.join(PartLabel)}: got {label!r}{near}")
         return self._with(self.settings.with_label(part, PartLabel(label)))
 
     def without(self, *parts: str) -> "Result":

@@ -1,7 +1,7 @@
 """Which files a result is saved as: models, graph, report, settings and page. It writes nothing."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
 from typing import Final, final
@@ -46,7 +46,7 @@ def files_of(
 
     Args:
         made: what the pipeline made.
-        name: the name of the results, for the report and the page.
+        name: the name of the results, which files, the report and the page carry.
         formats: names of export formats; see `grafu.export.formats`.
         settings: what was chosen, for `settings.json`; None: no such file, as for another system's motions.
         page: whether `report.html` is drawn.
@@ -58,7 +58,7 @@ def files_of(
     """
     started = perf_counter()
     with budget.in_force():
-        files = export(made.object, formats, made.completion)
+        files = export(replace(made.object, name=name), formats, made.completion)
     seconds = {**(timings or {}), "export": perf_counter() - started}
     stated = with_caught(with_stability(report_of(made, name, seconds), made.object), made.object, files.names)
     report, picture = with_notes(stated, *files.notes), b""

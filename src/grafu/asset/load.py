@@ -6,6 +6,7 @@ The kind of an input is detected from its content: PartNet-Mobility's files, a G
 
 from collections.abc import Callable
 from importlib import import_module
+from itertools import islice
 from pathlib import Path
 from typing import Final
 
@@ -19,7 +20,9 @@ from grafu.asset.reading import Reading, cleaned
 from grafu.asset.regular_files import files_below, read_head
 from grafu.asset.resources import ModelFiles
 from grafu.asset.settling import EXPECTED, pieces_in, settled
-from grafu.errors import UnreadableAsset
+from grafu.errors import UnreadableAsset, nearest
+
+_MOST_BESIDE: Final = 2000  # files beside a missing one that are looked at
 
 Reader = Callable[[Path, LoadOptions, ModelFiles], Reading]
 
@@ -134,11 +137,25 @@ def detect(path: Path) -> tuple[str, Path]:
     """
     try:
         if not path.exists():
-            raise UnreadableAsset(f"{path} does not exist: expected {EXPECTED}")
+            raise UnreadableAsset(f"{path} does not exist{_like(path) or f': expected {EXPECTED}'}")
+        if path.is_file() and path.stat().st_size == 0:
+            raise UnreadableAsset(f"{path} is empty: fetch or export it again")
         return _detect_folder(path) if path.is_dir() else _detect_file(path)
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or "no file can have this name"
         raise UnreadableAsset(f"{path} cannot be read ({why}): expected {EXPECTED}") from None
+
+
+def _like(path: Path) -> str:
+    """Returns `; did you mean X?` with a path that is there and has one name spelled otherwise; empty where none is."""
+    if path.is_symlink():
+        return ": it is a link to what is not there"
+    missing = next(one for one in reversed((path, *path.parents)) if not one.exists())
+    rest = path.relative_to(missing)
+    beside = islice(missing.parent.iterdir(), _MOST_BESIDE) if missing.parent.is_dir() else ()
+    by_stem = {found.stem: found for found in sorted(beside) if (found / rest).exists()}  # endings are all alike
+    near = by_stem.get(nearest(missing.stem, by_stem))
+    return f"; did you mean `{near / rest}`?" if near else ""
 
 
 def is_partnet_mobility(folder: Path) -> bool:

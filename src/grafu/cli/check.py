@@ -20,7 +20,7 @@ everything open. Writes check.json and check.gif into each folder, and a table i
 _EXAMPLES = """\
 examples:
   grafu check results/kitchen_base
-  grafu check results/*
+  grafu check results
 """
 CHECK_FILE, CLIP_FILE, PAGE = "check.json", "check.gif", "report.html"
 
@@ -30,7 +30,7 @@ def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> 
     parser = verbs.add_parser(
         "check", help="load results into MuJoCo, and pull every joint", description=_DESCRIPTION, epilog=_EXAMPLES
     )
-    parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="a folder that functionalize wrote")
+    parser.add_argument("results", nargs="+", type=Path, metavar="RESULT", help="the folder of a result or of a run")
     add_telling_options(parser, "each result")
     parser.set_defaults(run=run)
     return parser
@@ -46,9 +46,18 @@ def run(options: argparse.Namespace) -> int:
     from grafu.simulation.world import require_mujoco
 
     require_mujoco()
-    if len(options.results) == 1:
-        return EXIT_DONE if check_result(options.results[0], options.json_lines).works else EXIT_FAILED
-    return EXIT_DONE if check_results(options.results, options.json_lines) else EXIT_FAILED
+    folders = _results_of(options.results)
+    if len(folders) == 1:
+        return EXIT_DONE if check_result(folders[0], options.json_lines).works else EXIT_FAILED
+    return EXIT_DONE if check_results(folders, options.json_lines) else EXIT_FAILED
+
+
+def _results_of(given: Sequence[Path]) -> list[Path]:
+    """Returns the results that are given, and those of each run that is; what is neither stays, to be refused."""
+    from grafu.dataset.results import results_in
+
+    found = ([one for one in results_in([path]) if isinstance(one, Path)] or [path] for path in given)
+    return [folder for folders in found for folder in folders]
 
 
 def check_result(folder: Path, as_json: bool = False) -> "CheckReport":

@@ -11,8 +11,8 @@ Prints a script for bash, zsh or fish, which then completes verbs, options, thei
 """
 _EXAMPLES = """\
 examples:
-  grafu completion bash > ~/.local/share/bash-completion/completions/grafu
-  grafu completion zsh > ~/.zfunc/_grafu           # with `fpath+=~/.zfunc` before `compinit` in ~/.zshrc
+  grafu completion bash > ~/.grafu-completion   # and `source ~/.grafu-completion` in ~/.bashrc
+  grafu completion zsh > ~/.zfunc/_grafu        # and `fpath+=~/.zfunc` before `compinit` in ~/.zshrc
   grafu completion fish > ~/.config/fish/completions/grafu.fish
 """
 SHELLS = ("bash", "zsh", "fish")
@@ -44,12 +44,40 @@ def script(parser: argparse.ArgumentParser, shell: str) -> str:
     import shtab
 
     known = _known_values()
+    _describe_shortly(parser)
     for action in _actions(parser):
         if action.type in (Path, place_option):
             action.complete = shtab.FILE  # type: ignore[attr-defined]  # shtab reads it
+        elif action.dest == "formats":
+            action.complete = _completed_list(known[action.dest])  # type: ignore[attr-defined]
         elif action.choices is None and action.dest in known:
             action.choices = list(known[action.dest])
     return shtab.complete(parser, shell=shell)
+
+
+def _describe_shortly(parser: argparse.ArgumentParser) -> None:
+    """Gives each verb its one line of `grafu --help` as its description, which a shell shows beside it."""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for verb in action._get_subactions():
+                action.choices[verb.dest].description = verb.help
+
+
+def _completed_list(names: Collection[str]) -> dict[str, object]:
+    """Returns how each shell completes the last of several names with commas between them."""
+    every = " ".join(names)
+    bash = f"""
+_grafu_names() {{
+  compgen -P "${{1%"${{1##*,}}"}}" -W "{every}" -- "${{1##*,}}"
+}}
+"""
+    fish = f"""
+function _grafu_names
+  printf '%s\\n' (string replace -r '[^,]*$' '' -- (commandline -ct)){{{",".join(names)}}}
+end
+"""
+    of_shells = {"bash": "_grafu_names", "zsh": f" _values -s , name {every}", "fish": "(_grafu_names)"}
+    return {**of_shells, "preamble": {"bash": bash, "fish": fish}}
 
 
 def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:

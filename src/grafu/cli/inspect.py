@@ -83,6 +83,8 @@ def print_inspection(inspection: "Inspection") -> None:
     for note in (*inspection.frame.assumed, *inspection.input.notes):
         console.print(f"  {escape(note)}", highlight=False)
     console.print(_parts_table(inspection))
+    if not all(part.closed for part in inspection.parts):
+        console.print("* its mesh is not watertight", highlight=False)
     if inspection.joints:
         console.print(_joints_table(inspection.joints))
     console.print(f"{len(inspection.contacts)} pairs of parts touch")
@@ -106,9 +108,10 @@ def _parts_table(inspection: "Inspection") -> "Table":
 
     from grafu.cli.terminal import plain_table
 
-    table = plain_table("part", "category", "by", "size (cm)", "faces", "rides on")
+    table = plain_table("part", "category", "by", "size (cm)", "faces", "moves with")
+    table.columns[3].no_wrap = True
     for part in inspection.parts:
-        mesh = f"{part.faces}{'' if part.closed else ' (open)'}"
+        mesh = f"{part.faces}{'' if part.closed else ' *'}"
         row = (part.id, part.category, part.labelled_by, _size(part), mesh, part.rides_on or "")
         table.add_row(*(escape(cell) for cell in row))
     return table

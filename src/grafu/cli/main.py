@@ -5,20 +5,18 @@ at once. What a user can get wrong ends in one line on stderr and exit code 2, n
 """
 
 import argparse
-import re
 import sys
 from collections.abc import Callable, Sequence
 from importlib import import_module
-from typing import Final, NoReturn, final
+from typing import Final
 
+from grafu.cli.argument_parser import ArgumentParser
 from grafu.cli.input_options import join_directions
 from grafu.cli.light_start import without_shape_checks
 from grafu.cli.pool import run_supervised
-from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, one_line, prepare_verb
-from grafu.errors import did_you_mean
+from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb, unread
 from grafu.processes.lifetime import end_requests_heard, keep_private
 from grafu.version import __version__
-from grafu.visible import visible
 
 _VERBS: Final = (  # each in the module of its name
     "functionalize",
@@ -52,7 +50,7 @@ examples:
   grafu dataset results --out furniture
 
 exit codes: 0 done; 1 some of several inputs failed, or an error of our own; 2 bad input or arguments;
-130 after Ctrl-C, 143 after SIGTERM
+130 after Ctrl-C, 141 where the reader of its output ended, 143 after SIGTERM
 """
 
 
@@ -62,9 +60,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     `arguments` are those of the process (None), or given by a caller, without the program's name: then a single model
     stays in the caller's process, where nothing can stop it, while of several each has a process and limits.
     """
+    try:
+        try:
+            return _run(arguments)
+        finally:
+            sys.stdout.flush()  # of a help that ends the process, too
+    except BrokenPipeError:
+        return unread()
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     if arguments is None:
         without_shape_checks()
-    words = join_directions(sys.argv[1:] if arguments is None else arguments)
+    words = _asked(join_directions(sys.argv[1:] if arguments is None else arguments))
     parser = build_parser(words)
     if not words:
         parser.print_help()
@@ -78,6 +86,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return EXIT_TERMINATED if code == EXIT_INTERRUPTED and requests.are_made else code
 
 
+def _asked(words: list[str]) -> list[str]:
+    """Returns the arguments with `help VERB` written as `VERB --help`."""
+    return [*words[1:], "--help"] if words[:1] == ["help"] else words
+
+
 def _supervised_or_here(options: argparse.Namespace) -> int:
     """Runs the verb: one about a single model in a process of its own, within the limits that the options state."""
     is_single: Callable[[argparse.Namespace], bool] | None = getattr(options, "is_single", None)
@@ -89,49 +102,31 @@ def _here(options: argparse.Namespace) -> int:
     return int(options.run(options))
 
 
-_CHOICE = re.compile(r"invalid choice: '(?P<given>.*)' \(choose from (?P<known>.*)\)", re.S)
-
-
-@final
-class _Parser(argparse.ArgumentParser):
-    """States what is wrong with the arguments in one line, with nothing in it that steers a terminal."""
-
-    def error(self, message: str) -> NoReturn:
-        """Prints the message and where all options are listed, and ends with exit code 2."""
-        wrong = _CHOICE.search(message)
-        near = did_you_mean(wrong["given"], wrong["known"].replace("'", "").split(", ")) if wrong else ""
-        self.exit(2, f"{self.prog}: {visible(one_line(message))}{near or f' (`{self.prog} --help` lists all)'}\n")
-
-    def refuse(self, unknown: Sequence[str]) -> NoReturn:
-        """Ends as `error`, because of arguments that no option and no input takes."""
-        option = next((word for word in unknown if word.startswith("-")), unknown[0])
-        near = did_you_mean(option.partition("=")[0], self._option_string_actions)
-        self.error(f"unknown argument: {option}{near}")
-
-
-def _parsed(parser: "_Parser", words: Sequence[str]) -> argparse.Namespace:
+def _parsed(parser: ArgumentParser, words: Sequence[str]) -> argparse.Namespace:
     """Returns the options; what none takes is refused by the parser of the verb, which knows its options."""
     options, unknown = parser.parse_known_args(words)
-    verb: _Parser = vars(options).pop("parser")
+    verb: ArgumentParser = vars(options).pop("parser")
     if unknown:
         verb.refuse(unknown)
     return options
 
 
-def build_parser(words: Sequence[str] = ()) -> _Parser:
+def build_parser(words: Sequence[str] = ()) -> ArgumentParser:
     """Returns the parser of the verb that the words name first, or of all verbs; only these are imported."""
-    parser = _Parser(
+    parser = ArgumentParser(
         prog="grafu",
         description="Makes part-segmented 3D furniture work: hinges, rails, limits, handles, physics.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"grafu {__version__}")
+    parser.words = words
     verbs = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
     for name in _named_verbs(words):
         subparser = import_module(f"grafu.cli.{name}").add_parser(verbs)
         subparser.formatter_class = argparse.RawDescriptionHelpFormatter
         subparser.set_defaults(parser=subparser)
+        subparser.words = words[1:]
         subparser.add_argument("--debug", action="store_true", help="print the traceback of an internal error")
     if "completion" in verbs.choices:
         verbs.choices["completion"].set_defaults(command=parser)

@@ -146,8 +146,7 @@ def add_simulator_options(parser: argparse.ArgumentParser) -> None:
 
 def _catch(text: str) -> CatchKind:
     if text not in {known.value for known in CatchKind}:
-        near = did_you_mean(text, list(CatchKind))
-        raise argparse.ArgumentTypeError(f"must be one of {', '.join(CatchKind)}: got {text!r}{near}")
+        raise argparse.ArgumentTypeError(f"must be one of {', '.join(CatchKind)}: got {text!r}")
     return CatchKind(text)
 
 

@@ -18,7 +18,7 @@ from grafu.cli.verb import complain
 from grafu.cluster.storage import matches, names_in, require_writable
 from grafu.cluster.urls import Place, Url
 from grafu.errors import AssetError, FunctionalizationError, OptionError
-from grafu.export.output_names import name_that_is_safe, output_name, same_place, told_apart
+from grafu.export.output_names import name_that_is_safe, output_name, same_place, telling_name, told_apart
 from grafu.processes.limits import Ending
 
 
@@ -105,7 +105,7 @@ def _name(source: Place) -> str:
     if isinstance(source, Path):
         return output_name(source)
     path = source.as_path
-    return name_that_is_safe(path.stem or path.name, str(source))
+    return name_that_is_safe((telling_name(path) if path.suffix else path.stem) or path.name, str(source))
 
 
 def _as_path(source: Place) -> Path:

@@ -27,13 +27,22 @@ def write_index(results: Sequence[JobResult], out: Path) -> Path | None:
     is_due = path.exists() or len(results) > 1
     if not is_due or not any(isinstance(result, Succeeded) for result in results) or not is_free_for_page(path):
         return None
+    write_index_of(out, results)
+    return path
+
+
+def write_index_of(out: Path, results: Sequence[JobResult] = ()) -> None:
+    """Writes the page over these results and all finished models of a folder of results, whatever is there.
+
+    Raises:
+        ExportError: if it cannot be written.
+    """
     from grafu.export.whole_file import write_whole
     from grafu.viewer.run_page import run_page
     from grafu.viewer.run_table import functionalized_run
 
     run = functionalized_run(out.resolve().name or "Run", _entries(results, out))
-    write_whole(writable(run_page(run)), path)
-    return path
+    write_whole(writable(run_page(run)), out / RUN_PAGE)
 
 
 def is_free_for_page(path: Path) -> bool:

@@ -4,18 +4,21 @@ import argparse
 import webbrowser
 from pathlib import Path
 
+from grafu.cli.job import MODEL_PAGE
+from grafu.cli.run_page import RUN_PAGE, write_index_of
 from grafu.errors import UnreadableAsset
 
 _DESCRIPTION = """\
 Opens the page of a result (report.html), or of the run that a folder holds (index.html), in the default browser, and
-prints its address. Nothing is sent anywhere: the page is one file.
+prints its address. Of a folder with several results that were made one by one it writes index.html first. Nothing is
+sent anywhere: the page is one file.
 """
 _EXAMPLES = """\
 examples:
   grafu show results
   grafu show results/cabinet
 """
-_PAGES = ("report.html", "index.html")
+_PAGES = (MODEL_PAGE, RUN_PAGE)
 
 
 def add_parser(verbs: "argparse._SubParsersAction[argparse.ArgumentParser]") -> argparse.ArgumentParser:
@@ -43,10 +46,11 @@ def run(options: argparse.Namespace) -> int:
 
 
 def page_of(result: Path) -> Path:
-    """Returns the page of a result or of a run.
+    """Returns the page of a result or of a run; of several results without one it is written.
 
     Raises:
         UnreadableAsset: if there is none.
+        ExportError: if it cannot be written.
     """
     if not result.exists():
         raise UnreadableAsset(f"there is no {result}: give the folder of a result or of a run")
@@ -58,5 +62,14 @@ def page_of(result: Path) -> Path:
     inside = sorted(found.parent for found in result.glob("*/report.html")) if result.is_dir() else []
     if len(inside) == 1:
         return inside[0] / "report.html"
+    if len(inside) > 1 and _holds_results(result):
+        write_index_of(result)
+        return result / RUN_PAGE
     hint = f"choose one of its {len(inside)} results" if inside else "run `grafu functionalize` without --no-page"
     raise UnreadableAsset(f"`{result}` must hold the page of a result (report.html or index.html): {hint}")
+
+
+def _holds_results(folder: Path) -> bool:
+    from grafu.cli.earlier import finished_in
+
+    return any(finished_in(folder, but=set()))

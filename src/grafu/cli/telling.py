@@ -130,6 +130,7 @@ def telling(options: argparse.Namespace) -> Iterator[None]:
 
 def _opened(path: Path) -> TextIOWrapper:
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         log = path.open("a", encoding="utf-8", buffering=1)
     except OSError as error:
         why = (error.strerror or "it cannot be written").lower()

@@ -3,7 +3,7 @@
 What steers a terminal is shown as an escape, whatever is printed: names of files and parts are others' text.
 """
 
-from typing import Any, final
+from typing import Any, NoReturn, final
 
 from rich.console import Console
 from rich.table import Table
@@ -22,6 +22,10 @@ class _VisibleConsole(Console):
     def render_str(self, text: str, **options: Any) -> Text:
         """Returns the text as it is shown."""
         return super().render_str(visible(text), **options)
+
+    def on_broken_pipe(self) -> NoReturn:
+        """Leaves it to the verb's last door: rich would end the process here, with nothing cleared away."""
+        raise BrokenPipeError
 
 
 def wide_console() -> Console:

@@ -7,15 +7,16 @@ text.
 """
 
 import argparse
+import os
 import signal
 import sys
 import tempfile
 import traceback
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import import_module
 
-from grafu.cli.telling import clear_line, telling
+from grafu.cli.telling import beneath, clear_line, telling
 from grafu.errors import FunctionalizationError, OptionError
 from grafu.processes.lifetime import started_by_main_thread
 from grafu.visible import visible
@@ -83,7 +84,7 @@ def interruption_held() -> Iterator[None]:
         signal.raise_signal(seen[0])
 
 
-EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED, EXIT_TERMINATED = 0, 1, 2, 130, 143
+EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED, EXIT_UNREAD, EXIT_TERMINATED = 0, 1, 2, 130, 141, 143
 
 
 def prepare_verb() -> None:
@@ -109,7 +110,11 @@ def exit_code(options: argparse.Namespace, run: Callable[[argparse.Namespace], i
 
 def _exit_code(options: argparse.Namespace, run: Callable[[argparse.Namespace], int]) -> int:
     try:
-        return int(run(options))
+        code = int(run(options))
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        return unread()
     except FunctionalizationError as error:
         complain(str(error))
         return EXIT_BAD_INPUT
@@ -119,3 +124,10 @@ def _exit_code(options: argparse.Namespace, run: Callable[[argparse.Namespace], 
     except Exception as error:  # the last door: whatever reaches it is our fault, and the user gets one line
         complain(internal_fault(error, "grafu", options.debug))
         return EXIT_FAILED
+
+
+def unread() -> int:
+    """Returns the exit code where what reads stdout has ended, as `head` does; nothing more is written there."""
+    with suppress(OSError, ValueError):  # a stdout that is no file
+        os.dup2(os.open(os.devnull, os.O_WRONLY), beneath(sys.stdout).fileno())
+    return EXIT_UNREAD

@@ -24,6 +24,7 @@ from grafu.errors import AssetError, OptionError, UnreadableAsset
 from grafu.evaluation.dataset_decided import files_of_decided, is_decided, read_decided
 from grafu.evaluation.dataset_release import is_release, read_release_model, release_models
 from grafu.evaluation.welded import WELDED, weld_of, welded
+from grafu.export.output_names import GENERIC_STEMS
 from grafu.synth.generate import make_specimen
 from grafu.synth.specimen import Specimen
 
@@ -37,7 +38,6 @@ _MADE = "synth"
 _ON_THE_SPOT = ("made", WELDED)
 _TEST_COUNT = 100
 _MOST_MADE = 1_000_000  # more are a slip of the pen: a month of work
-_NAMELESS = frozenset({"model", "mobility", "robot", "scene", "object"})  # files that are named by their folder
 _MESHES_OF = frozenset({"meshes", "mesh", "visual", "collision", "textured_objs", "objs", "textures", "images"})
 _DEEPEST = 3  # folders below the one that is asked for
 EXPECTED = (
@@ -208,7 +208,7 @@ def _one(path: Path) -> list[ModelRef]:
         kind, place = detect(path)
     except AssetError:
         return []
-    named = place if place.is_dir() else place.parent if place.stem.lower() in _NAMELESS else place.with_suffix("")
+    named = place if place.is_dir() else place.parent if place.stem.lower() in GENERIC_STEMS else place.with_suffix("")
     return [ModelRef(named.resolve().name, _KIND_OF[kind], place)]
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING
 from grafu.asset.part import Asset
-from grafu.errors import OptionError
+from grafu.errors import OptionError, did_you_mean
 from grafu.evaluation.config_file import read_config
 from grafu.evaluation.llm.baselines import EDITS, GRAPH
 from grafu.evaluation.llm.config import LanguageModel, LlmConfig
@@ -87,7 +87,8 @@ class Method:
 
     def __post_init__(self) -> None:
         if self.name not in KNOWN:
-            raise OptionError(f"a method must be one of {', '.join(KNOWN)}: got `{self.name}`")
+            near = did_you_mean(self.name, KNOWN)
+            raise OptionError(f"a method must be one of {', '.join(KNOWN)}: got `{self.name}`{near}")
         for names, given, spelled in (
             (FOREIGN, self.folder, "DIR` with a folder of predictions"),
             (RUN, self.program, "FILE` with a file that states how to run it"),

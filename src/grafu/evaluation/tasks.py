@@ -15,7 +15,7 @@ from typing import Final, final
 from grafu.asset.options import Limits
 from grafu.asset.resources import ModelFiles
 from grafu.completion.session import SHIPPED_WEIGHTS
-from grafu.errors import AssetError, OptionError
+from grafu.errors import AssetError, OptionError, did_you_mean
 from grafu.evaluation.dataset import ModelRef, files_of_model
 from grafu.evaluation.distribution import TRAINING_COUNT, TRAINING_SEED
 from grafu.evaluation.llm.baselines import prompt_hash
@@ -185,7 +185,8 @@ class EvaluationPlan:
                 raise OptionError(f"{name} must be one or more, each once: got {', '.join(values) or 'none'}")
         unknown = [table for table in self.tables if table not in TABLES]
         if unknown:
-            raise OptionError(f"a table must be one of {', '.join(TABLES)}: got `{unknown[0]}`")
+            near = did_you_mean(unknown[0], TABLES)
+            raise OptionError(f"a table must be one of {', '.join(TABLES)}: got `{unknown[0]}`{near}")
         if self.seeds < 1 or self.training < 2:
             raise OptionError(f"seeds must be 1 or more, training models 2: got {self.seeds} and {self.training}")
         if not all(0 < level <= 1 for level in self.levels) or len(set(self.levels)) < len(self.levels):

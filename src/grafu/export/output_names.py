@@ -88,14 +88,29 @@ _FORBIDDEN: Final = '<>:"/\\|?*'
 _SURROGATES: Final = re.compile("[\ud800-\udfff]")
 
 
+GENERIC_STEMS: Final = frozenset({"model", "mobility", "robot", "scene", "object"})
+"""Names of files that state nothing of the model, in lower case: the folder that holds such a file names it."""
+
+
 def output_name(path: Path) -> str:
-    """Returns the name that an input's results carry: the file's stem, or the folder's name.
+    """Returns the name that an input's results carry: the folder's name, or the file's stem.
+
+    A file with a generic name, such as `model.glb` or `mobility.urdf`, is named by the folder that holds it.
 
     Raises:
         AssetError: if it cannot be the name of a folder on every system.
     """
     resolved = Path(os.path.realpath(path))
-    return name_that_is_safe(resolved.name if os.path.isdir(resolved) else resolved.stem, str(path))
+    return name_that_is_safe(resolved.name if os.path.isdir(resolved) else telling_name(resolved), str(path))
+
+
+def telling_name(file: Path) -> str:
+    """Returns what names the model in a file: its stem, or its folder's name where the stem is a generic one."""
+    return file.stem if _names_itself(file) else file.parent.name
+
+
+def _names_itself(file: Path) -> bool:
+    return file.stem.lower() not in GENERIC_STEMS or bool(_why_refused(file.parent.name))
 
 
 def name_that_is_safe(name: str, given: str) -> str:
@@ -110,22 +125,36 @@ def name_that_is_safe(name: str, given: str) -> str:
 
 
 def told_apart(paths: Sequence[Path], names: Sequence[str]) -> tuple[str, ...]:
-    """Returns the names of inputs' results: what several share gives way to the names of the folders that hold them.
+    """Returns the names of inputs' results: what several share gives way to what names them otherwise.
 
-    Where these folders have one name, too, or the name of another input, nothing is changed.
+    These are the stems of the files, or else the names of the folders that hold them. Where neither tells them apart,
+    or one is the name of another input, nothing is changed.
     """
     alike: dict[str, list[int]] = defaultdict(list)
     for k, name in enumerate(names):
         alike[same_place(name)].append(k)
     found = list(names)
-    for places in (p for p in alike.values() if len(p) > 1):
-        folders = [Path(os.path.realpath(paths[k])).parent for k in places]
-        fresh = {same_place(folder.name) for folder in folders}
-        if len(fresh) < len(places) or fresh & alike.keys() or any(_why_refused(folder.name) for folder in folders):
-            continue
-        for k, folder in zip(places, folders, strict=True):
-            found[k] = _mended(folder.name)
+    for shared, places in ((name, places) for name, places in alike.items() if len(places) > 1):
+        files = [Path(os.path.realpath(paths[k])) for k in places]
+        for others, taken in (
+            ([_own_name(file) for file in files], alike.keys() - {shared}),
+            ([_folder_of(file).name for file in files], alike.keys()),
+        ):
+            fresh = {same_place(other) for other in others}
+            if len(fresh) == len(places) and not fresh & taken and not any(map(_why_refused, others)):
+                for k, other in zip(places, others, strict=True):
+                    found[k] = _mended(other)
+                break
     return tuple(found)
+
+
+def _own_name(path: Path) -> str:
+    return path.name if os.path.isdir(path) else path.stem
+
+
+def _folder_of(path: Path) -> Path:
+    """Returns the folder that holds an input; of a file that its folder names, the one that holds this folder."""
+    return path.parent if os.path.isdir(path) or _names_itself(path) else path.parent.parent
 
 
 def with_ending(name: str, ending: str) -> str:

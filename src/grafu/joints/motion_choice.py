@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Part
-from grafu.errors import OptionError
+from grafu.errors import OptionError, did_you_mean
 from grafu.geometry.arrays import Mat3, Vec3, median, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
@@ -141,7 +141,8 @@ def choice_in_words(word: str) -> MotionChoice:
     if word == OLD_FIXED:
         raise OptionError("`not` is called `fixed` now: use fixed")
     if word not in _CHOICES:
-        raise OptionError(f"must be one of {', '.join(MOTION_WORDS)}: got {word!r}")
+        near = did_you_mean(word, MOTION_WORDS)
+        raise OptionError(f"must be one of {', '.join(MOTION_WORDS)}: got {word!r}{near}")
     return _CHOICES[word]
 
 

@@ -7,11 +7,12 @@ from grafu.graph.edges import BORDERS, SIGNS, Hinge
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import AXIS_NAMES, border_to_face, opening_face
 from grafu.pipeline.report_schema import GuessRecord
+from grafu.pipeline.words import percent
 from grafu.vocabulary import PartLabel
 
 _SIDES = dict(zip(AXIS_NAMES, ("left", "right", "front", "back", "bottom", "top"), strict=True))
 _ASKED = {
-    "border": "pinned",
+    "border": "hinge side",
     "sign": "opens to the",
     "slide": "slides to the",
     "turn": "turns about",
@@ -67,10 +68,12 @@ def _guess(decision: Decision, graph: FunctionalGraph, hinge: Hinge | None) -> G
 
 
 def _words(decision: Decision, graph: FunctionalGraph, hinge: Hinge | None) -> str:
-    said = f"{_ASKED[decision.question]} {named_choice(decision, decision.choice, graph, hinge)} {decision.score:.0%}"
+    said = (
+        f"{_ASKED[decision.question]} {named_choice(decision, decision.choice, graph, hinge)} {percent(decision.score)}"
+    )
     if not decision.runner_up or decision.runner_up_score < _UNHEARD:
         return said
-    return f"{said} ({named_choice(decision, decision.runner_up, graph, hinge)} {decision.runner_up_score:.0%})"
+    return f"{said} ({named_choice(decision, decision.runner_up, graph, hinge)} {percent(decision.runner_up_score)})"
 
 
 def named_choice(decision: Decision, choice: str, graph: FunctionalGraph, hinge: Hinge | None = None) -> str:

@@ -11,7 +11,7 @@ from typing import final
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.reading import tells_of_lost_mesh
-from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.joints.motion_choice import TURNING_SIDES
 from grafu.pipeline.report_schema import (
     NOT_ADDED,
@@ -36,7 +36,7 @@ class VerdictConfig:
     """From where on something is a fault. All pages and lists use the defaults, so that they agree.
 
     Raises:
-        ValueError: if a fraction is not between 0 and 1.
+        ValueError: if a fraction is not between 0 and 1, or a length is not positive.
     """
 
     least_confidence: float = 0.8
@@ -49,9 +49,15 @@ class VerdictConfig:
     """A part that lost more than this fraction, of what is seen of it or of its volume, is carved too much."""
     most_gap: float = 0.005
     """A part comes loose where the gap to what carries it is wider than this fraction of the object's largest side."""
+    tallest: float = 6.0
+    """What is higher stands in no room (m): the unit of a stated height or scale may be wrong ..."""
+    smallest: float = 0.05
+    """... and so where the largest side is shorter than this (m)."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
+        lengths = ("tallest", "smallest")
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name not in lengths))
+        require_positive(self, *lengths)
 
 
 def verdict_of(report: Report, config: VerdictConfig = VerdictConfig()) -> VerdictRecord:
@@ -117,10 +123,18 @@ def _faults(report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:
     for skip in not_built(report):
         if not (_is_motion(skip) and skip.request in without):
             yield _fault(report, skip.request, FaultKind.NOT_BUILT, skip.detail or skip.sentence or str(skip.reason))
+    yield from _sized(report, config)
     lost = (note for note in report.input.notes if tells_of_lost_mesh(note))
     yield from (_fault(report, "", FaultKind.NOTED, note, "") for note in (*report.notes, *lost))
     if not (report.joints or without or fixed_by_user(report)):
         yield _fault(report, "", FaultKind.NOTHING_MOVES, "no part is a door or a drawer")
+
+
+def _sized(report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:
+    """Yields what is wrong with the size, where no furniture has it."""
+    if report.size and (report.size[2] > config.tallest or max(report.size) < config.smallest):
+        why = f"it is {report.size[2]:.4g} m high: if that is wrong, state the height with its unit, such as 72cm"
+        yield _fault(report, "", FaultKind.NOTED, why, "--height")
 
 
 def _is_motion(skip: SkippedRecord) -> bool:

@@ -10,6 +10,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.articulation.base import BaseKind
+from grafu.articulation.motion_kind import motion_kind
 from grafu.errors import UnreadableAsset
 from grafu.geometry.mesh import TriangleMesh
 from grafu.pipeline.report_schema import Report
@@ -17,11 +18,12 @@ from grafu.pipeline.result_folder import read_report
 from grafu.simulation.clip import clip_of
 from grafu.simulation.config import DEFAULT_CHECK_CONFIG, CheckConfig
 from grafu.simulation.pulls import Recording, check_joint
-from grafu.simulation.record import CheckReport, FileCheck
+from grafu.simulation.record import CheckReport, FileCheck, JointCheck
 from grafu.simulation.world import Meshes, SimJoint, World, require_mujoco, visual_meshes
 from grafu.version import __version__
 
 FILES: Final = ("model.xml", "model.urdf")
+NO_SPRINGS: Final = "URDF has no springs, and it opens against its whole weight"
 
 
 @final
@@ -59,10 +61,11 @@ def _check_file(path: Path, report: Report, meshes: Meshes, config: CheckConfig,
     try:
         world = World(path, kind is BaseKind.FREE, config)
         tried = [joint for joint in world.joints if not _is_driven(report, joint)]
-        joints = tuple(
+        found = (
             check_joint(world, joint, _before(world, report, joint), _of(world, joint, meshes), config, recording)
             for joint in tried
         )
+        joints = tuple(_explained(joint, path, report, config) for joint in found)
         on_feet = None if kind is BaseKind.WALL else World(path, True, config)
     except UnreadableAsset as error:
         return FileCheck(file=path.name, error=str(error), joints=(), stands=None, stands_open=None)
@@ -70,6 +73,13 @@ def _check_file(path: Path, report: Report, meshes: Meshes, config: CheckConfig,
     stands_open = on_feet and _stands(on_feet, on_feet.joints, config)
     why = "" if world.is_stable else "the simulation became unstable"
     return FileCheck(file=path.name, error=why, joints=joints, stands=stands, stands_open=stands_open)
+
+
+def _explained(found: JointCheck, file: Path, report: Report, config: CheckConfig) -> JointCheck:
+    """Returns a joint with what explains that it does not open: in URDF nothing carries the weight of a lid."""
+    level = {joint.id for joint in report.joints if motion_kind(joint.type).turns and abs(joint.axis[2]) < config.level}
+    heavy = file.suffix == ".urdf" and found.joint in level and found.opened < config.opened
+    return found.model_copy(update={"hint": NO_SPRINGS}) if heavy else found
 
 
 def _is_driven(report: Report, joint: SimJoint) -> bool:

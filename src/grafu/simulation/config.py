@@ -27,6 +27,8 @@ class CheckConfig:
     """A joint is open at this fraction of its range ..."""
     closed: float = 0.02
     """... and closed, or not moved, below this."""
+    level: float = 0.5
+    """Weight turns a joint whose axis has less than this along the vertical (of a unit direction)."""
     settling: float = 2.0
     """How long a piece is watched at rest."""
     still: float = 0.01
@@ -54,7 +56,7 @@ class CheckConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "opened", "closed")
+        require_ratios(self, "opened", "closed", "level")
 
 
 DEFAULT_CHECK_CONFIG = CheckConfig()

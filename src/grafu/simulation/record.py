@@ -19,6 +19,7 @@ class JointCheck(ReportRecord):
         default=None, description="whether a cube dropped into it rests there and is carried; null: it is not hollow"
     )
     works: bool = Field(description="whether it opened, closed, moved alone, and carried the cube")
+    hint: str = Field(default="", description="what explains that it does not open; empty: nothing known does")
 
 
 class FileCheck(ReportRecord):
