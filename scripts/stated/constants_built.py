@@ -55,6 +55,7 @@ def additions() -> Iterator[Sentence]:
     """Yields what docs/additions.md repeats."""
     page = "additions.md"
     yield page, "do not hide it (up to {} m)", (TOP.gallery,)
+    yield page, "gives a missing one a probability of at least {}", (CARCASS.weighed,)
     yield page, "an inset top (up to {} m)", (TOP.recess,)
     yield page, "Openings under {} % of the footprint are sinks and gaps", (per_cent(TOP.openings.least),)
     yield page, "{} to {} m above the floor)", (TOP.supports.lowest, TOP.supports.highest)

@@ -495,6 +495,22 @@ def test_only_what_may_be_missing_is_added() -> None:
     assert complete(cupboard(), said).added == ()
 
 
+def test_what_is_weighed_and_not_added_is_stated() -> None:
+    said = told()
+    back = Box(np.array([0.02, 0.48, 0.0]), np.array([0.98, 0.5, 1.0]))
+    said.added = [[(PartLabel.BACK_PANEL, back, None), (PartLabel.SIDE_PANEL, back, None)]]
+    graph = cupboard(*(name for name in BOXES if name != "back"))
+    network = said.about(graph)
+
+    def doubtful(features: GraphFeatures) -> Scores:
+        scores = network(features)
+        return replace(scores, exists=np.minimum(scores.exists, np.float32(-2.0)))
+
+    found = complete_by_network(graph, doubtful, FEW, ONCE)
+    assert found.added == ()
+    assert dict(found.weighed) == {PartLabel.BACK_PANEL: pytest.approx(1.0 / (1.0 + np.exp(2.0)))}
+
+
 def test_what_is_added_touches_its_neighbours_and_carries_nothing() -> None:
     said = told()
     said.added = [[(PartLabel.DIVIDER, Box(np.array([0.02, 0, 0.7]), np.array([0.04, 0.48, 0.97])), None)]]

@@ -59,12 +59,27 @@ def test_our_form_round_trips_exactly(border, sign, axis, x, cloud, word):
 def test_a_completion_round_trips_exactly():
     full = graph()
     decisions = (Decision("door", "mount", "zz side", 1 / 3, "drawer", 0.1, "rule"),)
-    completion = GraphCompletion(
-        as_contacts(full), full, "rule", (), decisions, (Refusal("knob", Reason.NO_MOTION, "why not"),)
-    )
+    refused, weighed = (Refusal("knob", Reason.NO_MOTION, "why not"),), ((PartLabel.BACK_PANEL, 1 / 7),)
+    completion = GraphCompletion(as_contacts(full), full, "rule", (), decisions, refused, weighed=weighed)
     text = dump_json(completion_to_json(completion))
     assert completion_from_json(load(text)) == completion
     assert graph_from_json(load(text)) == full
+
+
+@pytest.mark.parametrize(
+    ("weighed", "message"),
+    [
+        ({"sofa": 0.5}, "must name part categories: 'sofa'"),
+        ({"back panel": "much"}, "`back panel` of `weighed`"),
+        ({"back panel": 1.5}, "must be in 0..1"),
+        ([0.5], "`weighed` must be a JSON object"),
+    ],
+)
+def test_what_was_weighed_is_refused_if_wrong(weighed, message):
+    data = completion_to_json(GraphCompletion(as_contacts(graph()), graph(), "rule"))
+    data["completion"]["weighed"] = weighed
+    with pytest.raises(GraphError, match=message):
+        completion_from_json(data)
 
 
 def test_our_form_is_a_superset_of_the_authors():

@@ -52,10 +52,16 @@ def expecting(asset: Asset, nodes: Collection[PartNode]) -> GraphCompletion:
     return replace(plain, completed=grown, added=tuple(node.id for node in nodes))
 
 
-def built(statics: Statics, nodes: Collection[PartNode], base: AdditionConfig | None = None) -> list[PartLabel]:
+def built(
+    statics: Statics,
+    nodes: Collection[PartNode],
+    base: AdditionConfig | None = None,
+    weighed: tuple[tuple[PartLabel, float], ...] = (),
+    asset: Asset | None = None,
+) -> list[PartLabel]:
     """Returns the categories of what is added, sorted."""
-    asset, config = open_case(), replace(base or AdditionConfig(), statics=statics)
-    completion, plan = expecting(asset, nodes), plan_from_annotation(asset)
+    asset, config = asset or open_case(), replace(base or AdditionConfig(), statics=statics)
+    completion, plan = replace(expecting(asset, nodes), weighed=weighed), plan_from_annotation(asset)
     body = add_before_joints(asset, completion, plan, config.of_body)
     parts = (*asset.parts, *(addition.part for addition in body.additions))
     realized = realize(plan, replace(asset, parts=parts), builtin_gallery())
@@ -80,6 +86,23 @@ def test_both_build_what_either_finds() -> None:
     assert built(Statics.BOTH, ()) == [PartLabel.HANDLE, PartLabel.TOP_PANEL]
     assert built(Statics.BOTH, (BACK,)) == sorted([PartLabel.BACK_PANEL, PartLabel.HANDLE, PartLabel.TOP_PANEL])
     assert built(Statics.BOTH, ALL) == sorted(node.label for node in ALL)
+
+
+@pytest.mark.parametrize(("probability", "builds"), [(0.049, False), (0.051, True), (0.49, True)])
+def test_a_back_that_is_likely_is_built_where_rays_find_none(probability: float, builds: bool) -> None:
+    weighed = ((PartLabel.BACK_PANEL, probability), (PartLabel.SHELF, 0.49))
+    back = [PartLabel.BACK_PANEL] if builds else []
+    assert built(Statics.GRAPH, (), weighed=weighed) == back
+    assert built(Statics.BOTH, (), weighed=weighed) == sorted([*back, PartLabel.HANDLE, PartLabel.TOP_PANEL])
+    assert built(Statics.GEOMETRY, (), weighed=weighed) == [PartLabel.HANDLE, PartLabel.TOP_PANEL]
+    closed = replace(open_case(), parts=(*open_case().parts, *(part for part in BASE_CASE if part.id == "back")))
+    assert built(Statics.GRAPH, (), weighed=weighed, asset=closed) == []
+
+
+@pytest.mark.parametrize(("nodes", "tops"), [((), 0), ((TOP,), 1)])
+def test_a_top_that_is_predicted_outweighs_a_name(nodes: Collection[PartNode], tops: int) -> None:
+    named = replace(open_case(), name="washstand sink")
+    assert built(Statics.BOTH, nodes, asset=named).count(PartLabel.TOP_PANEL) == tops
 
 
 @pytest.mark.parametrize("statics", Statics)

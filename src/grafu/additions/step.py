@@ -126,9 +126,9 @@ class StepRequest:
 
     `plan` are the joints to build, `drawers` states what counts as a drawer, for joints and additions alike. `names`
     are those of the piece and of its parts, `tops` the parts that are called top panels. The completed graph expects
-    `top` (a box, object frame), `handles` (by moving part, their middles), `panels`, and `boards`: backs, bottoms or
-    both. With `only_expected`, no other top and handle is added. `own_handles` are the user's templates by id,
-    `rejected` the ids of added parts that are left out again.
+    `top` (a box, object frame), `handles` (by moving part, their middles) and `panels`; `boards` are backs, bottoms or
+    both, where one may be missing. With `only_expected`, no other top and handle is added. `own_handles` are the user's
+    templates by id, `rejected` the ids of added parts that are left out again.
     """
 
     plan: RealizationPlan = field(default_factory=RealizationPlan)

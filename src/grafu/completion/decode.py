@@ -17,7 +17,7 @@ from grafu.completion.other_motions import other_motions
 from grafu.completion.probabilities import Probabilities
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.selection import borders_of, choose_hinge, choose_parent, choose_rails
-from grafu.completion.slots import NewPart
+from grafu.completion.slots import NewPart, weighed
 from grafu.completion.view import GraphView
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Slide
@@ -123,6 +123,7 @@ def complete_decoded(
         (*decoded.refused, *motions.refused),
         piece_guess(view.probabilities, known),
         rides(completed, view.given, view.probabilities, known),
+        weighed(view),
     )
 
 

@@ -21,7 +21,7 @@ from grafu.completion.features import FeatureConfig, GraphFeatures, graph_featur
 from grafu.completion.label_shapes import held_by_handles, without_overlaid, without_slim
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.session import GraphNetwork
-from grafu.completion.slots import NewPart, new_parts, with_parts
+from grafu.completion.slots import NewPart, new_parts, regular_parts, with_parts
 from grafu.completion.votes import ranking_of
 from grafu.geometry.arrays import Indices, Points
 from grafu.geometry.budget import fits, present_budget, require_room, require_time
@@ -180,7 +180,7 @@ def complete_by_network(
     seen, labelling = label_parts(graph, network, features, config)
     added: list[NewPart] = []
     given = frozenset(node.id for node in graph.nodes)
-    rounds = 0
+    rounds, asked_rows = 0, False
     while True:
         inputs, probabilities = forward(seen, network, features)
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
@@ -188,6 +188,8 @@ def complete_by_network(
         most = config.rounds + len(decoded.view.moving_bodies) // _BODIES_PER_ROUND
         goes_on = rounds < most and adding.left > 0 and fits(len(seen.nodes) ** 2, _PAIR_BYTES)
         found = new_parts(decoded.view, decoded.held) if goes_on else ()
+        if not found and not asked_rows:
+            found, asked_rows = regular_parts(decoded.view), True
         if not found:
             if config.mirror:
                 decoded = decode_graph(seen, with_image(probabilities, seen, inputs, network), given, parents, config)

@@ -1,4 +1,7 @@
-"""Free slots that fire become new parts: which label and box, and whether they are truly new. No edges yet."""
+"""Free slots that fire become new parts: which label and box, and whether they are truly new. No edges yet.
+
+Shelves that a regular row lacks become new parts, too.
+"""
 
 from dataclasses import dataclass
 from typing import final
@@ -8,13 +11,14 @@ import numpy as np
 from grafu.completion.answers import decision_of
 from grafu.completion.decode_config import ADDABLE
 from grafu.completion.features import object_frame
+from grafu.completion.regular_shelves import missing_shelves
 from grafu.completion.selection import parent_ratios
 from grafu.completion.view import GraphView
 from grafu.completion.votes import ranking_of
 from grafu.geometry.box import Box
 from grafu.geometry.touching import near_pairs
 from grafu.graph.arrays import LABEL_CODES
-from grafu.graph.completion import Decision
+from grafu.graph.completion import BY_RULE, Decision
 from grafu.graph.edges import Contact
 from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
@@ -27,7 +31,7 @@ _ADDABLE = [LABEL_CODES[label] for label in ADDABLE]
 @final
 @dataclass(frozen=True)
 class NewPart:
-    """A part that a free slot adds, why, and, of a handle, the door or drawer that it is for."""
+    """A part that a free slot or a rule adds, why, and, of a handle, the door or drawer that it is for."""
 
     node: PartNode
     decisions: tuple[Decision, ...]
@@ -55,6 +59,27 @@ def new_parts(view: GraphView, held: frozenset[str]) -> tuple[NewPart, ...]:
         elif part.parent is not None and part.parent not in held:
             held |= {part.parent}
             found.append(part)
+    return tuple(found)
+
+
+def weighed(view: GraphView) -> tuple[tuple[PartLabel, float], ...]:
+    """Returns the labels of which free slots propose a part without adding one, each with its highest probability."""
+    free = np.arange(len(view.graph.nodes), len(view.probabilities.exists))
+    ratios, exists = view.probabilities.label[free][:, _ADDABLE], view.probabilities.exists[free]
+    asked = (ratios.sum(axis=1) >= view.config.addable) & (exists < view.config.fires)
+    of_label = [asked & (ratios.argmax(axis=1) == k) for k in range(len(ADDABLE))]
+    return tuple((label, float(exists[k].max())) for label, k in zip(ADDABLE, of_label, strict=True) if k.any())
+
+
+def regular_parts(view: GraphView) -> tuple[NewPart, ...]:
+    """Returns the shelves that regular rows lack, where none is yet: a rule adds them, not a slot."""
+    found: list[NewPart] = []
+    for shelf in missing_shelves(view.graph, view.config.regular):
+        others = (*view.graph.nodes, *(part.node for part in found))
+        node = PartNode(_new_id(PartLabel.SHELF, others), PartLabel.SHELF, shelf.box)
+        if not _is_there(node, others, view):
+            answer = Decision(node.id, "exists", "yes", shelf.score, "no", 1.0 - shelf.score, BY_RULE)
+            found.append(NewPart(node, (answer,)))
     return tuple(found)
 
 

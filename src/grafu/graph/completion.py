@@ -7,7 +7,7 @@ from grafu.errors import GraphError
 from grafu.graph.edges import Hinge, MotionEdge, Turn
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.refusal import Refusal
-from grafu.vocabulary import PieceKind
+from grafu.vocabulary import PartLabel, PieceKind
 
 BY_RULE, BY_BOTH = "rule", "network and rule"
 """`Decision.by`: a rule answers in the network's place, or leans its choice."""
@@ -68,11 +68,12 @@ class GraphCompletion:
 
     `source` names what completed it (rule, network). No door and no drawer of the completed graph is left without a
     motion in silence: each has its edge or stands in `refused`. `piece` is what the whole is, where that is known;
-    `rides` are pairs (moving part, part that moves as one with it) that no edge states.
+    `rides` are pairs (moving part, part that moves as one with it) that no edge states. `weighed` are labels of parts
+    that were not added, each with the highest probability that one is missing.
 
     Raises:
         GraphError: if a node of the input is missing, `added` is not exactly what is new, a decision or refusal names
-            no node, or a movable part is neither moved nor refused.
+            no node, a probability is not in 0..1, or a movable part is neither moved nor refused.
     """
 
     input: FunctionalGraph
@@ -83,6 +84,7 @@ class GraphCompletion:
     refused: tuple[Refusal, ...] = ()
     piece: PieceGuess | None = None
     rides: tuple[tuple[str, str], ...] = ()
+    weighed: tuple[tuple[PartLabel, float], ...] = ()
 
     def __repr__(self) -> str:
         return f"<GraphCompletion by {self.source}: {self.completed!r}, {len(self.added)} nodes added>"
@@ -98,6 +100,8 @@ class GraphCompletion:
         )
         if not named <= after:
             raise GraphError(f"decisions, refusals and rides must name nodes: there is no {sorted(named - after)}")
+        if not all(0.0 <= probability <= 1.0 for _, probability in self.weighed):
+            raise GraphError(f"probabilities of parts that were weighed must be in 0..1: got {self.weighed}")
         silent = self._silent_parts()
         if silent:
             raise GraphError(f"every door and drawer needs its motion or a refusal: {silent} have neither")

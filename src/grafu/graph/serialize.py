@@ -73,6 +73,7 @@ def completion_to_json(completion: GraphCompletion) -> dict[str, Any]:
             "refused": [_refusal_to_json(r) for r in completion.refused],
             "piece": None if completion.piece is None else asdict(completion.piece),
             "rides": [list(pair) for pair in completion.rides],
+            "weighed": {label.value: probability for label, probability in completion.weighed},
             "input": graph_to_json(completion.input),
         }
     }
@@ -130,6 +131,7 @@ def completion_from_json(data: Json) -> GraphCompletion:
         tuple(_refusal_from_json(read_object(r, "a refusal")) for r in read_list(extra, "refused", "`completion`")),
         None if extra.get("piece") is None else _piece_from_json(read_object(extra["piece"], "`piece`")),
         tuple(_ride_from_json(pair) for pair in extra.get("rides") or ()),
+        _weighed_from_json(read_object(extra.get("weighed") or {}, "`weighed`")),
     )
 
 
@@ -248,6 +250,13 @@ def _ride_from_json(pair: Any) -> tuple[str, str]:
     if not (isinstance(pair, list) and len(pair) == 2 and all(isinstance(name, str) for name in pair)):
         raise GraphError(f"`rides` must be pairs of node ids (moving part, part that rides on it): got {pair!r}")
     return pair[0], pair[1]
+
+
+def _weighed_from_json(data: Json) -> tuple[tuple[PartLabel, float], ...]:
+    try:
+        return tuple((PartLabel(word), read_number(data, word, "`weighed`")) for word in data)
+    except ValueError as error:
+        raise GraphError(f"`weighed` must name part categories: {error}") from None
 
 
 def _refusal_to_json(refusal: Refusal) -> Json:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.carcass.step import BOARDS
 from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.compartments import compartments_found
@@ -45,7 +46,7 @@ def add_before_joints(
         (asset.name, *(part.source.name for part in asset.parts)),
         frozenset(node.id for node in nodes if node.label is PartLabel.TOP_PANEL),
         next((node.box for node in expected if node.label is PartLabel.TOP_PANEL), None),
-        boards=frozenset(node.label for node in expected) & BOARDS,
+        boards=BOARDS & {*(node.label for node in expected), *_likely(completion, config.statics)},
         only_expected=config.statics is Statics.GRAPH,
     )
     made = run_steps(BEFORE_JOINTS, planned_scene(asset, plan), request, config)
@@ -82,6 +83,13 @@ def _expected(completion: GraphCompletion, statics: Statics) -> tuple[PartNode, 
     """Returns the nodes that the completed graph adds, where it is asked."""
     asked = statics is not Statics.GEOMETRY
     return tuple(completion.completed.node(name) for name in completion.added) if asked else ()
+
+
+def _likely(completion: GraphCompletion, statics: Statics) -> tuple[PartLabel, ...]:
+    """Returns the boards that are built where rays find none: the completed graph adds none, but weighed one."""
+    asked = statics is not Statics.GEOMETRY
+    least = CarcassConfig().weighed
+    return tuple(label for label, probability in completion.weighed if probability >= least) if asked else ()
 
 
 def _handle_hints(completion: GraphCompletion, expected: Sequence[PartNode]) -> dict[str, Vec3]:

@@ -32,6 +32,8 @@ class CarcassConfig(ShortRepr):
         ),
         *("alike", "apart", "side_by_side", "coarse", "bottom_above_most"),
     )
+    weighed: float = 0.05
+    """Probability that one is missing from which on a back or bottom is built where rays find none."""
     covered: float = 0.5
     """Fraction of a back or bottom that must be there for it to count as there."""
     walled: float = 0.6

@@ -15,7 +15,8 @@ BOARDS: Final = frozenset({PartLabel.BACK_PANEL, PartLabel.BOTTOM_PANEL})
 def add_carcass_boards(scene: Scene, request: StepRequest, config: CarcassConfig | None) -> StepResult:
     """Returns the scene with the backs and bottoms that it lacks.
 
-    Without a config they are those that the completed graph expects; of the others it is only said what is missing.
+    Without a config they are those that the completed graph expects or weighed; of the others it is only said what is
+    missing.
     """
     wanted = request.boards if config is None else BOARDS
     made = (
