@@ -7,10 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from io import BytesIO
-from typing import Any, final
+from typing import final
 
 import numpy as np
-from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from embreex.rtcore_scene import EmbreeScene
 from jaxtyping import Bool, Float32, Int
 from PIL import Image
@@ -18,6 +17,7 @@ from PIL import Image
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.budget import require_time
+from grafu.geometry.raycast import embree_scene
 
 Rays = Float32[np.ndarray, "n 3"]
 Values = Float32[np.ndarray, " n"]
@@ -44,6 +44,10 @@ class Hits:
     metallic: Values
     roughness: Values
 
+    def chosen(self, rows: np.ndarray) -> "Hits":
+        """Returns the hits in some rows, given by number or by a mask."""
+        return Hits(*(getattr(self, name)[rows] for name in self.__dataclass_fields__))
+
 
 @final
 class RayScene:
@@ -66,9 +70,9 @@ class RayScene:
         self._uvs: np.ndarray = _stacked(surfaces if textured else [], _corner_uvs, 3, 2)
         self._table = _material_table(self._materials)
         self._images = {k: _decode(m.base_color_texture) for k, m in enumerate(self._materials) if m.base_color_texture}
-        self._embree = _embree_scene(self.triangles)
+        self._embree = _scene_of(self.triangles)
         solid = self._table[self._material, 6] >= 0  # light goes through what is blended: glass casts no shadow
-        self._solid = self._embree if solid.all() else _embree_scene(self.triangles[solid])
+        self._solid = self._embree if solid.all() else _scene_of(self.triangles[solid])
 
     def cast(self, origins: Rays, directions: Rays) -> Hits:
         """Returns what each ray meets first; directions are unit vectors."""
@@ -104,10 +108,8 @@ class RayScene:
         return rgba
 
 
-def _embree_scene(triangles: np.ndarray) -> Any:
-    scene = EmbreeScene()
-    EmbreeMesh(scene, triangles if len(triangles) else np.zeros((1, 3, 3), np.float32))
-    return scene
+def _scene_of(triangles: np.ndarray) -> EmbreeScene:
+    return embree_scene(triangles if len(triangles) else np.zeros((1, 3, 3), np.float32))
 
 
 def _stacked(surfaces: Sequence[Surface], values: Callable[[Surface], np.ndarray], *tail: int) -> np.ndarray:
