@@ -207,14 +207,29 @@ def _is_box(mesh: TriangleMesh) -> bool:
     return bool(np.all(at_low | at_high)) and mesh.area > 1.98 * float(a * b + b * c + c * a)
 
 
+def _has_all_corners(mesh: TriangleMesh) -> bool:
+    """Whether a mesh has a vertex at each of the eight corners of its box."""
+    box = mesh.box
+    at_low, at_high = np.abs(mesh.vertices - box.low) < 1e-9, np.abs(mesh.vertices - box.high) < 1e-9
+    corners = at_high[(at_low | at_high).all(axis=1)] @ [1, 2, 4]
+    return bool(np.bincount(corners, minlength=8).all())
+
+
 def _grid(box: Box, spacing: float) -> Points:
     counts = np.clip(np.ceil(box.size / max(spacing, 1e-6)), 2, _GRID).astype(int)
     axes = [low + (np.arange(n) + 0.5) / n * size for low, n, size in zip(box.low, counts, box.size, strict=True)]
-    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    grid = np.empty((*map(len, axes), 3))
+    grid[..., 0], grid[..., 1], grid[..., 2] = axes[0][:, None, None], axes[1][:, None], axes[2]
+    return grid.reshape(-1, 3)
 
 
 def _inside_hull(mesh: TriangleMesh, points: Points, thickness: float) -> Float[np.ndarray, "k 3"]:
-    """Returns the points inside the hull of a mesh, flat ones thickened (metres); none where it has no hull."""
+    """Returns the points inside the hull of a mesh, flat ones thickened (metres); none where it has no hull.
+
+    The points lie well within the mesh's box: of a mesh with a vertex at each corner of its box all are inside.
+    """
+    if _has_all_corners(mesh):
+        return points
     from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
 
     try:

@@ -14,7 +14,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Link
 from grafu.articulation.build_material import DEFAULT_MASS_CONFIG, MassConfig, builds_of
-from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, cross, freeze_arrays
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.components import Patches, patches_of
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
@@ -131,7 +131,7 @@ def _box_volumes(sides: np.ndarray, thickness: float, flat: float) -> np.ndarray
 
 def _solid_moments(triangles: np.ndarray, patches: Patches) -> np.ndarray:
     """Returns volume, first and second moments of what each patch encloses, (patches, 13); exact where it is closed."""
-    volume = np.einsum("nd,nd->n", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6.0
+    volume = np.einsum("nd,nd->n", triangles[:, 0], cross(triangles[:, 1], triangles[:, 2])) / 6.0
     first = volume[:, None] * triangles.sum(axis=1) / 4.0
     corners = np.concatenate([triangles, np.zeros((len(triangles), 1, 3))], axis=1)
     second = np.einsum("n,nid,ij,nje->nde", volume, corners, _TETRAHEDRON, corners, optimize=_IN_ORDER)
@@ -140,9 +140,9 @@ def _solid_moments(triangles: np.ndarray, patches: Patches) -> np.ndarray:
 
 def _shell_moments(triangles: np.ndarray, patches: Patches, thickness: np.ndarray) -> np.ndarray:
     """Returns the moments of each patch as a shell, (patches, 13); its thickness lies half on either side."""
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    length = np.linalg.norm(cross, axis=1)
-    normal = cross / np.maximum(length, 1e-300)[:, None]
+    across = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    length = np.linalg.norm(across, axis=1)
+    normal = across / np.maximum(length, 1e-300)[:, None]
     t = thickness[patches.patch]
     volume = length / 2.0 * t
     first = volume[:, None] * triangles.sum(axis=1) / 3.0

@@ -73,9 +73,15 @@ def posed_visuals(articulated: ArticulatedObject, values: Mapping[str, float] | 
         ArticulationError: if `values` names a joint that the object does not have.
     """
     return [
-        replace(visual, surfaces=tuple(s.transformed(T) for s in visual.surfaces), swing=None)
-        for visual, T in placed_visuals(articulated, values)
+        replace(visual, surfaces=_moved(visual, T), swing=None) for visual, T in placed_visuals(articulated, values)
     ]
+
+
+def _moved(visual: Visual, T: Mat4) -> tuple[Surface, ...]:
+    """Returns the surfaces mapped by T; the very same ones where they stay, of which much may be known already."""
+    if np.array_equal(T, np.eye(4)):
+        return visual.surfaces
+    return tuple(surface.transformed(T) for surface in visual.surfaces)
 
 
 def placed_visuals(

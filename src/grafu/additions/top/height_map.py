@@ -227,13 +227,12 @@ def _rise_of_uprights(flat: Corners, z: Rises, at: Float[np.ndarray, "t 2"]) -> 
     along = np.einsum("tkd,td->tk", flat, direction)
     middle = (at * direction).sum(axis=1)
     found = np.full(len(flat), -np.inf)
-    for step in (-0.5, 0.0, 0.5):
-        t = np.clip(middle + step, _least(along), -_least(-along))
-        for k in range(3):
-            a, b, low, high = along[:, k], along[:, (k + 1) % 3], z[:, k], z[:, (k + 1) % 3]
-            level = np.abs(b - a) < 1e-9
-            ratio = np.clip((t - a) / np.where(level, 1.0, b - a), 0.0, 1.0)
-            rise = np.where(level, np.maximum(low, high), low + ratio * (high - low))
-            met = (t >= np.minimum(a, b) - 1e-9) & (t <= np.maximum(a, b) + 1e-9)
-            found = np.where(met, np.maximum(found, rise), found)
+    t = np.clip(middle + np.array([[-0.5], [0.0], [0.5]]), _least(along), -_least(-along))
+    for k in range(3):
+        a, b, low, high = along[:, k], along[:, (k + 1) % 3], z[:, k], z[:, (k + 1) % 3]
+        level = np.abs(b - a) < 1e-9
+        ratio = np.clip((t - a) / np.where(level, 1.0, b - a), 0.0, 1.0)
+        rise = np.where(level, np.maximum(low, high), low + ratio * (high - low))
+        met = (t >= np.minimum(a, b) - 1e-9) & (t <= np.maximum(a, b) + 1e-9)
+        found = np.maximum(found, np.where(met, rise, -np.inf).max(axis=0))
     return np.where(np.isfinite(found), found, -_least(-z))
