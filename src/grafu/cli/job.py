@@ -11,6 +11,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar, final
 
+from grafu.cli.light_start import without_collecting
 from grafu.cli.limit_options import too_large
 from grafu.cli.verb import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
@@ -205,12 +206,13 @@ def small_picture_in(folder: Path) -> bytes:
 
 
 def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
-    from grafu.api.saving import files_of
-    from grafu.asset.load import load_asset
-    from grafu.export.files import write_files
-    from grafu.geometry.budget import UNLIMITED, Budget
-    from grafu.pipeline.functionalize import functionalize
-    from grafu.templates.gallery import open_gallery
+    with without_collecting():
+        from grafu.api.saving import files_of
+        from grafu.asset.load import load_asset
+        from grafu.export.files import write_files
+        from grafu.geometry.budget import UNLIMITED, Budget
+        from grafu.pipeline.functionalize import functionalize
+        from grafu.templates.gallery import open_gallery
 
     options = job.options
     _require_free(job)
