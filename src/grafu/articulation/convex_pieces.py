@@ -97,7 +97,7 @@ class _Piece:
     @cached_property
     def pit(self) -> Vec3 | None:
         """The point of the deepest pit, else of a hole, None where every pit is within the tolerance."""
-        if _is_box(self.mesh):
+        if is_plain_box(self.mesh):
             return None
         closed = (hole.middle for hole in self.holes if hole.is_closed_by(self.mesh, self.config.boxed))
         deepest = self._deepest
@@ -200,7 +200,7 @@ def _taken_apart(whole: _Piece) -> list[_Piece]:
     return done
 
 
-def _is_box(mesh: TriangleMesh) -> bool:
+def is_plain_box(mesh: TriangleMesh) -> bool:
     """Whether a mesh is the plain closed box that most boards are: a quick answer to spare the long question."""
     at_low, at_high = np.abs(mesh.vertices - mesh.box.low) < 1e-6, np.abs(mesh.vertices - mesh.box.high) < 1e-6
     a, b, c = mesh.box.size
