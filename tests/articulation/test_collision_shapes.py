@@ -310,7 +310,7 @@ def test_of_a_mesh_with_all_corners_of_its_box_no_hull_is_needed(size, monkeypat
     monkeypatch.setattr("scipy.spatial.ConvexHull", None)
     np.testing.assert_array_equal(_inside_hull(mesh, points, 0.004), points)
     monkeypatch.undo()
-    monkeypatch.setattr("grafu.articulation.convex_pieces._has_all_corners", lambda _: False)
+    monkeypatch.setattr("grafu.articulation.convex_pieces.has_all_corners", lambda _: False)
     np.testing.assert_array_equal(_inside_hull(mesh, points, 0.004), points)
 
 

@@ -18,8 +18,8 @@ from grafu.articulation.convex_pieces import (
     ConvexPieceConfig,
     convex_pieces,
     hull_of,
-    is_plain_box,
 )
+from grafu.articulation.plain_boxes import is_plain_box
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
 from grafu.geometry.box import Box, OrientedBox, yaw_of
 from grafu.geometry.components import clustered

@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.articulation.board_holes import BoardHole, holes_through, is_board
+from grafu.articulation.plain_boxes import has_all_corners, is_plain_box
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
@@ -200,21 +201,6 @@ def _taken_apart(whole: _Piece) -> list[_Piece]:
     return done
 
 
-def is_plain_box(mesh: TriangleMesh) -> bool:
-    """Whether a mesh is the plain closed box that most boards are: a quick answer to spare the long question."""
-    at_low, at_high = np.abs(mesh.vertices - mesh.box.low) < 1e-6, np.abs(mesh.vertices - mesh.box.high) < 1e-6
-    a, b, c = mesh.box.size
-    return bool(np.all(at_low | at_high)) and mesh.area > 1.98 * float(a * b + b * c + c * a)
-
-
-def _has_all_corners(mesh: TriangleMesh) -> bool:
-    """Whether a mesh has a vertex at each of the eight corners of its box."""
-    box = mesh.box
-    at_low, at_high = np.abs(mesh.vertices - box.low) < 1e-9, np.abs(mesh.vertices - box.high) < 1e-9
-    corners = at_high[(at_low | at_high).all(axis=1)] @ [1, 2, 4]
-    return bool(np.bincount(corners, minlength=8).all())
-
-
 def _grid(box: Box, spacing: float) -> Points:
     counts = np.clip(np.ceil(box.size / max(spacing, 1e-6)), 2, _GRID).astype(int)
     axes = [low + (np.arange(n) + 0.5) / n * size for low, n, size in zip(box.low, counts, box.size, strict=True)]
@@ -228,7 +214,7 @@ def _inside_hull(mesh: TriangleMesh, points: Points, thickness: float) -> Float[
 
     The points lie well within the mesh's box: of a mesh with a vertex at each corner of its box all are inside.
     """
-    if _has_all_corners(mesh):
+    if has_all_corners(mesh):
         return points
     from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
 

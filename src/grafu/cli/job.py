@@ -214,11 +214,10 @@ def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
         from grafu.pipeline.functionalize import functionalize
         from grafu.templates.gallery import open_gallery
 
-    options = job.options
     _require_free(job)
+    options, started = job.options, perf_counter()
     budget = Budget.lasting(options.limits.seconds) if options.limits.seconds else UNLIMITED
     listener.on_stage("load")
-    started = perf_counter()
     asset = load_asset(job.input, options.settings.reading)
     asset = replace(asset, path=job.stated) if job.stated else asset
     timings = {"load": perf_counter() - started}
@@ -269,8 +268,7 @@ def jobs_of(inputs: Sequence[Path], shared: JobOptions) -> tuple[list[Job], list
     Raises:
         AssetError: if the results of two inputs would go to one place.
     """
-    refused: list[Failed] = []
-    jobs: list[Job] = []
+    refused, jobs = list[Failed](), list[Job]()
     for path in inputs:
         try:
             jobs.append(Job(path, output_name(path), shared))
