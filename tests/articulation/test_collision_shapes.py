@@ -9,8 +9,6 @@ from hypothesis import strategies as st
 from grafu.articulation.articulated_object import Link, Visual, VisualRole
 from grafu.articulation.collision_shapes import (
     CollisionShapeConfig,
-    _shape_around,
-    _shape_of,
     chosen_shapes,
     collision_shapes,
     corners_of,
@@ -320,16 +318,3 @@ def test_a_mesh_that_lacks_a_corner_of_its_box_has_a_hull():
     inside = _inside_hull(mesh, points, 0.004)
     assert 0.1 * len(points) < len(inside) < 0.3 * len(points)
     assert (inside.sum(axis=1) < 1).all()
-
-
-@pytest.mark.parametrize("angle", [0.0, 0.3])
-@pytest.mark.parametrize("size", [(0.6, 0.4, 0.02), (0.6, 0.4, 0.004), (0.6, 0.4, 0.001), (0.002, 0.002, 0.002)])
-def test_a_plain_box_has_the_shape_of_its_hull_without_one(size, angle):
-    R = rotation_matrix(vec3(0.0, 0.0, 1.0), angle)
-    piece = TriangleMesh.box_mesh(Box(np.array([0.1, 0.2, 0.3]), np.array([0.1, 0.2, 0.3]) + size))
-    config = CollisionShapeConfig()
-    found, around = _shape_of(piece, R, config), _shape_around(piece.vertices @ R.T, R, config)
-    assert isinstance(found, OrientedBox)
-    assert isinstance(around, OrientedBox)
-    for name in ("center", "half", "rotation"):
-        np.testing.assert_allclose(getattr(found, name), getattr(around, name), atol=1e-12)

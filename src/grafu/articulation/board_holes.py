@@ -69,10 +69,8 @@ def holes_through(mesh: TriangleMesh, least: float, widest: float, thickest: flo
     across = _across(mesh)
     if not is_board(mesh, thickest) or len(mesh.faces) > MOST_FACES:
         return ()
-    (u, v), (s, t) = np.diff(mesh.triangles[:, :, across], axis=1).transpose(1, 2, 0)
-    area = u * t - v * s
-    kept = area > 0 if mesh.is_watertight else area != 0  # one side of a closed board covers what both do
-    covered = shapely.union_all(shapely.polygons(mesh.triangles[kept][:, :, across]))
+    flat = shapely.polygons(mesh.triangles[:, :, across])
+    covered = shapely.union_all(flat[shapely.area(flat) > 0])
     rings = [ring for part in shapely.get_parts(covered) for ring in shapely.Polygon(part).interiors]
     found = []
     for ring in rings:

@@ -19,7 +19,6 @@ from grafu.articulation.convex_pieces import (
     convex_pieces,
     hull_of,
 )
-from grafu.articulation.plain_boxes import is_plain_box
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
 from grafu.geometry.box import Box, OrientedBox, yaw_of
 from grafu.geometry.components import clustered
@@ -83,7 +82,7 @@ def shapes_of(visual: Visual, config: CollisionShapeConfig = DEFAULT_COLLISION_C
         mesh = clustered(mesh, config.resolution)
     R = _yaw_rotation(mesh.vertices)
     pieces = convex_pieces(TriangleMesh(mesh.vertices @ R, mesh.faces), _fineness(visual.label, config))
-    made = (_shape_of(piece, R, config) for piece in pieces)
+    made = (_shape_around(piece.vertices @ R.T, R, config) for piece in pieces)
     return [shape for shape in made if shape is not None]
 
 
@@ -194,15 +193,6 @@ def _fineness(label: PartLabel, config: CollisionShapeConfig) -> ConvexPieceConf
 
 def _yaw_rotation(points: Points) -> Mat3:
     return rotation_matrix(np.array([0.0, 0.0, 1.0]), yaw_of(points))
-
-
-def _shape_of(piece: TriangleMesh, R: Mat3, config: CollisionShapeConfig) -> CollisionShape | None:
-    """Returns the shape of a piece in the frame `R`; a plain box is its own hull."""
-    points = piece.vertices @ R.T
-    if is_plain_box(piece) and piece.box.size.min() >= config.least_thickness:
-        box = OrientedBox.around(points, R)
-        return OrientedBox(box.center, _smaller(box.half, config), R)
-    return _shape_around(points, R, config)
 
 
 def _shape_around(points: Points, R: Mat3, config: CollisionShapeConfig) -> CollisionShape | None:
