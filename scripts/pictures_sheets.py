@@ -29,7 +29,7 @@ from grafu.export.output_names import output_name
 from grafu.geometry.box import Box
 from grafu.pipeline.words import Colour, hardware_in_words
 from grafu.render.camera import three_quarter_view
-from grafu.render.exposure import displayed
+from grafu.render.light import displayed
 from grafu.render.picture import Picture, box_of, encode_png, posed_visuals, render
 
 Line = tuple[str, str]  # a text and its colour

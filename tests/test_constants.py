@@ -89,7 +89,7 @@ OF_MODULES = {
         "grasp_search.py": {},
         "coupled_weight.py": {"_STEP": TOLERANCE, "_EXACT": TOLERANCE, "_AT": SAMPLES},
         "build_material.py": {"_BY_WORD": MATERIALS, "_GLASS": MATERIALS, "_STEEL": MATERIALS, "_TEXTILE": MATERIALS},
-        "mass.py": {"NO_MOMENTS": FORMULA, "_IN_ORDER": FORMULA, "_TETRAHEDRON": FORMULA, "_TRIANGLE": FORMULA},
+        "mass.py": {"NO_MOMENTS": FORMULA},
     },
     "asset": {
         "bodies.py": {},
@@ -150,7 +150,7 @@ OF_MODULES = {
     "pipeline": {"verdict.py": {"_NAMED": WORDS}, "triage.py": {}},
 }
 IN_FUNCTIONS = {
-    "articulation": {"mass.py": dict.fromkeys((3.0, 4.0, 6.0, 9, 12.0), FORMULA)},
+    "articulation": {"mass.py": dict.fromkeys((3.0, 4.0, 6.0, 9, 12.0, 20.0), FORMULA)},
     "asset": {
         "bodies.py": {},
         "cutting.py": {},

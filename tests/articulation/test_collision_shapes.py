@@ -14,7 +14,15 @@ from grafu.articulation.collision_shapes import (
     corners_of,
     extent_of,
 )
-from grafu.articulation.convex_pieces import ConvexPieceConfig, _depths, _looks, convex_pieces, hull_of
+from grafu.articulation.convex_pieces import (
+    ConvexPieceConfig,
+    _depths,
+    _grid,
+    _inside_hull,
+    _looks,
+    convex_pieces,
+    hull_of,
+)
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -290,3 +298,23 @@ def test_a_pit_is_as_deep_as_if_all_points_looked_along_all_axes(seed, least):
     depth = np.where(np.isinf(seen).any(axis=1), np.minimum(seen.min(axis=1), 0.9), 0.0)
 
     assert _depths(caster, points, 0.9, least).tolist() == np.where(depth > least, depth, 0.0).tolist()
+
+
+@pytest.mark.parametrize("size", [(1.0, 0.5, 0.3), (0.6, 0.4, 0.003), (0.6, 0.4, 1e-7)])
+def test_of_a_mesh_with_all_corners_of_its_box_no_hull_is_needed(size, monkeypatch):
+    box = Box(np.zeros(3), np.array(size))
+    mesh = TriangleMesh.box_mesh(box)
+    points = _grid(box, 0.02)
+    monkeypatch.setattr("scipy.spatial.ConvexHull", None)
+    np.testing.assert_array_equal(_inside_hull(mesh, points, 0.004), points)
+    monkeypatch.undo()
+    monkeypatch.setattr("grafu.articulation.convex_pieces.has_all_corners", lambda _: False)
+    np.testing.assert_array_equal(_inside_hull(mesh, points, 0.004), points)
+
+
+def test_a_mesh_that_lacks_a_corner_of_its_box_has_a_hull():
+    mesh = TriangleMesh(np.vstack([np.eye(3), np.zeros((1, 3))]), np.array([[0, 1, 2], [0, 1, 3]]))
+    points = _grid(mesh.box, 0.1)
+    inside = _inside_hull(mesh, points, 0.004)
+    assert 0.1 * len(points) < len(inside) < 0.3 * len(points)
+    assert (inside.sum(axis=1) < 1).all()

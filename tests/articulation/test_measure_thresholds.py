@@ -44,7 +44,7 @@ REASONS = {
         "grip_point.py": {"_EDGE": TOLERANCE},
         "kinematics.py": {"_ALIKE": TOLERANCE},
         "level_feet.py": {"_UPRIGHT": TOLERANCE, "_REST": UNIT},
-        "mass.py": {"_TETRAHEDRON": UNIT, "_TRIANGLE": UNIT, "_IN_ORDER": EFFORT, "NO_MOMENTS": UNIT},
+        "mass.py": {"NO_MOMENTS": UNIT},
         "motion_kind.py": {"_A_LITTLE": SAMPLES, "_DEGREES": UNIT, "_CENTIMETRES": UNIT, "_ROWS": UNIT},
         "open_together.py": {"_STEPS": SAMPLES},
         "counterbalance.py": {"GRAVITY": PHYSICS},

@@ -2,8 +2,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.asset.labels import is_control, is_piece, is_whole_part, label_of, sense_of
-from grafu.asset.names import safe_id, unique_ids, words
+from grafu.asset.labels import (
+    TABLE,
+    _last,
+    _rows,
+    is_control,
+    is_piece,
+    is_whole_part,
+    label_of,
+    sense_of,
+)
+from grafu.asset.names import safe_id, singular, unique_ids, words
 from grafu.vocabulary import PartLabel
 
 NAMES = {
@@ -176,3 +185,23 @@ def test_words_behind_the_noun_that_nobody_knows_blur_a_name():
     assert sense_of("sweethome3d_opening_on_rail_2_door_glass").is_piece
     assert not is_whole_part("drawer_sprocket")
     assert sense_of("CabinetBody").is_container
+
+
+_WORDS = sorted({singular(w) for _, row in TABLE for w in row.replace(",", " ").replace("=", " ").split()})
+
+
+@given(st.lists(st.sampled_from(_WORDS), max_size=6))
+def test_the_phrase_that_ends_last_counts_the_longest_and_first_of_several(said):
+    every = [
+        (label, tuple(singular(w) for w in p.strip().lstrip("=").split()), p.strip().startswith("="))
+        for label, row in TABLE
+        for p in row.split(",")
+    ]
+    places = [
+        (i, i + len(phrase), label)
+        for label, phrase, whole in every
+        for i in range(len(said) - len(phrase) + 1)
+        if tuple(said[i : i + len(phrase)]) == phrase and (not whole or len(said) == len(phrase))
+    ]
+    best = max(places, key=lambda place: (place[1], place[1] - place[0]), default=None)
+    assert _last(tuple(said), _rows(frozenset(PartLabel))) == best

@@ -1,11 +1,14 @@
 """The command starts without jaxtyping; programs that call it keep what they have."""
 
+import gc
 import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from grafu.cli.light_start import without_collecting
 
 SAMPLE = Path(__file__).parents[2] / "samples" / "dresser.glb"
 NOT_NEEDED = {"jaxtyping", "jaxtyping._import_hook", "unittest.mock", "asyncio", "ssl"}
@@ -47,3 +50,15 @@ def test_a_shape_without_its_checks_is_the_class_of_the_array(kind: str) -> None
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
 
     assert (run.returncode, run.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("is_on", [True, False])
+def test_garbage_is_looked_for_again_after_an_import_that_failed(is_on: bool) -> None:
+    was_on = gc.isenabled()
+    try:
+        (gc.enable if is_on else gc.disable)()
+        with pytest.raises(ImportError, match="did not"), without_collecting():
+            raise ImportError("searched for garbage" if gc.isenabled() else "did not")
+        assert gc.isenabled() is is_on
+    finally:
+        (gc.enable if was_on else gc.disable)()

@@ -46,6 +46,7 @@ def test_the_shelves_that_an_even_row_lacks_come_back(count: int, data: st.DataO
     left = [z for z in heights if z not in gone]
     gaps = np.diff([0.0, *left, PITCH * (count + 1)])
     assume(2 * sum(gaps < 1.5 * PITCH) >= len(gaps))  # else the pitch is in doubt
+    assume(gaps.max() < 3.5 * PITCH)  # else the gap is meant so
     assert found_in(bookcase(left, PITCH * (count + 1))) == pytest.approx(sorted(gone))
 
 
@@ -68,6 +69,19 @@ def test_one_shelf_or_two_at_one_to_two_state_no_row() -> None:
 
 def test_one_narrow_gap_above_the_plinth_states_no_pitch() -> None:
     assert found_in(bookcase([0.1, 0.4, 0.7], 1.1)) == []  # gaps of 1, 3, 3 and 4 to one
+
+
+def test_a_gap_as_high_as_many_shelves_is_meant_so() -> None:
+    heights = [PITCH * k for k in range(1, 6)]
+    assert found_in(bookcase(heights, 8 * PITCH)) == pytest.approx([6 * PITCH, 7 * PITCH])
+    assert found_in(bookcase(heights, 9 * PITCH)) == []
+
+
+def test_a_flat_part_with_another_label_fills_its_place() -> None:
+    heights = [PITCH, 2 * PITCH, 3 * PITCH, 5 * PITCH, 7 * PITCH]
+    graph = bookcase(heights, 8 * PITCH)
+    nodes = (*graph.nodes, board("drawer", PartLabel.DRAWER, 4 * PITCH + 0.01))
+    assert found_in(FunctionalGraph("bookcase", nodes, ())) == pytest.approx([6 * PITCH])
 
 
 def test_rows_side_by_side_are_rows_of_their_own() -> None:

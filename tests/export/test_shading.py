@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from grafu.export.shading import corner_normals
+from grafu.export.shading import _kept, corner_normals
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
@@ -74,3 +74,15 @@ def test_a_sphere_is_smooth():
 
     directions = ball.triangles / np.linalg.norm(ball.triangles, axis=2, keepdims=True)
     assert np.einsum("fkd,fkd->fk", shading.normals[shading.corners], directions).min() == pytest.approx(1, abs=0.02)
+
+
+def test_normals_are_found_once_in_the_life_of_a_surface():
+    cube = Surface(TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0))))
+    found = corner_normals(cube)
+    assert corner_normals(cube) is found
+    assert corner_normals(cube, 2.0) is not found
+    other = Surface(cube.mesh)
+    assert corner_normals(other) == found
+    key = id(cube)
+    del cube
+    assert not [known for known in _kept if known[0] == key]

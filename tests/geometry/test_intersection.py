@@ -296,3 +296,16 @@ def test_what_was_touched_last_is_asked_first(monkeypatch):
 
     # at the first pose one after the other, then the floor first; shrunk, all are asked, and then the floor alone
     assert [asked.count(beside), asked.count(floor)] == [1 + 3, 3 * (1 + 1 + 6)]
+
+
+@given(st.floats(-0.9, 0.9), st.floats(0.0, 3.0))
+def test_meshes_that_cross_are_no_distance_apart(offset, angle):
+    one = TriangleMesh.box_mesh(Box(np.zeros(3), np.ones(3)))
+    other = MeshCollider(TriangleMesh.box_mesh(Box(np.array([0.2, 0.3, -1.0]), np.array([0.4, 0.6, 2.0]))))
+    T = from_rotation(rotation_matrix(vec3(1.0, 0.0, 0.0), angle), vec3(0.1, offset, 0.0))
+    other.place(T)
+    collider = MeshCollider(one)
+    if collider.intersects(other):
+        assert collider.distance(other) <= 1e-12
+    else:
+        assert collider.distance(other) > 0

@@ -10,6 +10,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import (
     RayCaster,
+    embree_scene,
     line_crossings,
     outer_faces,
     robust_median,
@@ -33,6 +34,15 @@ def test_rays_from_inside_meet_the_far_side_whichever_way_faces_look():
     inverted = RayCaster(TriangleMesh(CUBE.vertices, CUBE.faces[:, ::-1]))
     for caster in (CASTER, inverted):
         assert caster.along(np.zeros((1, 3)), X)[0] == pytest.approx(0.5, abs=1e-6)
+
+
+@pytest.mark.parametrize("unused", [0, 100])
+def test_corners_may_be_shared_or_not(unused):
+    """Which way a scene is filled follows from the number of vertices."""
+    vertices = np.vstack([CUBE.vertices, np.full((unused, 3), 9.0)]).astype(np.float32)
+    scene = embree_scene(vertices, CUBE.faces.astype(np.int32))
+    found = scene.run(np.float32([[-2, 0, 0]]), np.float32([[1, 0, 0]]), query="DISTANCE")
+    assert found[0] == pytest.approx(1.5)
 
 
 def test_each_ray_has_its_own_direction():

@@ -15,9 +15,12 @@ from grafu.additions.handle.config import HandleChoice
 from grafu.additions.interior.request import CompartmentChoice
 from grafu.additions.interior.turned import compartments_of
 from grafu.additions.top.config import TopConfig
+from grafu.articulation.base import BaseKind
+from grafu.asset.lasso_cut import Lasso
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Asset
+from grafu.asset.regrouping import Regroup, Regrouping
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
 from grafu.joints.plan import AUTOMATIC, JointChoice
@@ -25,7 +28,7 @@ from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
-from grafu.pipeline.settings import SCHEMA, Settings, settings_from_json
+from grafu.pipeline.settings import SCHEMA, Settings, _adapter, settings_from_json
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
@@ -270,3 +273,19 @@ def test_what_is_shown_of_settings_is_what_was_changed() -> None:
     assert repr(long) == "Settings(trim=False, additions=AdditionConfig(rejected=frozenset({'top_panel'})))"
     longer = long.with_addition("back_panel", accepted=False)
     assert repr(longer) == "Settings(trim=False, additions=...)"
+
+
+def test_settings_are_written_as_pydantic_writes_them_without_its_schema(monkeypatch: pytest.MonkeyPatch) -> None:
+    lasso = Lasso((0.0, -2.0, 1.0), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
+    chosen = Settings(
+        weights=Path("a/b.onnx"), base=BaseKind.FIXED, motions={"d": MotionChoice(Moves.TURNS, Side.LEFT)}
+    )
+    chosen = chosen.with_label("a", PartLabel.DOOR).with_joint("d", JointChoice(MechanismClass.C, scale=1.5))
+    chosen = chosen.with_front("a", HandleChoice("none")).with_compartment(3, CompartmentChoice(2, inset=0.01))
+    chosen = chosen.with_addition("top", accepted=False).with_motion("e", FIXED)
+    chosen = chosen.with_regrouping(Regrouping(Regroup.CUT, ("x",), lasso))
+    for made in (Settings(), chosen, replace(chosen, additions=NO_ADDITIONS)):
+        expected = {"schema": SCHEMA, **_adapter().dump_python(made, mode="json")}
+        monkeypatch.setattr("grafu.pipeline.settings._adapter", None)
+        assert json.dumps(made.to_json()) == json.dumps(expected)
+        monkeypatch.undo()

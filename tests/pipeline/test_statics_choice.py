@@ -99,9 +99,14 @@ def test_a_back_that_is_likely_is_built_where_rays_find_none(probability: float,
     assert built(Statics.GRAPH, (), weighed=weighed, asset=closed) == []
 
 
-@pytest.mark.parametrize(("nodes", "tops"), [((), 0), ((TOP,), 1)])
-def test_a_top_that_is_predicted_outweighs_a_name(nodes: Collection[PartNode], tops: int) -> None:
-    named = replace(open_case(), name="washstand sink")
+@pytest.mark.parametrize(
+    ("name", "nodes", "tops"),
+    [("washstand sink", (), 0), ("washstand sink", (TOP,), 1), ("captains bed", (TOP,), 0), ("crate", (TOP,), 0)],
+)
+def test_a_predicted_top_outweighs_the_name_of_a_sink_but_not_of_a_bed(
+    name: str, nodes: Collection[PartNode], tops: int
+) -> None:
+    named = replace(open_case(), name=name)
     assert built(Statics.BOTH, nodes, asset=named).count(PartLabel.TOP_PANEL) == tops
 
 

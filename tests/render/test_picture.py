@@ -173,6 +173,13 @@ def test_an_opened_door_stands_in_front():
     assert [v.name for v in opened] == ["body", "door"]
 
 
+def test_what_stays_keeps_its_surfaces():
+    made = cabinet()
+    body, door = posed_visuals(made, opened_values(made))
+    assert body.surfaces is made.links[0].visuals[0].surfaces
+    assert door.surfaces is not made.links[1].visuals[0].surfaces
+
+
 def test_half_open_is_half_the_range():
     assert opened_values(cabinet(), 0.5) == {"door_joint": 0.75}
 

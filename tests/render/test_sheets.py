@@ -173,4 +173,4 @@ def _given(path, result):
 
 def test_two_inputs_of_one_name_are_refused(tmp_path):
     with pytest.raises(SystemExit):
-        pictures_sheets.main(["a/model.glb", "b/model.glb", "--out", str(tmp_path)])
+        pictures_sheets.main(["a/desk.glb", "b/desk.glb", "--out", str(tmp_path)])

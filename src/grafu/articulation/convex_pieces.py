@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.articulation.board_holes import BoardHole, holes_through, is_board
+from grafu.articulation.plain_boxes import has_all_corners, is_plain_box
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
@@ -97,7 +98,7 @@ class _Piece:
     @cached_property
     def pit(self) -> Vec3 | None:
         """The point of the deepest pit, else of a hole, None where every pit is within the tolerance."""
-        if _is_box(self.mesh):
+        if is_plain_box(self.mesh):
             return None
         closed = (hole.middle for hole in self.holes if hole.is_closed_by(self.mesh, self.config.boxed))
         deepest = self._deepest
@@ -200,21 +201,21 @@ def _taken_apart(whole: _Piece) -> list[_Piece]:
     return done
 
 
-def _is_box(mesh: TriangleMesh) -> bool:
-    """Whether a mesh is the plain closed box that most boards are: a quick answer to spare the long question."""
-    at_low, at_high = np.abs(mesh.vertices - mesh.box.low) < 1e-6, np.abs(mesh.vertices - mesh.box.high) < 1e-6
-    a, b, c = mesh.box.size
-    return bool(np.all(at_low | at_high)) and mesh.area > 1.98 * float(a * b + b * c + c * a)
-
-
 def _grid(box: Box, spacing: float) -> Points:
     counts = np.clip(np.ceil(box.size / max(spacing, 1e-6)), 2, _GRID).astype(int)
     axes = [low + (np.arange(n) + 0.5) / n * size for low, n, size in zip(box.low, counts, box.size, strict=True)]
-    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    grid = np.empty((*map(len, axes), 3))
+    grid[..., 0], grid[..., 1], grid[..., 2] = axes[0][:, None, None], axes[1][:, None], axes[2]
+    return grid.reshape(-1, 3)
 
 
 def _inside_hull(mesh: TriangleMesh, points: Points, thickness: float) -> Float[np.ndarray, "k 3"]:
-    """Returns the points inside the hull of a mesh, flat ones thickened (metres); none where it has no hull."""
+    """Returns the points inside the hull of a mesh, flat ones thickened (metres); none where it has no hull.
+
+    The points lie well within the mesh's box: of a mesh with a vertex at each corner of its box all are inside.
+    """
+    if has_all_corners(mesh):
+        return points
     from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
 
     try:

@@ -14,15 +14,11 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Link
 from grafu.articulation.build_material import DEFAULT_MASS_CONFIG, MassConfig, builds_of
-from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, cross, freeze_arrays
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.components import Patches, patches_of
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.transform import rotation_matrix
-
-_TETRAHEDRON = (np.ones((4, 4)) + np.eye(4)) / 20.0  # second moments of a unit tetrahedron in its corners
-_TRIANGLE = (np.ones((3, 3)) + np.eye(3)) / 12.0
-_IN_ORDER = ["einsum_path", (0, 1), (0, 1), (0, 1)]  # to look for an order takes as long as to sum over a small part
 
 
 @final
@@ -70,8 +66,9 @@ def moments_of(
     R = rotation_matrix(np.array([0.0, 0.0, 1.0]), yaw_of(mesh.vertices[np.unique(patches.faces)]))
     sides = _sides(triangles @ R, patches)
     boxes, shell = _box_volumes(sides, thickness, flat), _shell_thickness(sides, thickness, flat)
-    solid = _solid_moments(triangles, patches)
-    sheet = _shell_moments(triangles, patches, shell)
+    sums, spreads = triangles.sum(axis=1), _spreads(triangles)
+    solid = _solid_moments(triangles, sums, spreads, patches)
+    sheet = _shell_moments(triangles, sums, spreads, patches, shell)
     # closed, but as thin as a sheet: front and back of one sheet, cut into triangles differently
     real = patches.closed & (solid[:, 0] > 0.5 * flat * 0.5 * sheet[:, 0] / shell)
     filled = np.minimum(sheet[:, 0] / shell * wall, solid[:, 0])
@@ -129,24 +126,34 @@ def _box_volumes(sides: np.ndarray, thickness: float, flat: float) -> np.ndarray
     )
 
 
-def _solid_moments(triangles: np.ndarray, patches: Patches) -> np.ndarray:
+def _spreads(triangles: np.ndarray) -> np.ndarray:
+    """Returns the second moments of the three corners of triangles, and of their sum, about the origin, (n, 3, 3).
+
+    A triangle has a twelfth of that, times its area, a tetrahedron to the origin a twentieth, times its volume.
+    """
+    corners = np.concatenate([triangles, triangles.sum(axis=1, keepdims=True)], axis=1)
+    return np.asarray(corners.swapaxes(1, 2) @ corners)
+
+
+def _solid_moments(triangles: np.ndarray, sums: np.ndarray, spreads: np.ndarray, patches: Patches) -> np.ndarray:
     """Returns volume, first and second moments of what each patch encloses, (patches, 13); exact where it is closed."""
-    volume = np.einsum("nd,nd->n", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6.0
-    first = volume[:, None] * triangles.sum(axis=1) / 4.0
-    corners = np.concatenate([triangles, np.zeros((len(triangles), 1, 3))], axis=1)
-    second = np.einsum("n,nid,ij,nje->nde", volume, corners, _TETRAHEDRON, corners, optimize=_IN_ORDER)
+    volume = np.einsum("nd,nd->n", triangles[:, 0], cross(triangles[:, 1], triangles[:, 2])) / 6.0
+    first = volume[:, None] * sums / 4.0
+    second = (volume / 20.0)[:, None, None] * spreads
     return _summed(np.column_stack([volume, first, second.reshape(-1, 9)]), patches)
 
 
-def _shell_moments(triangles: np.ndarray, patches: Patches, thickness: np.ndarray) -> np.ndarray:
+def _shell_moments(
+    triangles: np.ndarray, sums: np.ndarray, spreads: np.ndarray, patches: Patches, thickness: np.ndarray
+) -> np.ndarray:
     """Returns the moments of each patch as a shell, (patches, 13); its thickness lies half on either side."""
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    length = np.linalg.norm(cross, axis=1)
-    normal = cross / np.maximum(length, 1e-300)[:, None]
+    across = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    length = np.linalg.norm(across, axis=1)
+    normal = across / np.maximum(length, 1e-300)[:, None]
     t = thickness[patches.patch]
     volume = length / 2.0 * t
-    first = volume[:, None] * triangles.sum(axis=1) / 3.0
-    second = np.einsum("n,nid,ij,nje->nde", volume, triangles, _TRIANGLE, triangles, optimize=_IN_ORDER)
+    first = volume[:, None] * sums / 3.0
+    second = (volume / 12.0)[:, None, None] * spreads
     second += (volume * t**2 / 12.0)[:, None, None] * normal[:, :, None] * normal[:, None, :]
     return _summed(np.column_stack([volume, first, second.reshape(-1, 9)]), patches)
 

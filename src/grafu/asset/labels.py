@@ -187,6 +187,7 @@ def _phrases(said: tuple[str, ...]) -> list[tuple[str, ...]]:
     return [tuple(phrase) for phrase in found if phrase]
 
 
+@lru_cache(maxsize=20_000)  # many names differ in their numbers alone
 def _sense(said: tuple[str, ...]) -> Sense:
     handle = _last(said, _OF_HANDLES)
     if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, _last(said, _OF_MOVING))):
@@ -235,23 +236,25 @@ def _overlaps(first: tuple[int, int, PartLabel], second: tuple[int, int, PartLab
 
 def _last(said: tuple[str, ...], rows: "_Rows") -> tuple[int, int, PartLabel] | None:
     """Returns where the phrase that ends last begins and ends, and its label; the longest of several."""
-    found = [(i, i + len(phrase), label) for label, phrase, whole in rows for i in _places_of(said, phrase, whole)]
+    found = [
+        (i, i + len(phrase), label)
+        for i, word in enumerate(said)
+        for label, phrase, whole in rows.get(word, ())
+        if (said == phrase if whole else said[i : i + len(phrase)] == phrase)
+    ]
     return max(found, key=lambda f: (f[1], f[1] - f[0]), default=None)
 
 
-def _places_of(said: tuple[str, ...], phrase: tuple[str, ...], whole: bool) -> list[int]:
-    if whole:
-        return [0] if said == phrase else []
-    n = len(phrase)
-    return [i for i in range(len(said) - n + 1) if said[i : i + n] == phrase]
-
-
-_Rows = tuple[tuple[PartLabel, tuple[str, ...], bool], ...]
+_Rows = dict[str, list[tuple[PartLabel, tuple[str, ...], bool]]]
 
 
 def _rows(labels: frozenset[PartLabel]) -> _Rows:
-    phrases = ((label, p.strip()) for label, row in TABLE if label in labels for p in row.split(","))
-    return tuple((label, tuple(singular(w) for w in p.lstrip("=").split()), p.startswith("=")) for label, p in phrases)
+    """Returns the phrases of labels, and whether each is a whole name alone, by their first words."""
+    found: _Rows = {}
+    for label, p in ((label, p.strip()) for label, row in TABLE if label in labels for p in row.split(",")):
+        phrase = tuple(singular(w) for w in p.lstrip("=").split())
+        found.setdefault(phrase[0], []).append((label, phrase, p.startswith("=")))
+    return found
 
 
 _MOVING = frozenset({PartLabel.DOOR, PartLabel.DRAWER})

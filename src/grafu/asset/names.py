@@ -125,6 +125,7 @@ def _parted(name: str) -> list[str]:
     return [*found, *words(name[start:])]
 
 
+@lru_cache(maxsize=20_000)
 def _meaning(word: str) -> tuple[tuple[str, ...], bool]:
     """Returns what a word means in English, and whether it is a Romance noun or adjective."""
     if _HAN.match(word):

@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.asset.options import DIRECTIONS
 from grafu.asset.part import Part
-from grafu.geometry.arrays import Points
+from grafu.geometry.arrays import Points, extremes
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.sampling import sample_surface
@@ -94,14 +94,16 @@ def _is_on_legs(bottom: _End, top: _End, config: RestConfig) -> bool:
 
 def _end(points: Points, direction: str, config: RestConfig) -> _End:
     axis = "XYZ".index(direction[1])
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = extremes(points)
     size = high - low
     gap = high[axis] - points[:, axis] if direction[0] == "+" else points[:, axis] - low[axis]
     others = [other for other in range(3) if other != axis]
     at = points[gap < config.near * size.max()][:, others]
     ratio = (at - low[others]) / np.maximum(size[others], 1e-12)
-    cells = np.unique(np.minimum((ratio * config.cells).astype(int), config.cells - 1), axis=0)
-    if not len(cells):
+    if not len(ratio):
         return _End(0.0, 0.0)
-    extent = np.prod(cells.max(axis=0) - cells.min(axis=0) + 1)
-    return _End(len(cells) / config.cells**2, float(extent) / config.cells**2)
+    rows, columns = np.minimum((ratio * config.cells).astype(int), config.cells - 1).T
+    is_met = np.zeros((config.cells, config.cells), dtype=bool)
+    is_met[rows, columns] = True
+    extent = int(np.ptp(rows) + 1) * int(np.ptp(columns) + 1)
+    return _End(int(is_met.sum()) / config.cells**2, float(extent) / config.cells**2)

@@ -11,6 +11,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar, final
 
+from grafu.cli.light_start import without_collecting
 from grafu.cli.limit_options import too_large
 from grafu.cli.verb import internal_fault, one_line
 from grafu.errors import AssetError, ExportError, FunctionalizationError
@@ -205,18 +206,18 @@ def small_picture_in(folder: Path) -> bytes:
 
 
 def _functionalize(job: Job, listener: Listener) -> "tuple[Report, bytes]":
-    from grafu.api.saving import files_of
-    from grafu.asset.load import load_asset
-    from grafu.export.files import write_files
-    from grafu.geometry.budget import UNLIMITED, Budget
-    from grafu.pipeline.functionalize import functionalize
-    from grafu.templates.gallery import open_gallery
+    with without_collecting():
+        from grafu.api.saving import files_of
+        from grafu.asset.load import load_asset
+        from grafu.export.files import write_files
+        from grafu.geometry.budget import UNLIMITED, Budget
+        from grafu.pipeline.functionalize import functionalize
+        from grafu.templates.gallery import open_gallery
 
-    options = job.options
     _require_free(job)
+    options, started = job.options, perf_counter()
     budget = Budget.lasting(options.limits.seconds) if options.limits.seconds else UNLIMITED
     listener.on_stage("load")
-    started = perf_counter()
     asset = load_asset(job.input, options.settings.reading)
     asset = replace(asset, path=job.stated) if job.stated else asset
     timings = {"load": perf_counter() - started}
@@ -267,8 +268,7 @@ def jobs_of(inputs: Sequence[Path], shared: JobOptions) -> tuple[list[Job], list
     Raises:
         AssetError: if the results of two inputs would go to one place.
     """
-    refused: list[Failed] = []
-    jobs: list[Job] = []
+    refused, jobs = list[Failed](), list[Job]()
     for path in inputs:
         try:
             jobs.append(Job(path, output_name(path), shared))

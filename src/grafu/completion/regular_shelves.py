@@ -35,7 +35,13 @@ def missing_shelves(graph: FunctionalGraph, config: RegularConfig) -> tuple[Miss
     for row in _rows(shelves, config.aligned * extent):
         if len(row) >= 2:
             found += _missing_in(row, _ends(row, graph.nodes, config, extent), config, extent)
-    return tuple(found)
+    return tuple(shelf for shelf in found if not _is_taken(shelf.box, graph.nodes, config, extent))
+
+
+def _is_taken(place: Box, nodes: Sequence[PartNode], config: RegularConfig, extent: float) -> bool:
+    """Whether a flat part of any label lies about there."""
+    near = (n.box for n in nodes if abs(float(n.box.center[_UP] - place.center[_UP])) < config.least * extent)
+    return any(_covers(box, place, config) for box in near)
 
 
 def _is_level_board(box: Box, thin: float) -> bool:
@@ -85,19 +91,24 @@ def _missing_in(
     if len(row) > 2:
         tries += [(below, None, config.several), (None, above, config.several)]
     for low, high, tolerance in tries:
-        found = list(_between(row, low, high, tolerance, config.least * extent))
+        found = list(_between(row, low, high, tolerance, config, extent))
         if found:
             return found
     return []
 
 
 def _between(
-    row: Sequence[PartNode], below: float | None, above: float | None, tolerance: float, least: float
+    row: Sequence[PartNode],
+    below: float | None,
+    above: float | None,
+    tolerance: float,
+    config: RegularConfig,
+    extent: float,
 ) -> Iterator[MissingShelf]:
     """Yields the shelves that a row lacks between two heights, if all its gaps are multiples of one pitch.
 
-    At least half of the gaps must be the pitch itself: one narrow gap among wide ones states no pitch.
-    `tolerance` is how far a gap may be from it (fraction of the pitch), `least` the smallest clear height, metres.
+    At least half of the gaps must be the pitch itself: one narrow gap among wide ones states no pitch. `tolerance` is
+    how far a gap may be from it (fraction of the pitch).
     """
     thick = float(np.median([node.box.size[_UP] for node in row]))
     tops = [*([] if below is None else [below]), *(float(node.box.high[_UP]) for node in row)]
@@ -105,12 +116,12 @@ def _between(
     if below is None:
         undersides = undersides[1:]
     sizes = np.array([high - low + thick for low, high in zip(tops, undersides, strict=False)])
-    if not len(sizes) or sizes.min() <= thick + least:
+    if not len(sizes) or sizes.min() <= thick + config.least * extent:
         return
     counts = np.maximum(np.round(sizes / sizes.min()), 1)
     pitch = float(sizes.sum() / counts.sum())
     off = float(np.abs(sizes / counts - pitch).max()) / pitch
-    if off > tolerance or 2 * int((counts == 1).sum()) < len(counts):
+    if off > tolerance or counts.max() > config.most + 1 or 2 * int((counts == 1).sum()) < len(counts):
         return
     pattern = row[0].box
     for low, size, count in zip(tops, sizes, counts, strict=False):

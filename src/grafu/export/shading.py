@@ -1,12 +1,13 @@
 """Normals for files that need them: kept where a surface has them, else smooth up to a crease angle."""
 
 from dataclasses import dataclass
-from typing import final
+from typing import Final, final
+from weakref import finalize
 
 import numpy as np
 
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, Scalars
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, Scalars, cross
 from grafu.geometry.components import linked, welded
 from grafu.geometry.mesh import TriangleMesh
 
@@ -22,12 +23,27 @@ class CornerNormals(ArrayValue):
     corners: Faces
 
 
+_KEPT_FACES: Final = 20_000  # of one surface: what a large one takes is not kept in memory
+_kept: dict[tuple[int, float], CornerNormals] = {}
+
+
 def corner_normals(surface: Surface, crease_angle: float = CREASE_ANGLE) -> CornerNormals:
     """Returns the surface's own normals, or new ones that are smooth across edges bent by less than `crease_angle`.
 
     Angles are radians. Faces meet across vertices of equal position, whether or not they share an index. A normal
-    without length is replaced by that of a face.
+    without length is replaced by that of a face. Of small surfaces they are found once in the surface's life: files in
+    several formats, and the page, ask for the same.
     """
+    if len(surface.mesh.faces) > _KEPT_FACES:
+        return _corner_normals(surface, crease_angle)
+    key = id(surface), crease_angle
+    if key not in _kept:
+        _kept[key] = _corner_normals(surface, crease_angle)
+        finalize(surface, _kept.pop, key, None)
+    return _kept[key]
+
+
+def _corner_normals(surface: Surface, crease_angle: float) -> CornerNormals:
     mesh = surface.mesh
     if surface.normals is not None:
         return CornerNormals(_mended(surface.normals, mesh), np.asarray(mesh.faces))
@@ -57,8 +73,8 @@ def _corner_angles(mesh: TriangleMesh) -> np.ndarray:
     """Returns the inner angle at each corner, (faces, 3): a weight that does not depend on how faces are cut."""
     t = mesh.triangles
     ahead, back = np.roll(t, -1, axis=1) - t, np.roll(t, 1, axis=1) - t
-    cross = np.linalg.norm(np.cross(ahead, back), axis=2)
-    return np.arctan2(cross, np.einsum("fkd,fkd->fk", ahead, back))
+    across = np.linalg.norm(cross(ahead, back), axis=2)
+    return np.arctan2(across, np.einsum("fkd,fkd->fk", ahead, back))
 
 
 def _smooth_groups(mesh: TriangleMesh, crease_angle: float) -> tuple[int, Indices]:

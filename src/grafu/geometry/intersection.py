@@ -120,8 +120,7 @@ class MeshCollider:
 
     def distance(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the two as posed, 0 where they intersect."""
-        if self.intersects(other):
-            return 0.0
+        require_time()
         found = fcl.distance(self._object, other._object, fcl.DistanceRequest(), fcl.DistanceResult())
         return max(float(found), 0.0)
 
@@ -176,15 +175,17 @@ class SweptBody:
 
     def touches(self, obstacle: MeshCollider) -> bool:
         """Whether the body, as posed, shares a point with the obstacle."""
-        return any(self._meet(piece, k, obstacle) for k, piece in enumerate(self._plain, len(self._shifts) + 1))
+        for k, piece in enumerate(self._plain, len(self._shifts) + 1):  # most are apart: no more calls than needed
+            if not piece.is_apart(obstacle) and self._meet(piece, k, obstacle):
+                return True
+        return False
 
     def _meet(self, own: MeshCollider, step: int, obstacle: MeshCollider) -> bool:
-        """Whether one of the body's own meshes, as posed, intersects an obstacle; `step` tells which, and its shift.
+        """Whether one of the body's own meshes, as posed, intersects an obstacle whose box it meets.
 
-        Sweep after sweep asks for the same poses: what is known of an obstacle at rest is not asked again.
+        `step` tells which, and its shift. Sweep after sweep asks for the same poses: what is known of an obstacle at
+        rest is not asked again.
         """
-        if own.is_apart(obstacle):
-            return False
         number = obstacle.number
         if number is None:
             return own.hits(obstacle)
@@ -192,6 +193,9 @@ class SweptBody:
         if (found := self._known.get(key)) is None:
             found = self._known[key] = own.hits(obstacle)
         return found
+
+    def _core_meets(self, step: int, obstacle: MeshCollider) -> bool:
+        return not self._shrunk.is_apart(obstacle) and self._meet(self._shrunk, step, obstacle)
 
     def penetrates(self, obstacle: MeshCollider) -> bool:
         """Whether the body, as posed, cuts into the obstacle by more than the depth."""
@@ -205,13 +209,13 @@ class SweptBody:
         if not self._touches_any(obstacles):
             return []
         self._shrunk.place(self._T)
-        met = [k for k, obstacle in enumerate(obstacles) if self._meet(self._shrunk, 0, obstacle)]
+        met = [k for k, obstacle in enumerate(obstacles) if self._core_meets(0, obstacle)]
         if not met:
             return []
         order = (*met, *(k for k in range(len(obstacles)) if k not in met))  # what was met is likely met again
         for step, shift in enumerate(self._shifts, 1):
             self._shrunk.place(self._T, shift)
-            if not any(self._meet(self._shrunk, step, obstacles[k]) for k in order):
+            if not any(self._core_meets(step, obstacles[k]) for k in order):
                 return []
         return met
 

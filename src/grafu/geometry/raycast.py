@@ -14,7 +14,7 @@ import numpy as np
 from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from embreex.rtcore import EmbreeDevice
-from jaxtyping import Bool, Float, Float32, Int
+from jaxtyping import Bool, Float, Float32, Int, Int32
 
 from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays, median
 from grafu.geometry.box import Box
@@ -91,11 +91,11 @@ class RayCaster:
     def __init__(self, mesh: TriangleMesh) -> None:
         self._scene: rtcore_scene.EmbreeScene | None = None
         if len(mesh.faces):
-            triangles = np.ascontiguousarray(mesh.triangles, dtype=np.float32)
-            if len(triangles) > _LARGE:
-                self._scene = _scene(triangles)
+            vertices, faces = mesh.vertices.astype(np.float32, order="C"), mesh.faces.astype(np.int32, order="C")
+            if len(faces) > _LARGE:
+                self._scene = embree_scene(vertices, faces)
             else:
-                self._scene = _by_content.of(lambda: _scene(triangles), len(triangles), triangles)
+                self._scene = _by_content.of(lambda: embree_scene(vertices, faces), len(faces), vertices, faces)
 
     def distances(self, origins: Points, directions: Points) -> Scalars:
         """Returns the distance in metres along each unit direction to the first face hit; infinity where none is."""
@@ -140,9 +140,13 @@ class RayCaster:
         return np.where(np.isfinite(distances), found["primID"].astype(np.int64), -1), distances
 
 
-def _scene(triangles: Float32[np.ndarray, "m 3 3"]) -> rtcore_scene.EmbreeScene:
+def embree_scene(vertices: Float32[np.ndarray, "n 3"], faces: Int32[np.ndarray, "m 3"]) -> rtcore_scene.EmbreeScene:
+    """Returns Embree's scene of the triangles of a mesh, at least one."""
     scene = rtcore_scene.EmbreeScene(_DEVICE)
-    EmbreeMesh(scene, triangles)
+    if len(vertices) < 2 * len(faces):  # it copies number by number, which takes longer than to sort them
+        EmbreeMesh(scene, vertices, faces)
+    else:
+        EmbreeMesh(scene, vertices[faces])
     return scene
 
 

@@ -213,9 +213,14 @@ def few_corners(points: Points, most: int) -> Float[np.ndarray, "k 3"]:
     """Returns at most `most` of the points: those that lie farthest out along directions spread evenly."""
     if len(points) <= most:
         return points
-    turn = np.arange(most) * np.pi * (3.0 - np.sqrt(5.0))
-    height = 1.0 - (2.0 * np.arange(most) + 1.0) / most
-    ring = np.sqrt(1.0 - height**2)
-    directions = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
-    return points[np.unique(np.argmax((directions / size) @ points.T, axis=1))]
+    return points[np.unique(np.argmax((_spread(most) / size) @ points.T, axis=1))]
+
+
+@lru_cache(maxsize=8)
+def _spread(count: int) -> Points:
+    """Returns unit vectors spread evenly over all directions (a golden-angle spiral)."""
+    turn = np.arange(count) * np.pi * (3.0 - np.sqrt(5.0))
+    height = 1.0 - (2.0 * np.arange(count) + 1.0) / count
+    ring = np.sqrt(1.0 - height**2)
+    return np.asarray(frozen_array(np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])))

@@ -114,11 +114,11 @@ def _measure(
     held = [MeshCollider(v.mesh) for v in placement.static] or [obstacle.collider for obstacle in near]
     swings = [(v.swing, held[k]) for k, v in enumerate(placement.static) if v.swing is not None]
 
-    def gap_at(value: float) -> float:
+    def gap_at(value: float, enough: float) -> float:
         for swing, collider in swings:
             collider.place(swing.motion(value))
         beside = np.zeros(3) if placement.slip is None else placement.slip.shift(value)
-        return gap_between(ends, held, np.asarray(translation(beside) @ motion(value)))
+        return gap_between(ends, held, np.asarray(translation(beside) @ motion(value)), enough)
 
     as_drawn = drawn_poses(request.kind.slides) if placement.template == DRAWN else 0
     return ratio, widest_gap(gap_at, upper, as_drawn)

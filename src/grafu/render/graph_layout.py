@@ -44,11 +44,12 @@ def _projected(graph: FunctionalGraph) -> Places:
 
 
 def _pushes(places: Places, apart: float) -> Places:
-    away = places[:, None] - places[None]
-    distance = np.maximum(np.linalg.norm(away, axis=2), 1e-6)
+    x, y = (column[:, None] - column for column in places.T)
+    distance = np.maximum(np.sqrt(x * x + y * y), 1e-6)
     lacking = np.maximum(apart - distance, 0.0)
     np.fill_diagonal(lacking, 0.0)
-    return (away * (0.4 * lacking / distance)[..., None]).sum(axis=1)
+    push = 0.4 * lacking / distance
+    return np.stack([(x * push).sum(axis=1), (y * push).sum(axis=1)], axis=1)
 
 
 def with_room(places: Places, halves: Places, size: tuple[int, int]) -> Places:

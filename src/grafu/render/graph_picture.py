@@ -16,8 +16,8 @@ from PIL import Image, ImageDraw, ImageFont
 from grafu.graph.edges import Contact, Edge, MotionEdge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import AXIS_NAMES, border_to_face, border_to_signed_axis
-from grafu.render.exposure import displayed
 from grafu.render.graph_layout import Places, in_the_way, node_places, with_room
+from grafu.render.light import displayed
 from grafu.render.picture import CATEGORY_COLORS, Picture
 from grafu.vocabulary import EdgeKind, PartLabel
 

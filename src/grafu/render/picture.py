@@ -19,13 +19,13 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
 from grafu.render.camera import Camera, three_quarter_view
-from grafu.render.exposure import Exposure, PictureStyle, Samples, displayed
+from grafu.render.exposure import SIDE, Exposure, PictureStyle, Samples
+from grafu.render.light import displayed
 from grafu.render.ray_scene import RayScene
 from grafu.vocabulary import PartLabel
 
 Picture = UInt8[np.ndarray, "_ _ 4"]
 
-_SIDE = 2  # samples a side of each pixel
 _INK = (38, 38, 40)
 
 
@@ -61,9 +61,8 @@ def render(
     if min(size) < 1:
         raise ValueError(f"`size` must be a positive width and height: got {size}")
     shown = [_in_category_color(v) for v in visuals] if style.by_category else visuals
-    exposure = Exposure(RayScene(shown), camera, (width * _SIDE, height * _SIDE), style)
-    samples = exposure.samples()
-    each = [samples[row::_SIDE, column::_SIDE] for row in range(_SIDE) for column in range(_SIDE)]
+    samples = Exposure(RayScene(shown), camera, (width, height), style).samples()
+    each = [samples[row::SIDE, column::SIDE] for row in range(SIDE) for column in range(SIDE)]
     return _developed(sum(each[1:], each[0]) / len(each), style)  # quicker than a mean along two short axes
 
 
@@ -74,9 +73,15 @@ def posed_visuals(articulated: ArticulatedObject, values: Mapping[str, float] | 
         ArticulationError: if `values` names a joint that the object does not have.
     """
     return [
-        replace(visual, surfaces=tuple(s.transformed(T) for s in visual.surfaces), swing=None)
-        for visual, T in placed_visuals(articulated, values)
+        replace(visual, surfaces=_moved(visual, T), swing=None) for visual, T in placed_visuals(articulated, values)
     ]
+
+
+def _moved(visual: Visual, T: Mat4) -> tuple[Surface, ...]:
+    """Returns the surfaces mapped by T; the very same ones where they stay, of which much may be known already."""
+    if np.array_equal(T, np.eye(4)):
+        return visual.surfaces
+    return tuple(surface.transformed(T) for surface in visual.surfaces)
 
 
 def placed_visuals(

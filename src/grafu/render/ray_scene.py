@@ -7,17 +7,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from io import BytesIO
-from typing import Any, final
+from typing import final
 
 import numpy as np
-from embreex.mesh_construction import TriangleMesh as EmbreeMesh
-from embreex.rtcore_scene import EmbreeScene
-from jaxtyping import Bool, Float32, Int
+from jaxtyping import Bool, Float32, Int, Int32
 from PIL import Image
 
 from grafu.articulation.articulated_object import Visual
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.budget import require_time
+from grafu.geometry.raycast import embree_scene
 
 Rays = Float32[np.ndarray, "n 3"]
 Values = Float32[np.ndarray, " n"]
@@ -44,6 +43,10 @@ class Hits:
     metallic: Values
     roughness: Values
 
+    def chosen(self, rows: np.ndarray) -> "Hits":
+        """Returns the hits in some rows, given by number or by a mask."""
+        return Hits(*(getattr(self, name)[rows] for name in self.__dataclass_fields__))
+
 
 @final
 class RayScene:
@@ -66,9 +69,10 @@ class RayScene:
         self._uvs: np.ndarray = _stacked(surfaces if textured else [], _corner_uvs, 3, 2)
         self._table = _material_table(self._materials)
         self._images = {k: _decode(m.base_color_texture) for k, m in enumerate(self._materials) if m.base_color_texture}
-        self._embree = _embree_scene(self.triangles)
+        vertices, faces = _mesh_of(surfaces)
+        self._embree = embree_scene(vertices, faces)
         solid = self._table[self._material, 6] >= 0  # light goes through what is blended: glass casts no shadow
-        self._solid = self._embree if solid.all() else _embree_scene(self.triangles[solid])
+        self._solid = self._embree if solid.all() else embree_scene(vertices, faces[solid])
 
     def cast(self, origins: Rays, directions: Rays) -> Hits:
         """Returns what each ray meets first; directions are unit vectors."""
@@ -104,10 +108,15 @@ class RayScene:
         return rgba
 
 
-def _embree_scene(triangles: np.ndarray) -> Any:
-    scene = EmbreeScene()
-    EmbreeMesh(scene, triangles if len(triangles) else np.zeros((1, 3, 3), np.float32))
-    return scene
+def _mesh_of(surfaces: Sequence[Surface]) -> tuple[Rays, Int32[np.ndarray, "m 3"]]:
+    """Returns the vertices and faces of all surfaces as one mesh; one triangle without area, where there is none."""
+    meshes = [surface.mesh for surface in surfaces]
+    if not meshes:
+        return np.zeros((3, 3), np.float32), np.arange(3, dtype=np.int32)[None]
+    first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes[:-1])])
+    vertices = np.concatenate([mesh.vertices for mesh in meshes], dtype=np.float32, casting="same_kind")
+    faces = np.concatenate([mesh.faces + start for mesh, start in zip(meshes, first.tolist(), strict=True)])
+    return vertices, faces.astype(np.int32)
 
 
 def _stacked(surfaces: Sequence[Surface], values: Callable[[Surface], np.ndarray], *tail: int) -> np.ndarray:

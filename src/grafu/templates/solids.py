@@ -38,7 +38,10 @@ def finished(mesh: TriangleMesh, material: Material) -> Surface:
     corners = mesh.faces.reshape(-1)
     normals = _corner_normals(mesh, corners)
     rows = np.c_[corners, np.round(normals * 1e6)].astype(np.int64)
-    _, first, index = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    order = np.lexsort(rows.T[::-1])
+    is_new = np.append(True, (rows[order[1:]] != rows[order[:-1]]).any(axis=1))
+    first, index = order[is_new], np.empty(len(rows), np.int64)
+    index[order] = np.cumsum(is_new) - 1
     split = TriangleMesh(mesh.vertices[corners[first]], index.reshape(-1, 3))
     return Surface(split, material, normals=normals[first])
 

@@ -214,26 +214,28 @@ def _height_at(flat: Corners, z: Rises, which: Indices, x: Scalars, y: Scalars) 
     lowest, highest = _least(z), -_least(-z)
     found = z[which, 0] + along_x[which] * (x - flat[which, 0, 0]) + along_y[which] * (y - flat[which, 0, 1])
     stands = upright[which]
-    found[stands] = _rise_of_uprights(flat[which[stands]], z[which[stands]], np.column_stack([x, y])[stands])
+    number = np.cumsum(upright) - 1
+    at = np.column_stack([x, y])[stands]
+    found[stands] = _rise_of_uprights(flat[upright], z[upright], number[which[stands]], at)
     return np.minimum(np.maximum(found, lowest[which]), highest[which])
 
 
-def _rise_of_uprights(flat: Corners, z: Rises, at: Float[np.ndarray, "t 2"]) -> Scalars:
+def _rise_of_uprights(flat: Corners, z: Rises, which: Indices, at: Float[np.ndarray, "n 2"]) -> Scalars:
     """Returns the greatest height of upright triangles within half a cell of points: the sides of a bureau slant."""
     reach = np.linalg.norm(flat - np.roll(flat, 1, axis=1), axis=2)
     longest = reach.argmax(axis=1)[:, None, None]
     ends = [np.take_along_axis(np.roll(flat, shift, axis=1), longest, axis=1)[:, 0] for shift in (0, 1)]
     direction = (ends[1] - ends[0]) / np.maximum(reach.max(axis=1), 1e-12)[:, None]
     along = np.einsum("tkd,td->tk", flat, direction)
-    middle = (at * direction).sum(axis=1)
-    found = np.full(len(flat), -np.inf)
-    for step in (-0.5, 0.0, 0.5):
-        t = np.clip(middle + step, _least(along), -_least(-along))
-        for k in range(3):
-            a, b, low, high = along[:, k], along[:, (k + 1) % 3], z[:, k], z[:, (k + 1) % 3]
-            level = np.abs(b - a) < 1e-9
-            ratio = np.clip((t - a) / np.where(level, 1.0, b - a), 0.0, 1.0)
-            rise = np.where(level, np.maximum(low, high), low + ratio * (high - low))
-            met = (t >= np.minimum(a, b) - 1e-9) & (t <= np.maximum(a, b) + 1e-9)
-            found = np.where(met, np.maximum(found, rise), found)
+    middle = (at * direction[which]).sum(axis=1)
+    along, z = along[which], z[which]
+    found = np.full(len(which), -np.inf)
+    t = np.clip(middle + np.array([[-0.5], [0.0], [0.5]]), _least(along), -_least(-along))
+    for k in range(3):
+        a, b, low, high = along[:, k], along[:, (k + 1) % 3], z[:, k], z[:, (k + 1) % 3]
+        level = np.abs(b - a) < 1e-9
+        ratio = np.clip((t - a) / np.where(level, 1.0, b - a), 0.0, 1.0)
+        rise = np.where(level, np.maximum(low, high), low + ratio * (high - low))
+        met = (t >= np.minimum(a, b) - 1e-9) & (t <= np.maximum(a, b) + 1e-9)
+        found = np.maximum(found, np.where(met, rise, -np.inf).max(axis=0))
     return np.where(np.isfinite(found), found, -_least(-z))

@@ -1,8 +1,8 @@
 """The step of tops: none where none belongs, one where it is missing, one in the place of another where it is chosen.
 
-Furniture without tops is known by its names (beds, crates, sinks, appliances), unless a top is predicted. A top is
-replaced by hand alone, since what is there is no fault; only parts that are called top panels and are static are taken
-away.
+Furniture without tops is known by its names (beds, crates, sinks, appliances); on a sink unit or an appliance one is
+put where it is predicted. A top is replaced by hand alone, since what is there is no fault; only parts that are called
+top panels and are static are taken away.
 """
 
 from collections.abc import Collection, Iterable, Sequence
@@ -21,10 +21,13 @@ from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
-TOPLESS: Final = word_set(
-    "bed mattress cradle crib cot sofa couch armchair crate basket sink basin washbasin washstand bathtub stove cooker "
-    "hob cooktop oven microwave fridge refrigerator freezer dishwasher washer bin stair"
+OPEN_ABOVE: Final = word_set("bed mattress cradle crib cot sofa couch armchair crate basket bathtub bin stair")
+"""What never has a top."""
+TOPLESS: Final = OPEN_ABOVE | word_set(
+    "sink basin washbasin washstand stove cooker hob cooktop oven microwave fridge refrigerator freezer "
+    "dishwasher washer"
 )
+"""What has none of its own, unless one is predicted."""
 
 
 @final
@@ -82,20 +85,23 @@ def _chosen(scene: Scene, request: StepRequest, choice: TopChoice) -> ReplacedTo
 
 def _unwanted(request: StepRequest) -> str:
     """Returns why furniture that is open above stays so, empty where it lacks its top."""
-    if request.top is not None:  # a name is weaker: washstands, bases of stoves and cases of fridges have tops
-        return ""
+    if request.top is not None:  # stronger than a name: washstands, bases of stoves and cases of fridges have tops
+        return why_no_top(request.names, OPEN_ABOVE)
     named = why_no_top(request.names)
     if named or request.plan.joints or request.plan.refused:
         return named
     return "nothing in it moves and no top was predicted: a crate or an open shelf stays open"
 
 
-def why_no_top(names: Iterable[str]) -> str:
-    """Returns why no top is put on what these are the names of (the piece and its parts), empty where one may be."""
+def why_no_top(names: Iterable[str], words: Collection[str] = TOPLESS) -> str:
+    """Returns why no top is put on what these are the names of (the piece and its parts), empty where one may be.
+
+    `words` are those that exclude one.
+    """
     for name in names:
         said = [singular(word) for word in spoken(name)]
         beside = {i for i, word in enumerate(said[1:]) if word in ("side", "room")}  # a bedside table, a bedroom
-        found = [word for i, word in enumerate(said) if word in TOPLESS and i not in beside]
+        found = [word for i, word in enumerate(said) if word in words and i not in beside]
         if found:
             return f"by its name `{name}` it has a {found[0]}, on which no top belongs"
     return ""
