@@ -60,6 +60,9 @@ class Inside:
         except FunctionalizationError as error:
             raise NotBuilt(" ".join(str(error).split())) from None
 
+    def give_way(self) -> None:
+        pass
+
     def stop(self) -> None:
         pass
 

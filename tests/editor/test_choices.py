@@ -6,7 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.editor.choices import Choose, Known, handle_styles, hinge_templates, rail_templates, with_choice
+from grafu.additions.handle.config import HandleChoice
+from grafu.editor.choices import Choose, handle_styles, hinge_templates, rail_templates, with_choice
+from grafu.editor.known import Known
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side
 from grafu.pipeline.addition_choice import TOP_SHAPES
@@ -21,6 +23,8 @@ KNOWN = Known(
     {"door": LEFT},
     2,
     {"door": PartLabel.DOOR},
+    {"handle_1": "door"},
+    {"door": ((-1.0, 1.0), (-1.0, 1.0))},
 )
 NUMBERS = st.floats(1.0, 300.0)
 ANSWERS: dict[Choose, st.SearchStrategy[Any]] = {
@@ -145,3 +149,26 @@ def test_reject_fixes_a_part_and_leaves_an_added_one_out():
 def test_what_is_no_answer_is_refused_in_words(question, part, value, said):
     with pytest.raises(OptionError, match=said):
         with_choice(Settings(), question, part, value, KNOWN)
+
+
+@pytest.mark.parametrize(
+    ("part", "value", "why"),
+    [
+        ("door", [1.2, 0], "from -1.001 to 1.001 metres"),
+        ("door", [0, -9], "from -1.001"),
+        ("side", [0, 0], "no handle"),
+    ],
+)
+def test_a_handle_is_moved_on_its_front_alone(part, value, why):
+    assert with_choice(Settings(), "handle offset", "door", [1.0, -1.0], KNOWN) != Settings()
+    with pytest.raises(OptionError, match=why):
+        with_choice(Settings(), "handle offset", part, value, KNOWN)
+
+
+def test_a_handle_that_is_left_out_is_not_chosen_any_more():
+    chosen = with_choice(Settings(), "handle", "door", "knob-round", KNOWN)
+    without = with_choice(chosen, "reject", "handle_1", None, KNOWN)
+    assert without.additions.fronts["door"] == HandleChoice("none", replaces=False)
+    assert with_choice(without, "handle", "door", "knob-round", KNOWN) == chosen
+    by_itself = with_choice(Settings(), "reject", "handle_1", None, KNOWN)
+    assert (by_itself.additions.fronts, by_itself.additions.rejected) == ({}, {"handle_1"})

@@ -119,7 +119,7 @@ def test_a_handle_on_a_drawer_has_the_room_of_its_front(page):
     assert page.run(f"grafuEditor.isOnUprightFront({handle!r})")  # so that it can be dragged, too
     box = f"grafuEditor.view.scene.items[grafuEditor.view.itemNamed({DRAWER!r})].box"
     low, high = page.run(f"{box}.map((one) => one[2])")
-    least, most = page.run(f"grafuEditor.roomForHandles({DRAWER!r})[1]")
+    least, most = page.run(f"grafuEditor.state.rooms[{DRAWER!r}][1]")
     assert 0.5 * (high - low) < most - least < high - low
 
 

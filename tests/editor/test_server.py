@@ -170,6 +170,32 @@ def test_export_writes_every_format_and_keeps_the_decisions(editing):
     assert str(saved(editing).motions[DOOR].moves) == "fixed"
 
 
+def test_a_chosen_handle_can_be_left_out_and_its_offset_is_limited(editing):
+    editing.open()
+    (handle,) = [one for one in editing.choose("handle", DOOR, "knob-round")["report"]["added"] if one["link"] == DOOR]
+    (left, right), (down, up) = editing.settled()["rooms"][DOOR]
+    assert 0.3 < right - left < 0.5
+    assert 0.5 < up - down < 0.9
+    room = editing.choose("handle offset", DOOR, [left / 2, up / 2])["rooms"][DOOR]
+    assert [*room[0], *room[1]] == pytest.approx([left, right, down, up], abs=1e-6)  # it is where, not how much farther
+    for value in ([left - 0.01, 0], [0, up + 0.01], [5, 5]):
+        answer = editing.post("/m/0/choose", {"question": "handle offset", "part": DOOR, "value": value})
+        assert (answer.status_code, "metres" in answer.json()["error"]) == (400, True)
+    left_out = editing.choose("reject", handle["part"], None)
+    assert [one["part"] for one in left_out["report"]["added"] if one["link"] == DOOR] == []
+    assert DOOR not in left_out["rooms"]
+    own = {one["name"] for one in left_out["scene"]["items"] if one["label"] == "handle" and one["role"] == "part"}
+    assert own == {"handle_1", "handle_2"}  # those that the input had
+
+
+def test_a_front_with_a_grip_cut_into_it_is_fixed_by_reject(editing):
+    editing.open()
+    cut = editing.choose("handle", DOOR, "hole")
+    assert DOOR in {one["part"] for one in cut["report"]["added"]}
+    assert motion_of(editing.choose("reject", DOOR, None), DOOR) is None
+    assert saved(editing).additions.rejected == frozenset()
+
+
 def test_what_was_chosen_survives_a_killed_server(editing, model, tmp_path):
     editing.open()
     editing.choose("motion", DOOR, "fixed")

@@ -113,7 +113,9 @@ def test_a_click_names_the_part_and_draws_its_axis(shown, made):
         )
     pixels(shown)
 
-    assert shown.run("document.getElementById('chosen').textContent").startswith(joint.child)
+    said = shown.run("document.getElementById('chosen').textContent")
+    assert said.startswith(joint.child)
+    assert said.endswith("has its own joint")
     assert shown.run("document.querySelector('.label').textContent") == joint.child
     assert not shown.run("document.querySelector('svg.overlay').hasAttribute('hidden')")
     assert shown.complaints() == []

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from grafu.cli.input_options import add_input_options, add_limit_option, load_options, with_limits
-from grafu.cli.verb import complain, say
+from grafu.cli.verb import EXIT_DONE, EXIT_TERMINATED, complain, say
 from grafu.processes.lifetime import Terminated
 
 _DESCRIPTION = """\
@@ -52,7 +52,7 @@ def _port(text: str) -> int:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serves until it is ended with Ctrl-C; returns 0.
+    """Serves until it is ended with Ctrl-C; returns 0, or 143 where SIGTERM ended it.
 
     Raises:
         FunctionalizationError: if an input or an option is wrong.
@@ -70,11 +70,10 @@ def run(options: argparse.Namespace) -> int:
     found = open_all(options.inputs, options.out, reading, lambda why: complain(f"left out: {why}"))
     try:
         serve(found, _tell, options.port, browser=not options.no_browser)
-    except Terminated:
-        raise
-    except KeyboardInterrupt:  # the way to end it: what was chosen is saved already
+    except KeyboardInterrupt as end:  # Ctrl-C is the way to end it: what was chosen is saved already
         say("ended; every choice is saved")
-    return 0
+        return EXIT_TERMINATED if isinstance(end, Terminated) else EXIT_DONE
+    return EXIT_DONE
 
 
 def _tell(address: str) -> None:

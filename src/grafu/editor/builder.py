@@ -7,13 +7,13 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from threading import Lock
+from threading import Condition, Lock
 from typing import Any, Final, Protocol, final, runtime_checkable
 
-from grafu.editor.building import Order
+from grafu.editor.building import GIVE_WAY, Order
 from grafu.errors import NotBuilt
 
 PRIVATE: Final = {"ORT_DISABLE_TELEMETRY": "1"}
@@ -37,9 +37,43 @@ class Builds(Protocol):
         """Returns what an order made, or raises `NotBuilt`."""
         ...
 
+    def give_way(self) -> None:
+        """Ends the order `judge`, if that is in work: what it made is nothing."""
+        ...
+
     def stop(self) -> None:
         """Ends what is being made."""
         ...
+
+
+@final
+class Turns:
+    """Lets one order at a time be in work, and `judge` only where no other waits; not a value."""
+
+    def __init__(self) -> None:
+        self._changed = Condition()
+        self._is_taken = False
+        self._waiting = 0  # orders that `judge` gives way to
+
+    @contextmanager
+    def taken(self, can_wait: bool) -> Iterator[None]:
+        """Waits for its turn, and has it for the body."""
+        with self._changed:
+            self._waiting += not can_wait
+            self._changed.wait_for(lambda: not self._is_taken and not (can_wait and self._waiting))
+            self._waiting -= not can_wait
+            self._is_taken = True
+        try:
+            yield
+        finally:
+            with self._changed:
+                self._is_taken = False
+                self._changed.notify_all()
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether an order waits that `judge` gives way to."""
+        return self._waiting > 0
 
 
 @final
@@ -48,26 +82,37 @@ class BuildProcess:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[str] | None = None
-        self._one_at_a_time = Lock()
+        self._turns = Turns()
+        self._sending = Lock()
+        self._judging: subprocess.Popen[str] | None = None
 
     def ask(self, order: Order, on_stage: Callable[[str], None]) -> Answer:
         """Returns what an order made; `on_stage` is called with each stage as it begins.
 
+        The order `judge` gives way to every other one, from whichever page: then it made nothing.
+
         Raises:
             NotBuilt: if something is at fault, or the process was stopped.
         """
-        with self._one_at_a_time:
+        can_wait = order.do == "judge"
+        if not can_wait:
+            self.give_way()
+        with self._turns.taken(can_wait):
             process = self._running()
             try:
                 return self._asked(process, order, on_stage)
-            except OSError:
+            except (OSError, ValueError):  # its streams are closed
                 raise NotBuilt(STOPPED) from None
+            finally:
+                self._judging = None
 
     def _asked(self, process: "subprocess.Popen[str]", order: Order, on_stage: Callable[[str], None]) -> Answer:
-        assert process.stdin is not None
         assert process.stdout is not None
-        process.stdin.write(order.line() + "\n")
-        process.stdin.flush()
+        self._send(process, order.line())
+        if order.do == "judge":
+            self._judging = process
+            if self._turns.is_wanted:  # by an order that came before this one was sent
+                self.give_way()
         for line in process.stdout:
             told = json.loads(line)
             if "stage" in told:
@@ -78,12 +123,25 @@ class BuildProcess:
                 return Answer(told["done"], told["seconds"])
         raise NotBuilt(STOPPED)
 
+    def _send(self, process: "subprocess.Popen[str]", line: str) -> None:
+        assert process.stdin is not None
+        with self._sending:
+            process.stdin.write(line + "\n")
+            process.stdin.flush()
+
+    def give_way(self) -> None:
+        """Ends the order `judge`, if that is in work; the process stays, with its cache."""
+        process = self._judging
+        if process is not None:
+            with suppress(OSError, ValueError):  # it has ended
+                self._send(process, GIVE_WAY)
+
     def stop(self) -> None:
         """Ends the process at once, whatever it does."""
         process, self._process = self._process, None
         if process is not None:
             process.kill()
-            with self._one_at_a_time:  # whoever waits for an answer sees the end of it first
+            with self._turns.taken(can_wait=False):  # whoever waits for an answer sees the end of it first
                 _clear(process)
 
     def _running(self) -> "subprocess.Popen[str]":

@@ -2,38 +2,34 @@
 
 Every line on stdin is a JSON object, see `Order`. It answers on stdout with lines of JSON, `{"stage": NAME}` as a
 stage begins, then `{"done": ...}` or `{"error": WHY}`, where `done` is what the order made. What a choice does not
-touch comes from the cache. When its input ends it ends at once, whatever it is doing.
+touch comes from the cache. The line `GIVE_WAY` ends the order `judge`, if that is in work: then it made
+nothing. When its input ends it ends at once, whatever it is doing.
 """
 
 import json
 import os
+import signal
 import sys
+from _thread import interrupt_main
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass, field
-from functools import cached_property
 from hashlib import blake2b
 from pathlib import Path
 from queue import Queue
 from threading import Thread
 from time import perf_counter
+from types import FrameType
 from typing import Any, Literal, TextIO, final
 
-import numpy as np
-
-from grafu.additions.interior.making import named_in
-from grafu.additions.interior.turned import compartments_of
 from grafu.api.saving import files_of, report_before_saving
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
-from grafu.errors import ExportError, FunctionalizationError, OptionError
+from grafu.editor.shown import Shown
+from grafu.errors import ExportError, FunctionalizationError
 from grafu.export.files import write_files
 from grafu.export.formats import FORMATS, exporter_for
-from grafu.geometry.transform import invert, transform_points
-from grafu.joints.motion_choice import TURNING_SIDES, axis_of_motion, choice_in_words
-from grafu.metrics.collision import TOLERANT, CollisionConfig, first_collisions
 from grafu.pipeline.functionalize import Functionalized, functionalize
-from grafu.pipeline.motion_choices import motions_of
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.report_schema import Report
@@ -41,11 +37,11 @@ from grafu.pipeline.settings import Settings, settings_from_json
 from grafu.processes.cache import CACHED_VALUES, Cache
 from grafu.templates.gallery import builtin_gallery
 from grafu.viewer.live import live_markup, live_page
-from grafu.vocabulary import PartLabel
 
 Say = Callable[[dict[str, Any]], None]
 STATE, GEOMETRY, TEXTURES = "state.json", "geometry.bin", "textures.json"
 _KEPT = 8  # builds: most share their meshes
+GIVE_WAY = "give way"
 FILES = {"geometry": GEOMETRY, "textures": TEXTURES}
 
 
@@ -77,6 +73,39 @@ def order_of(line: str) -> Order:
 
 
 @final
+class GaveWay(KeyboardInterrupt):
+    """What can wait was interrupted for what cannot."""
+
+
+@final
+class Interruptible:
+    """Work that ends where `hear`, the handler of a signal, is called meanwhile; not a value."""
+
+    def __init__(self) -> None:
+        self._is_at_work = False
+
+    def hear(self, _: int, __: FrameType | None) -> None:
+        """Takes the signal; raises GaveWay if there is work."""
+        if self._is_at_work:
+            self._is_at_work = False
+            raise GaveWay
+
+    def made(self, make: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """Returns what is made; nothing where it was interrupted."""
+        try:
+            self._is_at_work = True
+            return make()
+        except GaveWay:
+            return {}
+        finally:
+            self._is_at_work = False
+
+
+CAN_WAIT = Interruptible()
+"""Of this process: signals are the process's, too."""
+
+
+@final
 @dataclass
 class Bench:
     """What stays from one order to the next: assets as they were read, what was made, and the cache; not a value."""
@@ -93,14 +122,13 @@ class Bench:
             FunctionalizationError: if the input, a setting or the folder is at fault.
         """
         settings = settings_from_json(order.settings)
+        if order.do == "judge":
+            return CAN_WAIT.made(lambda: self._judge(order, settings))
         made = self.made(order.source, settings)
         if order.do == "export":
             return self._export(order, made, settings)
-        if order.do == "judge":
-            self._tell("judge")
-            return _stated(made, report_before_saving(made, order.name, formats_here()[0]))
         self._tell("write")
-        return write_page(Shown(made, order.name, self.cache), order.folder)
+        return write_page(Shown(made, order.name, self.cache, settings), order.folder)
 
     def made(self, source: Path, settings: Settings) -> Functionalized:
         """Returns what the settings make of an input, which is read once; the last few are kept, for undo and redo."""
@@ -119,6 +147,11 @@ class Bench:
             self._tell("load")
             self._read = (key, load_asset(source, settings.reading))
         return self._read[1]
+
+    def _judge(self, order: Order, settings: Settings) -> dict[str, Any]:
+        made = self.made(order.source, settings)
+        self._tell("judge")
+        return _stated(made, report_before_saving(made, order.name, formats_here()[0]))
 
     def _export(self, order: Order, made: Functionalized, settings: Settings) -> dict[str, Any]:
         self._tell("export")
@@ -152,72 +185,6 @@ def formats_here() -> tuple[tuple[str, ...], dict[str, str]]:
     return tuple(name for name in FORMATS if name not in left_out), left_out
 
 
-@final
-@dataclass(frozen=True)
-class Shown:
-    """One build, as the page shows it."""
-
-    made: Functionalized
-    name: str
-    cache: Cache
-
-    @cached_property
-    def compartments(self) -> list[dict[str, Any]]:
-        """By number the corners of the compartments (metres, object frame), and the moving bodies before each.
-
-        Also how many shelves were added to each, and why no more (empty: as many as were wanted).
-        """
-        found, T = compartments_of(self.made.before_panels)
-        fittings = self.made.fittings
-        shelves = [one.part.box.center for one in fittings.additions if one.part.label is PartLabel.SHELF]
-        places = transform_points(invert(T), np.array(shelves).reshape(-1, 3))
-        whys = {one.part: str(one) for one in reversed(fittings.refusals)}
-        return [
-            {
-                "corners": np.round(transform_points(T, one.box.corners()), 6).tolist(),
-                "behind": list(one.behind),
-                "shelves": int(((places > one.box.low) & (places < one.box.high)).all(axis=1).sum()),
-                "why": whys.get(named_in(number, PartLabel.SHELF), ""),
-            }
-            for number, one in enumerate(found)
-        ]
-
-    @property
-    def motions(self) -> dict[str, dict[str, Any]]:
-        """How the parts move, as far as a choice can state it."""
-        motions = motions_of(self.made.object)
-        return {
-            part: {"moves": str(choice.moves), "side": choice.side and str(choice.side), "inwards": choice.inwards}
-            for part, choice in motions.items()
-        }
-
-    @property
-    def collisions(self) -> dict[str, dict[str, Any]]:
-        """By part, of joints that collide: at which value first (radians or metres), and which visuals it cuts into."""
-        counted = CollisionConfig(tolerance=TOLERANT.tolerance, moving_bodies=True)
-        clashing = {done.joint: done.moving for done in self.made.report.installed if done.collision_share > 0}
-        found = self.cache.value("collisions", first_collisions, self.made.object, clashing, counted)
-        return {clashing[joint]: {"value": one.value, "others": list(one.others)} for joint, one in found.items()}
-
-    @property
-    def sides(self) -> dict[str, list[str]]:
-        """By part the borders that it can turn about."""
-        return self.cache.value("sides", sides_of, self.made.asset)
-
-
-def sides_of(asset: Asset) -> dict[str, list[str]]:
-    """Returns by part the borders that it can turn about, as words."""
-    return {part.id: [side for side in TURNING_SIDES if _can_turn(part.id, side, asset)] for part in asset.parts}
-
-
-def _can_turn(part: str, side: str, asset: Asset) -> bool:
-    try:
-        axis_of_motion(asset.part(part), choice_in_words(side), asset.box)
-    except OptionError:
-        return False
-    return True
-
-
 def write_page(shown: Shown, folder: Path) -> dict[str, Any]:
     """Writes what the page shows into a folder; returns the digests of what it need not fetch again if it has it."""
     made = shown.made
@@ -233,6 +200,8 @@ def write_page(shown: Shown, folder: Path) -> dict[str, Any]:
         "sides": shown.sides,
         "compartments": shown.compartments,
         "collisions": shown.collisions,
+        "upright": shown.upright,
+        "rooms": shown.rooms(page.scene["items"], report),
         "sliding": [joint.part for joint in report.joints if motion_kind(joint.type).slides],
         **digests,
     }
@@ -264,7 +233,10 @@ def _lines() -> Iterator[str]:
 
     def read() -> None:
         for line in sys.stdin:
-            lines.put(line)
+            if line.strip() == GIVE_WAY:
+                interrupt_main(signal.SIGINT)
+            else:
+                lines.put(line)
         os._exit(0)
 
     Thread(target=read, daemon=True).start()
@@ -282,6 +254,7 @@ def _own_output() -> TextIO:
 def main() -> None:
     """Serves until its input ends; a fault of ours is one line, and ends it."""
     output = _own_output()
+    signal.signal(signal.SIGINT, CAN_WAIT.hear)  # Ctrl-C ends the server, which ends this
 
     def say(values: dict[str, Any]) -> None:
         output.write(json.dumps(values, ensure_ascii=True) + "\n")

@@ -3,20 +3,21 @@
 Values are plain JSON; null takes a choice back, so that it is automatic again.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import replace
 from enum import StrEnum
 from math import isfinite, radians
 from types import MappingProxyType
-from typing import Any, Final, final
+from typing import Any, Final
 
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
 from grafu.additions.interior.request import MOST_PANELS, CompartmentChoice
 from grafu.asset.lasso_cut import Lasso
 from grafu.asset.regrouping import Regroup, Regrouping
+from grafu.editor.known import Known
 from grafu.errors import OptionError
-from grafu.joints.motion_choice import FIXED, MotionChoice, choice_in_words
+from grafu.joints.motion_choice import FIXED, choice_in_words
 from grafu.joints.plan import AUTOMATIC, CUP, PIVOT
 from grafu.pipeline.addition_choice import GRIPS, TOP_SHAPES, choose_additions
 from grafu.pipeline.settings import Settings
@@ -24,11 +25,10 @@ from grafu.templates.gallery import builtin_gallery, open_handles
 from grafu.visible import visible
 from grafu.vocabulary import MOTION_WORDS, PartLabel
 
-WHOLE = ""
-"""The part of questions about the whole piece."""
-_CENTIMETRE = 0.01
+WHOLE = ""  # the part of questions about the whole piece
+_CENTIMETRE, _MILLIMETRE = 0.01, 0.001  # metres
+_LEFT_OUT: Final = HandleChoice(NO_HANDLE, replaces=False)  # a front without what was added to it
 FARTHEST = 10_000.0  # metres: no point that is pointed at lies farther off
-
 
 LIMITS: Final = MappingProxyType({"turn": (1.0, 360.0), "slide": (0.1, 1000.0), "shelves": (0.0, float(MOST_PANELS))})
 """By question the least and the greatest number that is an answer: degrees, centimetres, shelves."""
@@ -54,24 +54,6 @@ class Choose(StrEnum):
     TOP = "top"  # of the whole: the shape of a missing top, or none
     HINGE = "hinge"  # of the whole: the template that doors get where it finds room
     HANDLES = "handles"  # of the whole: the style of all handles that are added, or none
-
-
-@final
-@dataclass(frozen=True)
-class Known:
-    """What the last build knows of the parts that are asked about.
-
-    `parts` are the ids of the input's parts, `added` those of the parts that were added, `moving` those that move,
-    `motions` how they do (none of a part whose motion no choice can state). `compartments` counts these. `categories`
-    are those of parts that have one.
-    """
-
-    parts: frozenset[str]
-    added: frozenset[str] = frozenset()
-    moving: frozenset[str] = frozenset()
-    motions: Mapping[str, MotionChoice] = field(default_factory=dict)
-    compartments: int = 0
-    categories: Mapping[str, PartLabel] = field(default_factory=dict)
 
 
 def with_choice(settings: Settings, question: str, part: str, value: Any, known: Known) -> Settings:
@@ -127,6 +109,9 @@ def _accept(settings: Settings, part: str, _: Any, known: Known) -> Settings:
 
 
 def _reject(settings: Settings, part: str, _: Any, known: Known) -> Settings:
+    front = known.fronts.get(part, WHOLE)
+    if front in settings.additions.fronts:  # its handle was chosen: what is chosen now is that it gets none
+        return settings.with_front(front, _LEFT_OUT)
     if part in known.added:
         return settings.with_addition(part, accepted=False)
     return settings.with_motion(part, FIXED)
@@ -156,18 +141,23 @@ def _template(settings: Settings, part: str, value: Any, _: Known) -> Settings:
 def _handle(settings: Settings, part: str, value: Any, _: Known) -> Settings:
     if value is None:
         return settings.with_front(part, None)
-    before = settings.additions.fronts.get(part, HandleChoice())
+    chosen = settings.additions.fronts.get(part, _LEFT_OUT)
+    before = HandleChoice() if chosen == _LEFT_OUT else chosen
     return settings.with_front(part, replace(before, style=_word(value, handle_styles(), "a handle")))
 
 
-def _handle_offset(settings: Settings, part: str, value: Any, _: Known) -> Settings:
+def _handle_offset(settings: Settings, part: str, value: Any, known: Known) -> Settings:
     before = settings.additions.fronts.get(part, HandleChoice())
     if value is None:
         moved = replace(before, offset=(0.0, 0.0))
         return settings.with_front(part, None if moved == HandleChoice() else moved)
     if not isinstance(value, list) or len(value) != 2:
         raise OptionError(f"the offset of a handle must be two numbers, metres: got {_said(value)}")
-    aside, up = (_number(number, -10.0, 10.0, "metres") for number in value)
+    if part not in known.rooms:
+        raise OptionError(f"{_said(part)} has no handle that was added: there is none to be moved")
+    (left, right), (down, above) = known.rooms[part]
+    aside = _number(value[0], left - _MILLIMETRE, right + _MILLIMETRE, "metres")
+    up = _number(value[1], down - _MILLIMETRE, above + _MILLIMETRE, "metres")
     return settings.with_front(part, replace(before, offset=(aside, up)))
 
 

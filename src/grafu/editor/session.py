@@ -6,24 +6,21 @@ All of it runs on the server's event loop; only what the builder does runs in a 
 import asyncio
 import json
 from collections.abc import AsyncIterator, Callable, Mapping
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, final
 
 from grafu.editor.builder import Answer, Builds
 from grafu.editor.building import FILES, STATE, Order
-from grafu.editor.choices import Known, with_choice
+from grafu.editor.choices import with_choice
 from grafu.editor.decisions import Prediction, append_lines, decided, decision_lines, predictions_of
 from grafu.editor.history import History
+from grafu.editor.known import Known
+from grafu.editor.last_build import LastBuild
 from grafu.editor.workspace import Workspace
 from grafu.errors import FunctionalizationError
-from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.pipeline.decisions import DECISIONS, Key, decided_before
-from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
-from grafu.vocabulary import PartLabel
 
 Event = dict[str, Any]
 WAITING = "wait"
@@ -31,52 +28,6 @@ WAITING = "wait"
 JUDGING = "judge"
 """The stage after a build that is shown already."""
 _STATED = ("report", "markup")  # of the state
-
-
-@final
-@dataclass(frozen=True)
-class LastBuild:
-    """One build: its number, the settings that it was built with, and its state as the page gets it.
-
-    It `is_judged` once masses and collision shapes are known, which the verdict of its report depends on, too. `files`
-    are what the page fetches besides, by the names that the state gives their digests.
-    """
-
-    number: int
-    settings: Settings
-    state: dict[str, Any]
-    files: dict[str, bytes]
-    seconds: float
-    is_judged: bool = False
-
-    def judged(self, stated: Mapping[str, Any]) -> "LastBuild":
-        """Returns the build with its report as it is now known, and what the page states of it."""
-        return replace(self, state={**self.state, **stated}, is_judged=True)
-
-    @cached_property
-    def report(self) -> Report:
-        """The report."""
-        return Report.model_validate(self.state["report"])
-
-    @cached_property
-    def motions(self) -> dict[str, MotionChoice]:
-        """How the parts move, as far as a choice can state it."""
-        return {
-            part: MotionChoice(Moves(m["moves"]), m["side"] and Side(m["side"]), m["inwards"])
-            for part, m in self.state["motions"].items()
-        }
-
-    @property
-    def known(self) -> Known:
-        """What choices may be about."""
-        return Known(
-            frozenset(part.id for part in self.report.parts),
-            frozenset(added.part for added in self.report.added),
-            frozenset(joint.part for joint in self.report.joints),
-            self.motions,
-            len(self.state["compartments"]),
-            {part.id: part.category for part in self.report.parts if part.category is not PartLabel.UNKNOWN},
-        )
 
 
 @final
@@ -141,14 +92,17 @@ class Session:
         self.build()
 
     def build(self) -> None:
-        """Has the model built as it is chosen, unless it is, or is at it."""
-        if not self.is_building and not self._is_up_to_date:
+        """Has the model built as it is chosen, unless it is, or is at it; a last build is judged after that."""
+        if self.is_building:
+            if self._stage == JUDGING and not self._is_up_to_date:
+                self.builder.give_way()
+        elif not self._is_complete:
             self.error = ""
             self._task = asyncio.get_running_loop().create_task(self._build_all())
 
     def stop(self) -> None:
         """Stops what is being built; the choice that it was for is taken back."""
-        if self.is_building and self._stage != WAITING:  # else the builder is at another model
+        if self.is_building and self._stage not in (WAITING, JUDGING):  # else it is at another model, or gives way
             self.builder.stop()
 
     async def finished(self) -> None:
@@ -160,11 +114,17 @@ class Session:
     def _is_up_to_date(self) -> bool:
         return self.built is not None and self.built.settings == self.history.present
 
+    @property
+    def _is_complete(self) -> bool:
+        return self._is_up_to_date and self.built is not None and self.built.is_judged
+
     async def _build_all(self) -> None:
-        while not self._is_up_to_date and not self.error:
-            await self._build(self.history.present)
+        goes_on = True
+        while goes_on and not self._is_complete:
             if self._is_up_to_date:
-                await self._judge()
+                goes_on = await self._judge()
+            elif goes_on := not self.error:
+                await self._build(self.history.present)
 
     async def _build(self, settings: Settings) -> None:
         try:
@@ -181,15 +141,21 @@ class Session:
             self._stage = JUDGING
         self._tell_anew()
 
-    async def _judge(self) -> None:
-        """Completes the report of the last build; where that fails or is stopped, it stays as it is."""
+    async def _judge(self) -> bool:
+        """Completes the report of the last build; where that fails, it stays as it is. Returns whether it did not."""
         built = self.built
-        if built is not None and not built.is_judged:
-            with suppress(FunctionalizationError):
-                answer = await self._ask("judge", self.folder, built.settings)
+        assert built is not None
+        try:
+            answer = await self._ask("judge", self.folder, built.settings)
+        except FunctionalizationError:
+            has_failed = True
+        else:
+            has_failed = False
+            if answer.made:  # else it gave way
                 self._learn(built, answer.made)
         self._stage = ""
         self._tell_anew()
+        return not has_failed
 
     def _learn(self, built: LastBuild | None, made: Mapping[str, Any]) -> None:
         if built is not None and self.built is built:
@@ -243,9 +209,9 @@ class Session:
         loop = asyncio.get_running_loop()
 
         def on_stage(stage: str) -> None:
-            loop.call_soon_threadsafe(self._at_stage, stage)
+            loop.call_soon_threadsafe(self._at_stage, JUDGING if do == "judge" else stage)
 
-        self._at_stage(WAITING)
+        self._at_stage(JUDGING if do == "judge" else WAITING)
         return await asyncio.to_thread(self.builder.ask, order, on_stage)
 
     def _at_stage(self, stage: str) -> None:

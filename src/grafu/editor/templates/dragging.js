@@ -6,11 +6,12 @@ const OPENING = 0.45; // seconds
 const NEARBY = 6; // pixels that a pointer may miss a handle by: many are three wide
 
 class LiveView extends ModelView {
-  constructor(stage, { chosen, moved, movable }) {
+  constructor(stage, { chosen, moved, movable, room }) {
     super(stage);
     this.told = chosen;
     this.moved = moved;
     this.movable = movable;
+    this.roomOf = room;
     this.lasso = new LassoTool(this, this.canvas);
   }
 
@@ -146,7 +147,7 @@ class LiveView extends ModelView {
     const [ax, ay] = clip([1e-3, 0, 0]), [bx, by] = clip([0, 0, 1e-3]), area = ax * by - ay * bx;
     if (Math.abs(area) < 1e-12) return null;
     let offset = [0, 0];
-    const room = this.roomOnFront(item);
+    const room = this.roomOf(item.name);
     const finish = () => {
       if (offset[0] || offset[1]) this.moved(item.name, offset);
     };
@@ -158,26 +159,6 @@ class LiveView extends ModelView {
       pieces.forEach((piece, k) => (piece.low = add(lows[k], [offset[0], 0, offset[1]])));
       this.redraw();
     };
-  }
-
-  // Returns how far an item can be moved over its front, aside (X) and up (Z): the least and the most, metres.
-  roomOnFront({ link, box: [low, high] }) {
-    const boxes = this.boxesOf(link);
-    return [0, 2].map((axis) => {
-      const least = Math.min(...boxes.map((box) => box[0][axis])) - low[axis];
-      const most = Math.max(...boxes.map((box) => box[1][axis])) - high[axis];
-      return least < most ? [least, most] : [0, 0];
-    });
-  }
-
-  // Returns the longest side of the front that an item is on, metres.
-  longestSide({ link }) {
-    return Math.max(...this.boxesOf(link).flatMap(([low, high]) => minus(high, low)));
-  }
-
-  // Returns the boxes of the input's parts on a link: lowest and highest corner, metres.
-  boxesOf(link) {
-    return this.scene.items.filter((item) => item.link === link && item.role === "part").map((item) => item.box);
   }
 
   // Takes the place of a build that was shown: what stood open stays open, what was chosen stays chosen.

@@ -11,11 +11,11 @@ class Editor {
       chosen: (part) => this.inspector.choosePart(part),
       moved: (handle, by) => this.moveHandle(handle, by),
       movable: (handle) => this.isOnUprightFront(handle),
+      room: (handle) => this.roomOf(handle),
     });
     this.inspector = new Inspector({
       choose: (question, part, value) => this.choose(question, part, value),
       picked: (part) => this.pick(part),
-      room: (part) => this.roomForHandles(part),
       at: this.at,
     });
     this.toolbar = new Toolbar({
@@ -113,31 +113,27 @@ class Editor {
   }
 
   moveHandle(handle, [aside, up]) {
-    const { report, settings } = this.state, { link } = report.added.find((one) => one.part === handle);
-    const [x, y] = settings.additions.fronts[link]?.offset ?? [0, 0];
-    this.choose("handle offset", link, [x + aside, y + up]);
+    const front = this.frontOf(handle), [x, y] = this.offsetOn(front);
+    this.choose("handle offset", front, [x + aside, y + up]);
   }
 
-  // Whether a handle is on a front that stands upright and looks to the front: there X is aside and Z is up. So does
-  // that of a drawer which is pulled out to the front, however deep its box is.
+  // Whether a handle is on a front that stands upright and looks to the front: there X is aside and Z is up.
   isOnUprightFront(handle) {
-    const front = this.state.report.added.find((one) => one.part === handle)?.link;
-    const { moves, side } = this.state.motions[front] ?? {}, sides = this.state.sides[front] ?? [];
-    if (moves === "slides" && side === "front") return true;
-    return ["left", "right", "top", "bottom"].every((side) => sides.includes(side));
+    return this.state.upright.includes(this.frontOf(handle));
   }
 
-  // Returns how far the handles that were added to a front can be moved over it: aside and up, the least and the most,
-  // metres. Of a front that lies, or looks aside, that is its longest side either way.
-  roomForHandles(part) {
-    const handles = this.state.report.added.filter((one) => one.category === "handle" && one.link === part);
-    const items = handles.map((one) => this.view.scene.items[this.view.itemNamed(one.part)]);
-    if (handles.every((one) => this.isOnUprightFront(one.part))) {
-      const rooms = items.map((item) => this.view.roomOnFront(item));
-      return [0, 1].map((k) => [Math.max(...rooms.map((room) => room[k][0])), Math.min(...rooms.map((room) => room[k][1]))]);
-    }
-    const longest = Math.max(...items.map((item) => this.view.longestSide(item)));
-    return [[-longest, longest], [-longest, longest]];
+  // Returns how far a handle can be moved from where it is: aside and up, the least and the most, metres.
+  roomOf(handle) {
+    const front = this.frontOf(handle), offset = this.offsetOn(front);
+    return this.state.rooms[front].map((range, k) => range.map((by) => by - offset[k]));
+  }
+
+  frontOf(handle) {
+    return this.state.report.added.find((one) => one.part === handle)?.link;
+  }
+
+  offsetOn(front) {
+    return this.state.settings.additions.fronts[front]?.offset ?? [0, 0];
   }
 
   // Applies an option that the tables name, such as `--move door_1=left`.

@@ -21,8 +21,8 @@ function heldFocus() {
   for (let box = held.parentElement; box && box !== document.body; box = box.parentElement) around.push(box);
   const words = namesOf(held), root = around.find((box) => box.id), place = root && words[0] ? found(root, words[0]).indexOf(held) : 0;
   return () => {
-    if (document.activeElement === held && !held.disabled && !held.hidden) return;
-    const within = around.find((box) => box.isConnected && box.querySelector(CONTROLS));
+    if (document.activeElement === held && isOpen(held)) return;
+    const within = around.find((box) => box.isConnected && controlsIn(box).some(isOpen));
     const same = held.isConnected ? [held] : words.map((word) => inPlace(found(within, word), place));
     const near = within ? controlsIn(within) : [];
     [...same, ...near].find((control) => control && isOpen(control))?.focus({ preventScroll: true });

@@ -6,9 +6,8 @@ const CENTIMETRES = 100;
 const tenths = (value, round = Math.round) => round(10 * value) / 10;
 
 class Inspector {
-  constructor({ choose, picked, room, at }) {
+  constructor({ choose, picked, at }) {
     this.choose = choose;
-    this.room = room;
     this.hinges = at.hinges;
     this.rails = at.rails;
     this.limits = at.limits;
@@ -39,7 +38,7 @@ class Inspector {
     const { report, settings } = state;
     const moving = report.joints.map((joint) => joint.part);
     const still = report.parts.map((part) => part.id).filter((part) => !moving.includes(part));
-    const groups = { "Moving parts": moving, "Other parts": still, "Added parts": report.added.map((one) => one.part) };
+    const groups = { "Moving parts": moving, "Other parts": still, "Added parts": report.added.map((one) => one.part).filter((part) => !(part in state.sides)) };
     const options = Object.entries(groups).filter(([, parts]) => parts.length).map(([label, parts]) => {
       const group = Object.assign(document.createElement("optgroup"), { label });
       group.append(...[...new Set(parts)].map((part) => new Option(part, part)));
@@ -110,16 +109,16 @@ class Inspector {
     this.field("label").value = settings.labels[part] ?? "";
     ["opening", "template", "handle"].forEach((name) => (this.field(name).disabled = !joint));
     this.field("label").disabled = this.isAdded;
-    const handle = report.added.some((one) => one.category === "handle" && one.link === part);
-    document.getElementById("offset-fields").hidden = !handle;
-    if (handle) this.showPlace(settings.additions.fronts[part]?.offset ?? [0, 0]);
+    const room = this.state.rooms[part];
+    document.getElementById("offset-fields").hidden = !room;
+    if (room) this.showPlace(room, settings.additions.fronts[part]?.offset ?? [0, 0]);
     this.showShelves();
   }
 
   // Shows how far the handle is moved aside and up, metres; no field takes it beyond its front.
-  showPlace(offset) {
-    this.room(this.part).forEach(([least, most], k) => {
-      const [low, high] = [[least, Math.ceil], [most, Math.floor]].map(([by, round]) => tenths(CENTIMETRES * (offset[k] + by), round));
+  showPlace(room, offset) {
+    room.forEach(([least, most], k) => {
+      const [low, high] = [[least, Math.ceil], [most, Math.floor]].map(([by, round]) => tenths(CENTIMETRES * by, round));
       limit(this.offsets[k], [Math.min(low, high), Math.max(low, high)], "centimetres: farther, it is not on its front");
       put(this.offsets[k], String(tenths(CENTIMETRES * offset[k])), this.part);
     });
@@ -166,7 +165,8 @@ class Inspector {
     this.field("top").value = !top ? "none" : top.shape === "rectangle" ? "" : top.shape;
     this.field("hinge").value = settings.hinge;
     this.field("handles").value = !handles && !grips ? "none" : handles?.style ?? "";
-    const buttons = additions.rejected.map((part) => {
+    const added = this.state.report.added.map((one) => one.part);
+    const buttons = additions.rejected.filter((part) => !added.includes(part)).map((part) => {
       const button = Object.assign(document.createElement("button"), { type: "button", textContent: `Restore ${part}` });
       button.dataset.restore = part;
       return button;

@@ -25,7 +25,7 @@ class Toolbar {
     this.button("redo").disabled = !redo;
     this.button("anew").disabled = !build && !error;
     this.button("export").disabled = !build;
-    this.button("stop").hidden = !busy;
+    this.button("stop").hidden = !busy || stage === "judge"; // which gives way to every choice
     document.getElementById("bar").hidden = !busy;
     document.body.toggleAttribute("data-busy", busy);
     if (busy) this.progress.textContent = `${STAGES[stage] ?? stage} ...`;

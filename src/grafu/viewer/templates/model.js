@@ -139,7 +139,8 @@ class ModelView {
 
   described(item, joint) {
     const kind = item.role === "hardware" ? "hardware" : item.role === "added" ? `${item.label}, added` : item.label;
-    const moves = joint === null ? "is static" : `moves with ${this.scene.joints[joint].part}`;
+    const part = joint === null ? "" : this.scene.joints[joint].part, own = part === item.name;
+    const moves = joint === null ? "is static" : own ? "has its own joint" : `moves with ${part}`;
     const was = item.source ? ` (“${item.source}” in the input)` : "";
     return `${item.name}${was}: ${kind}, ${moves}`;
   }
