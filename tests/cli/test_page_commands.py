@@ -1,6 +1,6 @@
 """Commands of the reference pages run as they stand on stand-ins: small models, few of them.
 
-What is left out needs data or programs that nobody can fetch here, a server that waits, or hours; other tests run it.
+What is left out needs data or programs that cannot be fetched here, a server that waits, or hours; other tests run it.
 """
 
 import json
@@ -33,7 +33,7 @@ MORE = {
     "dataset": ["--overwrite"],
     "evaluate": ["--overwrite", "--tables", "motion,models"],
 }
-"""What else a verb is told: commands of a page write to one folder, and tables are many."""
+"""Options that are added to a verb: commands of a page write to one folder, and tables are many."""
 
 
 def lines_of(page: str) -> list[str]:
