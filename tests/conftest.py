@@ -3,11 +3,15 @@
 import os
 import signal
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 from shape_checks import use_in_import_hook
+
+if TYPE_CHECKING:
+    from chromium import Chromium
 
 use_in_import_hook()
 
@@ -54,3 +58,19 @@ def one_thread() -> Iterator[None]:
     torch.set_num_threads(1)
     yield
     torch.set_num_threads(threads)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator["Chromium"]:
+    """A headless Chromium that tests share."""
+    from chromium import Chromium, chromium_path
+
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no Chromium here")
+    try:
+        browser = Chromium(path)
+    except (AssertionError, OSError) as error:
+        pytest.skip(f"Chromium does not start: {error}")
+    yield browser
+    browser.close()

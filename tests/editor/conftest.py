@@ -3,8 +3,6 @@ from pathlib import Path
 
 import pytest
 
-from chromium import Chromium, chromium_path
-
 
 @pytest.fixture(scope="session")
 def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -33,19 +31,6 @@ def editing(model: Path, inside, tmp_path: Path) -> Iterator:
 
     with Editing(open_all([model], tmp_path / "out"), tmp_path / "scratch", inside) as found:
         yield found
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Chromium]:
-    path = chromium_path()
-    if path is None:
-        pytest.skip("no Chromium here")
-    try:
-        browser = Chromium(path)
-    except (AssertionError, OSError) as error:
-        pytest.skip(f"Chromium does not start: {error}")
-    yield browser
-    browser.close()
 
 
 @pytest.fixture(scope="session")

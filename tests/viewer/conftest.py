@@ -1,22 +1,6 @@
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-
-from chromium import Chromium, chromium_path
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Chromium]:
-    path = chromium_path()
-    if path is None:
-        pytest.skip("no Chromium here")
-    try:
-        browser = Chromium(path)
-    except (AssertionError, OSError) as error:
-        pytest.skip(f"Chromium does not start: {error}")
-    yield browser
-    browser.close()
 
 
 @pytest.fixture(scope="session")

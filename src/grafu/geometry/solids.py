@@ -18,6 +18,7 @@ from grafu.geometry.appearance import Surface, attribute_rows, from_attributes
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, cross, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
+from grafu.geometry.directions import directions_around
 from grafu.geometry.face_cuts import NOTHING, left_over
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 
@@ -214,13 +215,4 @@ def few_corners(points: Points, most: int) -> Float[np.ndarray, "k 3"]:
     if len(points) <= most:
         return points
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
-    return points[np.unique(np.argmax((_spread(most) / size) @ points.T, axis=1))]
-
-
-@lru_cache(maxsize=8)
-def _spread(count: int) -> Points:
-    """Returns unit vectors spread evenly over all directions (a golden-angle spiral)."""
-    turn = np.arange(count) * np.pi * (3.0 - np.sqrt(5.0))
-    height = 1.0 - (2.0 * np.arange(count) + 1.0) / count
-    ring = np.sqrt(1.0 - height**2)
-    return np.asarray(frozen_array(np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])))
+    return points[np.unique(np.argmax((directions_around(most) / size) @ points.T, axis=1))]

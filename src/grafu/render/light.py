@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float32
 
 from grafu.geometry.arrays import Vec3
+from grafu.geometry.directions import directions_around
 from grafu.render.camera import Camera
 from grafu.render.ray_scene import Hits, Rays, RayScene, Values
 
@@ -21,19 +22,10 @@ _KEY_SPREAD = np.tan(radians(5))  # the key light's half angle: how soft a shado
 _SKY_RAYS = 3  # per pixel; what is smoothed over 4x4 pixels has 48
 
 
-def _sphere_points(count: int) -> np.ndarray:
-    """Returns points spread evenly over the unit sphere (golden-angle spiral), from the top down."""
-    k = np.arange(count) + 0.5
-    z, turn = 1 - 2 * k / count, k * np.pi * (3 - np.sqrt(5))
-    return np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], axis=1).astype(
-        np.float32
-    )
-
-
 _ROW, _COLUMN = np.divmod(np.arange(16), 4)
 _SPREAD = (_ROW + _COLUMN) % 4 * 4 + _ROW  # each row and each column of the 4x4 pattern has all heights
-_SKY_POINTS = _sphere_points(16 * _SKY_RAYS).reshape(_SKY_RAYS, 16, 3)[:, _SPREAD]
-_KEY_POINTS = _sphere_points(16)[_SPREAD]
+_SKY_POINTS = directions_around(16 * _SKY_RAYS).astype(np.float32).reshape(_SKY_RAYS, 16, 3)[:, _SPREAD]
+_KEY_POINTS = directions_around(16).astype(np.float32)[_SPREAD]
 
 
 def key_direction(camera: Camera) -> Vec3:
