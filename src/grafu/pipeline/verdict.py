@@ -176,7 +176,7 @@ def _unsure(report: Report, config: VerdictConfig) -> Iterator[GuessRecord]:
 
 
 def _guessed(guess: GuessRecord, report: Report, config: VerdictConfig) -> FaultRecord:
-    what = {"label": "category", "border": "hinge border", "sign": "opening direction"}
+    what = {"label": "category", "border": "hinge side", "sign": "opening direction"}
     sure = f"confidence {percent(guess.score)}, below {percent(config.least_confidence)}"
     other = f"; {guess.runner_up}: {percent(guess.runner_up_score)}" if guess.runner_up else ""
     why = f"{what.get(guess.question, 'slide direction')} {guess.choice}: {sure}{other}"
