@@ -69,6 +69,12 @@ def test_the_floor_is_where_the_case_stands_not_where_the_front_ends():
     assert lowest(articulated, found) == pytest.approx(0.01 + GAP)
 
 
+def test_a_thick_shape_of_a_thin_bottom_does_not_lower_the_floor():
+    articulated = made(0.0, UPRIGHT)
+    found = off_floor(articulated, shapes(articulated, case_low=-0.0017))
+    assert lowest(articulated, found) == pytest.approx(GAP)
+
+
 def test_a_front_that_hangs_below_all_else_is_left_whole():
     articulated = made(0.0, UPRIGHT)
     found = off_floor(articulated, shapes(articulated, case_low=0.1))

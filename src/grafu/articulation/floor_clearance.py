@@ -58,8 +58,9 @@ def off_floor(
 ) -> Shapes:
     """Returns the shapes of each link, those of moving links cut where they come too near to the floor.
 
-    The floor is as high as the lowest shape of what is neither a door nor a drawer. Where moving links alone stand on
-    it, as on casters, these are left as they are. Shapes are in the object frame at rest.
+    The floor is as high as the lowest shape of what is neither a door nor a drawer, or as its lowest mesh, where shapes
+    reach below that (a thin sheet's does). Where moving links alone stand on it, as on casters, these are left as they
+    are. Shapes are in the object frame at rest.
     """
     floor = _floor(articulated, shapes, config)
     if floor is None:
@@ -90,7 +91,10 @@ def _floor(
     """Returns the height of the floor; None: nothing stands on one."""
     fronts = {link.id for link in articulated.links if any(visual.label in _FRONTS for visual in link.visuals)}
     others = floor_below({link: held for link, held in shapes.items() if link not in fronts})
-    return others if np.isfinite(others) and others - floor_below(shapes) <= config.most else None
+    if not np.isfinite(others) or others - floor_below(shapes) > config.most:
+        return None
+    drawn = (link.mesh for link in articulated.links if link.id not in fronts)
+    return max(others, min((float(mesh.box.low[2]) for mesh in drawn if len(mesh.vertices)), default=others))
 
 
 def carrying_links(
