@@ -9,36 +9,15 @@ their face frame.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Final, final
+from typing import Final
 
 import numpy as np
 
 from grafu.geometry.arrays import Indices
 from grafu.geometry.components import linked
 from grafu.segmentation.config import CandidateConfig, FrameConfig, SegmentationConfig
-from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
-
-_NO_AREA = 1e-300
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Scale:
-    """The size of the object that holds each shell."""
-
-    extent: ScalarsOfShells
-    outline: ScalarsOfShells  # the area of the object as it is seen
-
-    @classmethod
-    def of(cls, view: ShellsView) -> "Scale":
-        """Returns the scale of each shell."""
-        count = int(view.owner.max()) + 1
-        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-        np.minimum.at(low, view.owner, view.low)
-        np.maximum.at(high, view.owner, view.high)
-        size = (high - low)[view.owner]
-        return cls(np.asarray(size.max(axis=1)), size[:, 0] * size[:, 1])
+from grafu.segmentation.surroundings import NO_AREA, Scale, has_handle, has_room, is_before_case, is_flanked, is_recess, is_seen
+from grafu.segmentation.view import MaskOfShells, ShellsView
 
 
 def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig) -> Indices:
@@ -52,7 +31,7 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
     scale, size = Scale.of(view), view.size
     shorter, longer = size[:, :2].min(axis=1), size[:, :2].max(axis=1)
     area = size[:, 0] * size[:, 1]
-    cover = np.minimum(view.faced[:, 2] / np.maximum(area, _NO_AREA), 1.0)
+    cover = np.minimum(view.faced[:, 2] / np.maximum(area, NO_AREA), 1.0)
     large = (shorter >= config.least * scale.extent) & (longer <= config.most_narrow * shorter)
     plate = (size[:, 2] <= config.plate * shorter) & (cover >= config.ring)
     body = (size[:, 2] > config.plate * shorter) & (cover >= config.solid)
@@ -63,80 +42,20 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
         k
         for k in found.tolist()
         if (  # rays come last: many views are never asked for any
-            (body[k] and _has_handle(view, k, config.near * float(scale.extent[k]), config))
+            (body[k] and has_handle(view, k, config.near * float(scale.extent[k]), config))
             or (
-                _has_room(view, k, config.room * float(shorter[k]), config)
-                and (plate[k] or _is_flanked(view, k, scale, config))
+                has_room(view, k, config.room * float(shorter[k]), config)
+                and (
+                    plate[k]
+                    or is_flanked(view, k, scale, config)
+                    or is_before_case(view, k, config.near * float(scale.extent[k]), config)
+                )
             )
         )
-        and _is_seen(view, k, bool(cover[k] < config.full), config.near * float(scale.extent[k]), config)
+        and not is_recess(view, k, scale, config)
+        and is_seen(view, k, bool(cover[k] < config.full), config.near * float(scale.extent[k]), config)
     ]
     return np.array(kept, dtype=np.int64)
-
-
-def within(view: ShellsView, shell: int, near: float) -> MaskOfShells:
-    """Returns for each shell whether its outline lies in that of `shell`, which it may leave by `near`."""
-    inside = (view.low[:, :2] >= view.low[shell, :2] - near) & (view.high[:, :2] <= view.high[shell, :2] + near)
-    found = np.asarray(inside.all(axis=1))
-    found[shell] = False
-    return found
-
-
-def overlaps(view: ShellsView, shell: int) -> ScalarsOfShells:
-    """Returns which fraction of the outline of `shell` that of each shell covers."""
-    low = np.maximum(view.low[:, :2], view.low[shell, :2])
-    high = np.minimum(view.high[:, :2], view.high[shell, :2])
-    size = view.size[shell, :2]
-    return np.prod(np.maximum(high - low, 0.0), axis=1) / max(float(size[0] * size[1]), _NO_AREA)
-
-
-def _is_seen(view: ShellsView, shell: int, is_frame: bool, near: float, config: CandidateConfig) -> bool:
-    """Whether little hides a shell, and most of its outline shows it or what it holds."""
-    rows, columns = view.window(shell)
-    first, depth = view.seen[rows, columns], view.depth[rows, columns]
-    own = within(view, shell, near) & (view.low[:, 2] <= view.high[shell, 2] + config.before * near)
-    own[shell] = True
-    is_own = (first >= 0) & own[first]
-    hidden = (first >= 0) & ~is_own & (depth > view.high[shell, 2] + near)
-    return bool(hidden.mean() <= config.hidden and (is_frame or is_own.mean() >= config.seen))
-
-
-def _has_handle(view: ShellsView, shell: int, near: float, config: CandidateConfig) -> bool:
-    """Whether something small stands out of the middle of a body as deep as a drawer: a knob or a bar, of no panel."""
-    if view.size[shell, 2] < view.size[shell, :2].min():
-        return False
-    on = within(view, shell, 0.0) & (np.abs(view.low[:, 2] - view.high[shell, 2]) <= near)
-    on &= view.high[:, 2] > view.high[shell, 2] + near
-    on &= np.prod(view.size[:, :2], axis=1) <= config.handle * np.prod(view.size[shell, :2])
-    middles = np.abs((view.low + view.high - view.low[shell] - view.high[shell])[:, :2]) / 2
-    return bool((on & (middles <= near).any(axis=1)).any())
-
-
-def _has_room(view: ShellsView, shell: int, least: float, config: CandidateConfig) -> bool:
-    """Whether what stands behind a shell reaches farther back than the shell is thick."""
-    behind = overlaps(view, shell) > config.hidden
-    behind[shell] = False
-    if not behind.any():
-        return False
-    back, thick = float(view.low[behind, 2].min()), float(view.size[shell, 2])
-    if float(view.low[shell, 2]) - back >= min(least, thick):
-        return True
-    return float(view.high[shell, 2]) - back >= 2 * least and thick > least
-
-
-def _is_flanked(view: ShellsView, shell: int, scale: Scale, config: CandidateConfig) -> bool:
-    """Whether a body stands in another's outline, or between two others as tall and deep: a drawer in its case."""
-    low, high = view.low, view.high
-    near = config.flank_reach * (config.near * float(scale.extent[shell]))
-    level = np.minimum(high, high[shell]) - np.maximum(low, low[shell]) >= config.level * view.size[shell]
-    around = (low[:, :2] <= low[shell, :2] + near).all(axis=1) & (high[:, :2] >= high[shell, :2] - near).all(axis=1)
-    larger = np.prod(view.size[:, :2], axis=1) > config.larger * float(np.prod(view.size[shell, :2]))
-    if (around & larger & level[:, 2]).any():
-        return True
-    beside = level[:, 1] & level[:, 2]
-    left = beside & (np.abs(high[:, 0] - low[shell, 0]) <= near)
-    right = beside & (np.abs(low[:, 0] - high[shell, 0]) <= near)
-    return bool(left.any() and right.any())
 
 
 def framed(view: ShellsView, segmentation: SegmentationConfig) -> list[tuple[int, ...]]:

@@ -53,6 +53,16 @@ class CandidateConfig:
     """... along how much of it (of its height and depth) ..."""
     larger: float = 1.1
     """... and how much larger one that it stands in is (of its outline)."""
+    thick_plate: float = 0.5
+    """How thick a front is that stands right before its case (of its shorter side) ..."""
+    deeper: float = 2.0
+    """... how deep that case is at least (of the front's thickness) ..."""
+    backed: float = 0.9
+    """... and what it covers (of the front's outline)."""
+    recess: float = 0.25
+    """How far behind its rim what is seen of a front may lie (of its object's depth) ..."""
+    sunk: float = 0.15
+    """... or else (of its shorter side): a recess is a compartment of its case."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -187,6 +197,10 @@ class DivisionConfig:
     """... where a handle stands on it: the drawers behind the top of a desk."""
     lid: float = 0.4
     """How much of a case is closed from above (of its footprint)."""
+    shallow: float = 0.1
+    """How deep what is as thin as a plate is at least to be a shallow case (of its shorter side) ..."""
+    deeper: float = 4.0
+    """... and how many times as deep as the fronts before it are thick."""
     case_reach: float = 3.0
     """How far a case stands out of the fronts of a box at least (multiple of `near`)."""
     small: float = 0.02

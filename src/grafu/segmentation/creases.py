@@ -18,11 +18,11 @@ from grafu.geometry.arrays import Faces, Indices, Vec3
 from grafu.geometry.components import linked, welded
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh
-from grafu.segmentation.candidates import within
 from grafu.segmentation.config import CreaseConfig, SegmentationConfig
 from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object, split
 from grafu.segmentation.fronts import FrontShells
 from grafu.segmentation.hidden_fronts import outline
+from grafu.segmentation.surroundings import within
 from grafu.segmentation.view import ShellsView, view_of
 
 OfFaces = Int[np.ndarray, " faces"]

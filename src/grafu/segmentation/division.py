@@ -14,11 +14,12 @@ from jaxtyping import Bool, Int
 from grafu.geometry.arrays import Indices, Mat3, Vec3
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.candidates import candidates, framed, halves, merged, overlaps
+from grafu.segmentation.candidates import candidates, framed, halves, merged
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.fronts import FrontShells, fronts_among
 from grafu.segmentation.hidden_fronts import hides, is_flush, is_one_with_handles, outline, without_case
 from grafu.segmentation.lying import lying_on_fronts
+from grafu.segmentation.surroundings import overlaps
 from grafu.segmentation.view import MaskOfShells, OfShells, SeenFaces, ShellsView
 
 MaskOfObjects = Bool[np.ndarray, " objects"]

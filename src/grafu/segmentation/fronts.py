@@ -8,8 +8,8 @@ import numpy as np
 
 from grafu.geometry.arrays import Indices
 from grafu.geometry.components import linked
-from grafu.segmentation.candidates import Scale, overlaps, within
 from grafu.segmentation.config import SegmentationConfig
+from grafu.segmentation.surroundings import Scale, overlaps, within
 from grafu.segmentation.view import MaskOfShells, ShellsView
 
 SHEET = 1e-6  # of the gap across which pieces touch: what is no wider, seen from the front, is a sheet

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from grafu.geometry.arrays import Indices
-from grafu.segmentation.candidates import Scale, overlaps
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells
+from grafu.segmentation.surroundings import Scale, overlaps
 from grafu.segmentation.view import ShellsView
 
 
@@ -63,7 +63,8 @@ def hides(
     size = high - low
     major = _major(view, fronts, config.division.alike)
     filled = sum(outline(view, front) for front in major) / float(size[0] * size[1])
-    if is_whole or size[2] <= config.division.plate * size[:2].min():
+    is_plate = size[2] <= config.division.plate * size[:2].min()
+    if is_whole or (is_plate and not _is_shallow_case(view, np.flatnonzero(own), fronts, config.division)):
         several = len(major) > 1 and filled >= config.division.filled
         return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major, config.division))
     rest = own.copy()
@@ -89,6 +90,17 @@ def _is_beside_panel(view: ShellsView, own: Indices, major: tuple[FrontShells, .
     if has_panel and _is_around(view, own, plate):
         return False
     return has_panel and bool(area[[plate, *beside]].sum() >= config.filled * outline)
+
+
+def _is_shallow_case(
+    view: ShellsView, own: Indices, fronts: tuple[FrontShells, ...], config: DivisionConfig
+) -> bool:
+    """Whether an object is far deeper than the fronts before it: a bookcase, and no door with panels."""
+    handles = [shell for front in fronts for handle in front.handles for shell in handle]
+    body, plates = np.setdiff1d(own, handles), [front.shells[0] for front in fronts]
+    size = view.high[body].max(axis=0) - view.low[body].min(axis=0)
+    thick = float(view.size[plates, 2].max())
+    return bool(size[2] >= config.shallow * size[:2].min() and size[2] >= config.deeper * thick)
 
 
 def _is_around(view: ShellsView, shells: Indices, plate: int) -> bool:

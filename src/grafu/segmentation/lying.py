@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from grafu.geometry.arrays import Indices
-from grafu.segmentation.candidates import Scale
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.fronts import SHEET, FrontShells
+from grafu.segmentation.surroundings import Scale
 from grafu.segmentation.view import MaskOfShells, ShellsView
 
 

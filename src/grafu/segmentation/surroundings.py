@@ -1,0 +1,124 @@
+"""What stands around one shell as it is seen: before it, behind it, beside it. It asks no names and finds no fronts."""
+
+from dataclasses import dataclass
+from typing import Final, final
+
+import numpy as np
+
+from grafu.segmentation.config import CandidateConfig
+from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
+
+NO_AREA: Final = 1e-300
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """The size of the object that holds each shell."""
+
+    extent: ScalarsOfShells
+    outline: ScalarsOfShells  # the area of the object as it is seen
+    depth: ScalarsOfShells
+
+    @classmethod
+    def of(cls, view: ShellsView) -> "Scale":
+        """Returns the scale of each shell."""
+        count = int(view.owner.max()) + 1
+        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        np.minimum.at(low, view.owner, view.low)
+        np.maximum.at(high, view.owner, view.high)
+        size = (high - low)[view.owner]
+        return cls(np.asarray(size.max(axis=1)), size[:, 0] * size[:, 1], np.asarray(size[:, 2]))
+
+
+def within(view: ShellsView, shell: int, near: float) -> MaskOfShells:
+    """Returns for each shell whether its outline lies in that of `shell`, which it may leave by `near`."""
+    inside = (view.low[:, :2] >= view.low[shell, :2] - near) & (view.high[:, :2] <= view.high[shell, :2] + near)
+    found = np.asarray(inside.all(axis=1))
+    found[shell] = False
+    return found
+
+
+def overlaps(view: ShellsView, shell: int) -> ScalarsOfShells:
+    """Returns which fraction of the outline of `shell` that of each shell covers."""
+    low = np.maximum(view.low[:, :2], view.low[shell, :2])
+    high = np.minimum(view.high[:, :2], view.high[shell, :2])
+    size = view.size[shell, :2]
+    return np.prod(np.maximum(high - low, 0.0), axis=1) / max(float(size[0] * size[1]), NO_AREA)
+
+
+def is_seen(view: ShellsView, shell: int, is_frame: bool, near: float, config: CandidateConfig) -> bool:
+    """Whether little hides a shell, and most of its outline shows it or what it holds."""
+    rows, columns = view.window(shell)
+    first, depth = view.seen[rows, columns], view.depth[rows, columns]
+    own = within(view, shell, near) & (view.low[:, 2] <= view.high[shell, 2] + config.before * near)
+    own[shell] = True
+    is_own = (first >= 0) & own[first]
+    hidden = (first >= 0) & ~is_own & (depth > view.high[shell, 2] + near)
+    return bool(hidden.mean() <= config.hidden and (is_frame or is_own.mean() >= config.seen))
+
+
+def has_handle(view: ShellsView, shell: int, near: float, config: CandidateConfig) -> bool:
+    """Whether something small stands out of the middle of a body as deep as a drawer: a knob or a bar, of no panel."""
+    if view.size[shell, 2] < view.size[shell, :2].min():
+        return False
+    on = within(view, shell, 0.0) & (np.abs(view.low[:, 2] - view.high[shell, 2]) <= near)
+    on &= view.high[:, 2] > view.high[shell, 2] + near
+    on &= np.prod(view.size[:, :2], axis=1) <= config.handle * np.prod(view.size[shell, :2])
+    middles = np.abs((view.low + view.high - view.low[shell] - view.high[shell])[:, :2]) / 2
+    return bool((on & (middles <= near).any(axis=1)).any())
+
+
+def has_room(view: ShellsView, shell: int, least: float, config: CandidateConfig) -> bool:
+    """Whether what stands behind a shell reaches farther back than the shell is thick.
+
+    Behind that room, the boards of a back that is drawn in boards count together.
+    """
+    covers = overlaps(view, shell)
+    covers[shell] = 0.0
+    beyond = view.high[:, 2] <= view.low[shell, 2] - least
+    behind = covers > config.hidden
+    if covers[beyond].sum() > config.hidden:
+        behind |= beyond & (covers > 0)
+    if not behind.any():
+        return False
+    back, thick = float(view.low[behind, 2].min()), float(view.size[shell, 2])
+    if float(view.low[shell, 2]) - back >= min(least, thick):
+        return True
+    return float(view.high[shell, 2]) - back >= 2 * least and thick > least
+
+
+def is_flanked(view: ShellsView, shell: int, scale: Scale, config: CandidateConfig) -> bool:
+    """Whether a body stands in another's outline, or between two others as tall and deep: a drawer in its case."""
+    low, high = view.low, view.high
+    near = config.flank_reach * (config.near * float(scale.extent[shell]))
+    level = np.minimum(high, high[shell]) - np.maximum(low, low[shell]) >= config.level * view.size[shell]
+    around = (low[:, :2] <= low[shell, :2] + near).all(axis=1) & (high[:, :2] >= high[shell, :2] - near).all(axis=1)
+    larger = np.prod(view.size[:, :2], axis=1) > config.larger * float(np.prod(view.size[shell, :2]))
+    if (around & larger & level[:, 2]).any():
+        return True
+    beside = level[:, 1] & level[:, 2]
+    left = beside & (np.abs(high[:, 0] - low[shell, 0]) <= near)
+    right = beside & (np.abs(low[:, 0] - high[shell, 0]) <= near)
+    return bool(left.any() and right.any())
+
+
+def is_before_case(view: ShellsView, shell: int, near: float, config: CandidateConfig) -> bool:
+    """Whether a body stands right before a deeper one of its object that fills its outline: the door of an icebox."""
+    if view.size[shell, 2] > config.thick_plate * view.size[shell, :2].min():
+        return False
+    behind = (view.owner == view.owner[shell]) & (np.abs(view.high[:, 2] - view.low[shell, 2]) <= near)
+    behind &= view.size[:, 2] >= config.deeper * view.size[shell, 2]
+    behind[shell] = False
+    return bool((overlaps(view, shell)[behind] >= config.backed).any())
+
+
+def is_recess(view: ShellsView, shell: int, scale: Scale, config: CandidateConfig) -> bool:
+    """Whether what is seen of a shell lies far behind its rim: an open compartment, a niche."""
+    rows, columns = view.window(shell)
+    depth = view.depth[rows, columns][view.seen[rows, columns] == shell]
+    if not len(depth):
+        return False
+    inside = float(view.high[shell, 2] - np.median(depth))
+    least = max(config.recess * float(scale.depth[shell]), config.sunk * float(view.size[shell, :2].min()))
+    return inside > least
