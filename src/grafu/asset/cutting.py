@@ -17,6 +17,7 @@ from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.pieces import in_words, with_pieces
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
+from grafu.asset.standing import spelled
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_positive, require_ratios
@@ -100,7 +101,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
         for (part, piece), new in zip(pieces, _ids(pieces), strict=True)
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
-    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes), fronts_face=_side_of_fronts(cuts, T))
 
 
 def joined_where_nameless(reading: Reading, frame: Frame) -> Reading:
@@ -124,6 +125,15 @@ def joined_where_nameless(reading: Reading, frame: Frame) -> Reading:
     parts = tuple(with_pieces(reading.parts[k], members.get(k, []), ids) for k in kept)
     notes = (f"{in_words(found)} joined to {reading.parts[k].source.name}" for k, found in members.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+
+
+def _side_of_fronts(cuts: dict[int, list[FacePiece]], T: Mat4) -> str | None:
+    """Returns the direction in the input that all fronts face which were cut out; `T` turns the input upright."""
+    facing = [T[:3, :3].T @ p.towards for found in cuts.values() for p in found if p.towards is not None]
+    if not facing:
+        return None
+    axis = int(np.argmax(np.abs(facing[0])))
+    return spelled(axis, bool(facing[0][axis] > 0))
 
 
 def _is_divided(reading: Reading) -> bool:
@@ -214,7 +224,7 @@ def _part(part: Part, piece: FacePiece | None, name: str, T: Mat4) -> Part:
     if piece.role == "lid":
         label, by = PartLabel.DOOR, "name"
     surfaces = faces_of_part(part, piece.faces)
-    if piece.towards is not None:
+    if piece.is_sheet and piece.towards is not None:
         surfaces = (*surfaces, _back(part, surfaces, piece.towards, T))
     return replace(part, id=name, surfaces=surfaces, label=label, labelled_by=by)
 

@@ -146,6 +146,8 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
         shown = most_shown_side(reading.parts, whole, up, stated is not None)
         if shown is not None and shown != stated:
             return _Choice(shown, "most parts, and steps between them, are seen there")
+        if reading.fronts_face is not None and stated is None and reading.fronts_face[1] != up[1]:
+            return _Choice(reading.fronts_face, "what was cut out of a mesh as a front faces there")
     usual = "+X" if reading.kind in ROBOTS and up[1] != "X" else _USUAL_FRONT[up]
     front, why = decide_front(votes, stated, usual)
     sure = _sure(votes[front] / max(sum(votes.values()), 1e-9))

@@ -95,7 +95,7 @@ class Reading:
 
     `parts` are what it holds without its joints; the `annotation` is what it states about its motions, None where
     nothing. `grouped` states that the parts are segmented by hand: pieces of doors and drawers are not joined by where
-    they lie.
+    they lie. `fronts_face` is the direction (like `-Y`) that the fronts face which were cut out of its meshes.
     """
 
     kind: AssetKind
@@ -105,6 +105,7 @@ class Reading:
     furniture: Furniture | None = None
     notes: tuple[str, ...] = ()
     grouped: bool = False
+    fronts_face: str | None = None
 
 
 # A triangle is degenerate where its height is below this fraction of its longest side.

@@ -51,9 +51,10 @@ def drawn_fronts(
     """
     if not any(len(mesh.faces) and is_open for mesh, is_open in zip(meshes, open_to, strict=True)):
         return {}
-    most, towards = 0.0, axes_from(0)[2]
+    most = 0.0
     pieces: dict[int, list[FacePiece]] = {}
-    for axes in map(axes_from, range(4)):
+    for turn in range(4):
+        axes = axes_from(turn)
         pairs = zip(meshes, materials, strict=True)
         patches = [front_patches(mesh, material, axes[2], config.creases) for mesh, material in pairs]
         shells = MeshShells.of(meshes, patches)
@@ -61,11 +62,11 @@ def drawn_fronts(
         found = fronts_by_object(view, np.asarray(open_to)[shells.owner], [False] * len(meshes), config)
         area = sum(outline(view, front) for fronts in found.clear.values() for front in fronts)
         if area > most:
-            most, towards = area, axes[2]
-            pieces = FoundFronts(_trimmed(found.clear, view, config.creases), {}).pieces(shells)
+            most = area
+            pieces = FoundFronts(_trimmed(found.clear, view, config.creases), {}, turn=turn).pieces(shells)
         if pieces:
             break  # the front is most likely at -Y: other sides count only where it shows none
-    return {k: [_looking(piece, towards) for piece in found] for k, found in sorted(pieces.items())}
+    return {k: [replace(p, is_sheet=p.role == "front") for p in found] for k, found in sorted(pieces.items())}
 
 
 def _trimmed(
@@ -81,10 +82,6 @@ def _trimmed(
         )
         for owner, fronts in found.items()
     }
-
-
-def _looking(piece: FacePiece, towards: Vec3) -> FacePiece:
-    return replace(piece, towards=towards) if piece.role == "front" else piece
 
 
 def front_patches(mesh: TriangleMesh, material: OfFaces, towards: Vec3, config: CreaseConfig) -> OfFaces:

@@ -34,13 +34,14 @@ class FacePiece:
     """Faces of one object that become a part, and its role in that object.
 
     "front", "handle" and "lid" are new parts; "rest" is what is left of an object, "body" a door or drawer without the
-    handles that were drawn in it, "on front" what lies on a front of another object. A front that was drawn on a
-    surface looks `towards` a unit direction; None: it is a shell of its own.
+    handles that were drawn in it, "on front" what lies on a front of another object. A front is seen when one looks
+    against the unit direction `towards`; None: it is no front. It `is_sheet` where it was drawn on a surface.
     """
 
     role: Literal["front", "handle", "lid", "rest", "body", "on front"]
     faces: Indices
     towards: Vec3 | None = None
+    is_sheet: bool = False
 
 
 @final
@@ -102,11 +103,15 @@ def divided(
 @final
 @dataclass(frozen=True, slots=True)
 class FoundFronts:
-    """What one side shows, by object: hidden fronts, a front with handles on it, shells that lie on others' fronts."""
+    """What one side shows, by object: hidden fronts, a front with handles on it, shells that lie on others' fronts.
+
+    `turn` is the number of the side (`axes_from`).
+    """
 
     hidden: dict[int, tuple[FrontShells, ...]]
     with_handles: dict[int, FrontShells]
     on_fronts: dict[int, tuple[tuple[int, ...], ...]] = field(default_factory=dict)
+    turn: int = 0
 
     @property
     def clear(self) -> dict[int, tuple[FrontShells, ...]]:
@@ -117,7 +122,10 @@ class FoundFronts:
         """Returns what each object is cut into."""
         counts = np.bincount(shells.owner[shells.shell])
         starts = np.cumsum([0, *counts])
-        pieces = {owner: _pieces(shells, owner, int(starts[owner]), fronts) for owner, fronts in self.hidden.items()}
+        pieces = {
+            owner: _pieces(shells, owner, int(starts[owner]), fronts, axes_from(self.turn)[2])
+            for owner, fronts in self.hidden.items()
+        }
         apart = {o: _handles_apart(shells, o, int(starts[o]), front) for o, front in self.with_handles.items()}
         lying = {o: _lying_apart(shells, o, int(starts[o]), groups) for o, groups in self.on_fronts.items()}
         return pieces | apart | lying
@@ -145,7 +153,7 @@ def _from_the_best_side(
     ranks: list[tuple[bool, bool, float]] = []
     for turn in range(4):
         view = seen_from(turn).view(shells.shell, shells.owner)
-        found = fronts_by_object(view, may, whole, config, loose)
+        found = replace(fronts_by_object(view, may, whole, config, loose), turn=turn)
         clear = [front for fronts in found.clear.values() for front in fronts]
         is_held = len(whole) > 1 or sum(front.is_held for front in clear) > 1
         if turn == 0 and clear and is_held:
@@ -215,12 +223,14 @@ def _with_low(
     return (*fronts, *(front for front in found if front.is_held and not taken & front.all_shells))
 
 
-def _pieces(shells: MeshShells, owner: int, start: int, fronts: tuple[FrontShells, ...]) -> list[FacePiece]:
-    """Returns what is left of an object, its fronts, and their handles."""
+def _pieces(
+    shells: MeshShells, owner: int, start: int, fronts: tuple[FrontShells, ...], towards: Vec3
+) -> list[FacePiece]:
+    """Returns what is left of an object, its fronts, which look `towards`, and their handles."""
     plates = [front.shells for front in fronts]
     handles = [handle for front in fronts for handle in front.handles]
     rest, found = split(shells, owner, start, [*plates, *handles])
-    new = [FacePiece("front", faces) for faces in found[: len(plates)]]
+    new = [FacePiece("front", faces, towards) for faces in found[: len(plates)]]
     new += [FacePiece("handle", faces) for faces in found[len(plates) :]]
     return [*([FacePiece("rest", rest)] if len(rest) else []), *new]
 

@@ -168,6 +168,7 @@ class _FrontFinder:
         inside = free & within(view, plate, float(self._near[plate]))
         members = inside & self._lies_in(plate)
         members |= self._drawer_boards(plate, inside & ~members)
+        members |= free & self._stands_behind(plate) & bool(handles)
         return FrontShells((plate, *np.flatnonzero(members).tolist()), handles, bool(handles or others))
 
     def _stands_on(self, plate: int) -> MaskOfShells:
@@ -191,6 +192,14 @@ class _FrontFinder:
         mouldings = (view.size[:, :2] >= config.moulding * view.size[plate, :2]).any(axis=1)
         mouldings &= view.high[:, 2] <= front + near
         return np.asarray(small & on & out & starts & ~mouldings)
+
+    def _stands_behind(self, plate: int) -> MaskOfShells:
+        """Whether each shell stands on the far end of a drawer drawn as one body: the handle on its other side."""
+        view, config, near = self._view, self._config, float(self._near[plate])
+        is_body = view.size[plate, 2] >= view.size[plate, :2].min()
+        small = within(view, plate, 0.0) & (self._area <= config.handle_area * self._area[plate])
+        ends = (view.high[:, 2] <= view.low[plate, 2] + near) & (view.high[:, 2] >= view.low[plate, 2] - near)
+        return np.asarray(small & ends & (view.size[:, 2] <= config.handle_out * self._scale.extent[plate]) & is_body)
 
     def _level_near(self, shell: int, plate: int) -> float:
         """Returns how far the plate comes forward around a shell: curved fronts come farther elsewhere."""
