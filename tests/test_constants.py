@@ -129,11 +129,11 @@ OF_MODULES = {
         "shapes.py": {"MOST_SHAPES": KEPT, "MOST_USES": KEPT},
     },
     "segmentation": {
-        "candidates.py": {"_NO_AREA": TOLERANCE},
         "creases.py": {"_SAME_UV": TOLERANCE},
         "division.py": {"_Z": NUMBERING},
-        "fronts.py": {"_RING_CELLS": SAMPLES, "SHEET": TOLERANCE},
+        "fronts.py": {"SHEET": TOLERANCE},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
+        "surroundings.py": {"NO_AREA": TOLERANCE, "RING_CELLS": SAMPLES},
         "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES, "_MANY": SAMPLES, "_SPARE": TOLERANCE},
     },
     "completion": {

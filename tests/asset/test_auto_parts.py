@@ -155,6 +155,18 @@ def test_a_body_that_is_labelled_by_its_name_is_cut_and_stays_what_it_is():
     assert len(found.parts) > 3
 
 
+@pytest.mark.parametrize("name", ["wardrobe", "oficina_armario"])
+def test_a_shallow_case_that_is_called_what_it_is_gets_cut_and_a_front_that_is_called_so_does_not(name):
+    shallow = np.diag([1.0, 0.4, 1.0, 1.0])
+    whole = welded(label=PartLabel.SIDE_PANEL, name=name)
+    whole = replace(whole, surfaces=tuple(surface.transformed(shallow) for surface in whole.surfaces))
+    assert whole.box.size[1] < 0.25 * whole.box.size[0]
+    front = welded(FRONTS, PartLabel.SIDE_PANEL, name)
+
+    assert sum("_front" in part.id for part in cut(whole, welded((CASE[0],), name="other")).parts) == 2
+    assert [part.id for part in cut(front, welded(CASE)).parts] == [name, "body"]
+
+
 @pytest.mark.parametrize(
     ("part", "model", "is_door"),
     [

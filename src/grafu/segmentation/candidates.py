@@ -16,7 +16,16 @@ import numpy as np
 from grafu.geometry.arrays import Indices
 from grafu.geometry.components import linked
 from grafu.segmentation.config import CandidateConfig, FrameConfig, SegmentationConfig
-from grafu.segmentation.surroundings import NO_AREA, Scale, has_handle, has_room, is_before_case, is_flanked, is_recess, is_seen
+from grafu.segmentation.surroundings import (
+    NO_AREA,
+    Scale,
+    has_handle,
+    has_room,
+    is_before_case,
+    is_flanked,
+    is_recess,
+    is_seen,
+)
 from grafu.segmentation.view import MaskOfShells, ShellsView
 
 

@@ -60,8 +60,8 @@ class CandidateConfig:
     backed: float = 0.9
     """... and what it covers (of the front's outline)."""
     recess: float = 0.25
-    """How far behind its rim what is seen of a front may lie (of its object's depth) ..."""
-    sunk: float = 0.15
+    """How far behind its rim, and what lies around it, a front may be seen (of its object's depth) ..."""
+    sunk: float = 0.1
     """... or else (of its shorter side): a recess is a compartment of its case."""
 
     def __post_init__(self) -> None:
@@ -187,6 +187,8 @@ class DivisionConfig:
     """What fronts in a plate cover (of its outline)."""
     alike: float = 0.4
     """What the others have where several fronts are one plate (of the largest front's outline)."""
+    board: float = 5.0
+    """How many times as high as wide the boards of a panel are at least."""
     panel: float = 0.1
     """What a fixed panel beside one front covers at least (of the plate's outline) ..."""
     beside: float = 0.1

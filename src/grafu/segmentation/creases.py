@@ -60,10 +60,11 @@ def drawn_fronts(
         shells = MeshShells.of(meshes, patches)
         view = view_of(shells.mesh, shells.shell, shells.owner, axes)
         found = fronts_by_object(view, np.asarray(open_to)[shells.owner], [False] * len(meshes), config)
-        area = sum(outline(view, front) for fronts in found.clear.values() for front in fronts)
+        clear = found.clear(config.division)
+        area = sum(outline(view, front) for fronts in clear.values() for front in fronts)
         if area > most:
             most = area
-            pieces = FoundFronts(_trimmed(found.clear, view, config.creases), {}, turn=turn).pieces(shells)
+            pieces = FoundFronts(_trimmed(clear, view, config.creases), {}, turn=turn).pieces(shells)
         if pieces:
             break  # the front is most likely at -Y: other sides count only where it shows none
     return {k: [replace(p, is_sheet=p.role == "front") for p in found] for k, found in sorted(pieces.items())}

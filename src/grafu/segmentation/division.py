@@ -15,7 +15,7 @@ from grafu.geometry.arrays import Indices, Mat3, Vec3
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.candidates import candidates, framed, halves, merged
-from grafu.segmentation.config import SegmentationConfig
+from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells, fronts_among
 from grafu.segmentation.hidden_fronts import hides, is_flush, is_one_with_handles, outline, without_case
 from grafu.segmentation.lying import lying_on_fronts
@@ -113,10 +113,10 @@ class FoundFronts:
     on_fronts: dict[int, tuple[tuple[int, ...], ...]] = field(default_factory=dict)
     turn: int = 0
 
-    @property
-    def clear(self) -> dict[int, tuple[FrontShells, ...]]:
-        """Returns the hidden fronts that are clear: several of one object, or one with a handle."""
-        return {o: fronts for o, fronts in self.hidden.items() if len(fronts) > 1 or any(f.is_held for f in fronts)}
+    def clear(self, config: DivisionConfig) -> dict[int, tuple[FrontShells, ...]]:
+        """Returns the hidden fronts that are clear: several of one object, or one with a handle, and not with many."""
+        found = self.hidden.items()
+        return {o: f for o, f in found if len(f) > 1 or (f[0].is_held and len(f[0].handles) <= config.most_handles)}
 
     def pieces(self, shells: MeshShells) -> dict[int, list[FacePiece]]:
         """Returns what each object is cut into."""
@@ -154,7 +154,7 @@ def _from_the_best_side(
     for turn in range(4):
         view = seen_from(turn).view(shells.shell, shells.owner)
         found = replace(fronts_by_object(view, may, whole, config, loose), turn=turn)
-        clear = [front for fronts in found.clear.values() for front in fronts]
+        clear = [front for fronts in found.clear(config.division).values() for front in fronts]
         is_held = len(whole) > 1 or sum(front.is_held for front in clear) > 1
         if turn == 0 and clear and is_held:
             return found
@@ -164,7 +164,7 @@ def _from_the_best_side(
     best = max(range(4), key=lambda turn: ranks[turn])
     ahead, handled = sides[0], next((side.with_handles for side in sides if side.with_handles), {})
     if best > 0 and ranks[best][2] > 0:
-        return replace(sides[best], hidden=sides[best].clear)
+        return replace(sides[best], hidden=sides[best].clear(config.division))
     return ahead if ahead.hidden else FoundFronts({}, handled, ahead.on_fronts)
 
 

@@ -9,11 +9,10 @@ import numpy as np
 from grafu.geometry.arrays import Indices
 from grafu.geometry.components import linked
 from grafu.segmentation.config import SegmentationConfig
-from grafu.segmentation.surroundings import Scale, overlaps, within
+from grafu.segmentation.surroundings import Scale, overlaps, with_ring, within
 from grafu.segmentation.view import MaskOfShells, ShellsView
 
 SHEET = 1e-6  # of the gap across which pieces touch: what is no wider, seen from the front, is a sheet
-_RING_CELLS = 3  # rays around a handle that show where its front lies
 
 
 @final
@@ -204,11 +203,7 @@ class _FrontFinder:
     def _level_near(self, shell: int, plate: int) -> float:
         """Returns how far the plate comes forward around a shell: curved fronts come farther elsewhere."""
         view = self._view
-        rows, columns = view.window(shell)
-        ring = (
-            slice(max(rows.start - _RING_CELLS, 0), rows.stop + _RING_CELLS),
-            slice(max(columns.start - _RING_CELLS, 0), columns.stop + _RING_CELLS),
-        )
+        ring = with_ring(*view.window(shell))
         seen = view.depth[ring][view.seen[ring] == plate]
         return float(seen.max() if len(seen) else view.high[plate, 2])
 

@@ -62,6 +62,8 @@ def hides(
     low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
     size = high - low
     major = _major(view, fronts, config.division.alike)
+    if not is_whole and len(major) > 1 and _is_boarded(view, major, config):
+        return False
     filled = sum(outline(view, front) for front in major) / float(size[0] * size[1])
     is_plate = size[2] <= config.division.plate * size[:2].min()
     if is_whole or (is_plate and not _is_shallow_case(view, np.flatnonzero(own), fronts, config.division)):
@@ -80,6 +82,17 @@ def _major(view: ShellsView, fronts: tuple[FrontShells, ...], alike: float) -> t
     return tuple(front for front, area in zip(fronts, areas, strict=True) if area >= alike * max(areas))
 
 
+def _is_boarded(view: ShellsView, major: tuple[FrontShells, ...], config: SegmentationConfig) -> bool:
+    """Whether plates without handles are the boards of one panel: upright, narrow and side by side without a gap."""
+    plates = np.array([front.shells[0] for front in major])
+    plates = plates[np.argsort(view.low[plates, 0], kind="stable")]
+    low, high, size = view.low[plates], view.high[plates], view.size[plates]
+    are_narrow = bool((size[:, 1] >= config.division.board * size[:, 0]).all())
+    gap = config.frames.gap * float(Scale.of(view).extent[plates[0]])
+    meet = bool((np.abs(low[1:, 0] - high[:-1, 0]) <= gap).all())
+    return are_narrow and meet and not any(front.is_held for front in major)
+
+
 def _is_beside_panel(view: ShellsView, own: Indices, major: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
     """Whether a plate is one front beside a plate that is none: a control panel. A frame around it is none."""
     area = np.prod(view.size[:, :2], axis=1)
@@ -92,9 +105,7 @@ def _is_beside_panel(view: ShellsView, own: Indices, major: tuple[FrontShells, .
     return has_panel and bool(area[[plate, *beside]].sum() >= config.filled * outline)
 
 
-def _is_shallow_case(
-    view: ShellsView, own: Indices, fronts: tuple[FrontShells, ...], config: DivisionConfig
-) -> bool:
+def _is_shallow_case(view: ShellsView, own: Indices, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
     """Whether an object is far deeper than the fronts before it: a bookcase, and no door with panels."""
     handles = [shell for front in fronts for handle in front.handles for shell in handle]
     body, plates = np.setdiff1d(own, handles), [front.shells[0] for front in fronts]

@@ -9,6 +9,8 @@ from grafu.segmentation.config import CandidateConfig
 from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
 
 NO_AREA: Final = 1e-300
+RING_CELLS: Final = 3
+"""Rays around a shell that show what lies beside it."""
 
 
 @final
@@ -114,11 +116,21 @@ def is_before_case(view: ShellsView, shell: int, near: float, config: CandidateC
 
 
 def is_recess(view: ShellsView, shell: int, scale: Scale, config: CandidateConfig) -> bool:
-    """Whether what is seen of a shell lies far behind its rim: an open compartment, a niche."""
+    """Whether what is seen of a shell lies far behind its rim and what is seen around it: an open compartment."""
     rows, columns = view.window(shell)
-    depth = view.depth[rows, columns][view.seen[rows, columns] == shell]
-    if not len(depth):
+    inside = view.depth[rows, columns][view.seen[rows, columns] == shell]
+    if not len(inside):
         return False
-    inside = float(view.high[shell, 2] - np.median(depth))
+    depth = view.depth[with_ring(rows, columns)].copy()
+    first = rows.start - max(rows.start - RING_CELLS, 0), columns.start - max(columns.start - RING_CELLS, 0)
+    depth[first[0] : first[0] + rows.stop - rows.start, first[1] : first[1] + columns.stop - columns.start] = -np.inf
+    around = depth[depth > -np.inf]
+    rim = min(float(view.high[shell, 2]), float(np.median(around)) if len(around) else np.inf)
     least = max(config.recess * float(scale.depth[shell]), config.sunk * float(view.size[shell, :2].min()))
-    return inside > least
+    return rim - float(np.median(inside)) > least
+
+
+def with_ring(rows: slice, columns: slice) -> tuple[slice, slice]:
+    """Returns rows and columns of rays with those around them."""
+    rows, columns = (slice(max(rays.start - RING_CELLS, 0), rays.stop + RING_CELLS) for rays in (rows, columns))
+    return rows, columns
