@@ -215,3 +215,39 @@ def test_rails_on_a_panel_are_no_handles_that_tell_a_front_behind():
     whole = [panel, *rack, *legs, board(-0.3, -0.4, 0.85, 0.3, 0.65, 0.88)]
     assert fronts(merge_meshes([*whole, *rails])) == {}
     assert fronts(merge_meshes([*whole, *rails[:1]])) == {0: rounded([panel])}
+
+
+def framed_door(x, thick=0.02):
+    """Stiles and rails of a door, 0.44 x 1.4 m, from its left end on."""
+    stiles = [board(x + dx, -thick, 0.0, x + dx + 0.06, 0.0, 1.4) for dx in (0.0, 0.38)]
+    return [*stiles, *(board(x + 0.06, -thick, z, x + 0.38, 0.0, z + 0.06) for z in (0.0, 1.34))]
+
+
+def pane(x, thick=0.004):
+    return board(x + 0.05, -0.012, 0.05, x + 0.39, -0.012 + thick, 1.35)
+
+
+CUPBOARD = [
+    *(board(x, 0.0, 0.0, x + 0.02, 0.3, 1.4) for x in (-0.445, 0.425)),
+    *(board(-0.425, 0.0, z, 0.425, 0.29, z + 0.02) for z in (0.0, 0.7, 1.38)),
+    board(-0.425, 0.29, 0.0, 0.425, 0.3, 1.4),
+]
+DOORS_AT = (-0.445, 0.005)
+
+
+@pytest.mark.parametrize("one_glass", [True, False], ids=["one object of both panes", "an object for each pane"])
+def test_frames_that_panes_of_another_object_fill_are_a_front_each(one_glass):
+    frames, panes = [framed_door(x) for x in DOORS_AT], [pane(x) for x in DOORS_AT]
+    glass = [merge_meshes(panes)] if one_glass else panes
+    found = fronts(merge_meshes([bar for frame in frames for bar in frame]), merge_meshes(CUPBOARD), *glass)
+    assert found[0] == rounded([merge_meshes(frame) for frame in frames])
+    assert found.get(2, []) == []
+
+
+@pytest.mark.parametrize("filled", ["open", "inset doors"])
+def test_a_face_frame_that_is_open_or_holds_inset_doors_of_another_object_is_no_front(filled):
+    """Doors as thick as their face frame lie in it; the frame stays."""
+    frame = [bar for x in DOORS_AT for bar in framed_door(x)]
+    doors = [board(x + 0.06, -0.019, 0.06, x + 0.38, 0.0, 1.34) for x in DOORS_AT] if filled != "open" else []
+    found = fronts(merge_meshes(frame), merge_meshes(CUPBOARD), *doors)
+    assert found.get(0, []) == []
