@@ -155,6 +155,15 @@ def test_a_body_that_is_labelled_by_its_name_is_cut_and_stays_what_it_is():
     assert len(found.parts) > 3
 
 
+@pytest.mark.parametrize(("height", "label"), [(2.0, PartLabel.SIDE_PANEL), (0.5, PartLabel.UNKNOWN)])
+def test_the_rest_of_a_case_beside_a_larger_one_is_its_body_and_no_drawer_between_others(height, label):
+    tall = [Surface(mesh_of(CASE[0]).transformed(np.diag([30.0, 1.0, height, 1.0])))]
+    found = cut(welded(), replace(welded(), id="tall", source=PartSource("tall"), surfaces=tuple(tall)))
+
+    assert found.parts[0].id == "body"
+    assert (found.parts[0].label, found.parts[0].labelled_by) == (label, "shape" if height > 1 else "none")
+
+
 @pytest.mark.parametrize("name", ["wardrobe", "oficina_armario"])
 def test_a_shallow_case_that_is_called_what_it_is_gets_cut_and_a_front_that_is_called_so_does_not(name):
     shallow = np.diag([1.0, 0.4, 1.0, 1.0])

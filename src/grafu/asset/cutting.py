@@ -5,6 +5,7 @@ What the input states about its motions is not asked: the parts are the same wit
 """
 
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final, final
 
@@ -96,8 +97,9 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
         cuts = {k: found for k, found in kept.items() if found}
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
     cut = {reading.parts[k].id for k in cuts}
+    cases = {reading.parts[k].id for k in _cases_beside_larger(meshes, cuts, config)}
     parts = tuple(
-        _freed(_named(_part(part, piece, new, T), piece, model, T, config), cut)
+        _freed(_named(_part(part, piece, new, T, part.id in cases), piece, model, T, config), cut)
         for (part, piece), new in zip(pieces, _ids(pieces), strict=True)
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
@@ -147,6 +149,23 @@ def _may_be_cut(part: Part, config: CutConfig) -> bool:
     is_case = part.label is BODY and sense_of(part.source.name).is_container and sides[0] > config.case * sides[1]
     is_bookcase = part.label is PartLabel.SHELF and sides[0] > config.thick * sides[1]  # no board, but shelves
     return part.label in _OPEN or bool(is_case or is_bookcase)
+
+
+def _cases_beside_larger(
+    meshes: list[TriangleMesh], cuts: dict[int, list[FacePiece]], config: CutConfig
+) -> Iterator[int]:
+    """Yields the objects whose rest is the case of several fronts, and that stand beside a larger object.
+
+    Between larger ones a case looks like a drawer; the largest does not, and needs no label.
+    """
+    largest = max(meshes, key=lambda mesh: mesh.box.volume)
+    for k, pieces in cuts.items():
+        rest = [piece.faces for piece in pieces if piece.role == "rest"]
+        several = sum(piece.role == "front" for piece in pieces) > 1
+        if rest and several and meshes[k] is not largest:
+            sides = np.sort(meshes[k].with_faces(rest[0]).box.size)
+            if sides[0] > config.case * sides[1]:
+                yield k
 
 
 def _materials(part: Part) -> Indices:
@@ -212,7 +231,7 @@ def _is_handle(part: Part, piece: FacePiece | None) -> bool:
     return piece is None and part.label is PartLabel.HANDLE
 
 
-def _part(part: Part, piece: FacePiece | None, name: str, T: Mat4) -> Part:
+def _part(part: Part, piece: FacePiece | None, name: str, T: Mat4, is_case: bool) -> Part:
     if piece is None:
         return replace(part, id=name)
     keeps = piece.role in ("body", "on front") or (
@@ -221,6 +240,8 @@ def _part(part: Part, piece: FacePiece | None, name: str, T: Mat4) -> Part:
     label, by = (part.label, part.labelled_by) if keeps else (PartLabel.UNKNOWN, "none")
     if piece.role == "on front" and label is PartLabel.UNKNOWN:
         label = PartLabel.MISC  # whatever it is, it is no front
+    if piece.role == "rest" and label is PartLabel.UNKNOWN and is_case:
+        label, by = BODY, "shape"
     if piece.role == "lid":
         label, by = PartLabel.DOOR, "name"
     surfaces = faces_of_part(part, piece.faces)
