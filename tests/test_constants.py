@@ -17,6 +17,7 @@ from grafu.articulation.finger_room import FingerRoomCutConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.asset.body_kinds import BodyKindConfig
 from grafu.asset.cutting import CutConfig
+from grafu.asset.door_frames import DoorFrameConfig
 from grafu.asset.drafts import GroupConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
@@ -94,6 +95,7 @@ OF_MODULES = {
     "asset": {
         "bodies.py": {},
         "cutting.py": {},
+        "door_frames.py": {"_RAYS": SAMPLES},
         "drafts.py": {},
         "lasso_cut.py": {"MOST_CORNERS": FORMAT, "_NO_AREA": TOLERANCE},
         "foreign/agreement.py": {"_FEW": EFFORT},
@@ -203,7 +205,7 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorRuleConfig,
+    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorFrameConfig, DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,

@@ -164,6 +164,11 @@ def is_appliance(name: str) -> bool:
     return sense_of(name).is_container and bool({singular(w) for w in spoken(name)} & _APPLIANCES)
 
 
+def is_opening(name: str) -> bool:
+    """Whether Sweet Home 3D states in the name that it opens."""
+    return _OPENING.match(name) is not None
+
+
 def is_piece(name: str) -> bool:
     """Whether the name is that of a door's or drawer's piece (`drawer_front`, `cabinet_door_surface`)."""
     return sense_of(name).is_piece

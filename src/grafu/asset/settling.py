@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.cutting import cut_where_fronts_appear, joined_where_nameless
+from grafu.asset.door_frames import with_door_frames
 from grafu.asset.either_kind import with_either_kind
 from grafu.asset.folder import divide, looked_for_fronts
 from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
@@ -100,8 +101,9 @@ def _taken_apart(reading: Reading, path: Path, options: LoadOptions) -> Reading:
 
 
 def _joined(reading: Reading) -> Reading:
-    parts, notes = with_joined_pieces(reading.parts, whole_box(reading.parts))
-    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+    framed, found = with_door_frames(reading.parts)
+    parts, notes = with_joined_pieces(framed, whole_box(framed))
+    return replace(reading, parts=parts, notes=(*reading.notes, *found, *notes))
 
 
 def _plausible(reading: Reading) -> Reading:

@@ -216,17 +216,18 @@ def _pairs(view: ShellsView, bars: MaskOfShells, along: int, same: np.ndarray) -
 
 
 def _level_with(view: ShellsView, bar: int, along: int, same: float) -> Indices:
-    """Returns the shells of a bar's object that reach beyond none of its ends, nor before it or behind it."""
+    """Returns the shells that reach beyond none of a bar's ends, nor before it or behind it, of any object."""
     low, high = view.low, view.high
     inside = (low[:, along] >= low[bar, along] - same) & (high[:, along] <= high[bar, along] + same)
     level = (low[:, 2] >= low[bar, 2] - same) & (high[:, 2] <= high[bar, 2] + same)
-    return np.flatnonzero(inside & level & (view.owner == view.owner[bar]))
+    return np.flatnonzero(inside & level)
 
 
 def _filled(view: ShellsView, pair: tuple[int, int], along: int, extent: float, config: FrameConfig) -> tuple[int, ...]:
     """Returns the pair with the bars across and the panels between, empty where they are no filled frame.
 
-    The view shows the shells that are level with the pair.
+    The view shows the shells that are level with the pair. Panes of glass are often objects of their own: they fill the
+    frame, and are not returned.
     """
     first, second = pair
     across: Final = 1 - along
@@ -238,19 +239,21 @@ def _filled(view: ShellsView, pair: tuple[int, int], along: int, extent: float, 
     spans = between & (low[:, across] <= left + same) & (high[:, across] >= right - same)
     low_ends = spans & (np.abs(low[:, along] - low[first, along]) <= same)
     high_ends = spans & (np.abs(high[:, along] - high[first, along]) <= same)
-    rails = low_ends ^ high_ends
+    own = view.owner == view.owner[first]
+    rails = (low_ends ^ high_ends) & own
     if not ((low_ends & rails).any() and (high_ends & rails).any()):
         return ()
     opening = high[low_ends & rails, along].min(), low[high_ends & rails, along].max()
-    filling = between & ~rails
+    set_back = _is_set_back(view, first, config)
+    filling = between & ~rails & (own | set_back)
     filling[[first, second]] = False
-    muntins = filling & ~_is_set_back(view, first, config) & (view.size[:, :2].min(axis=1) <= config.muntin * bar)
+    muntins = filling & ~set_back & (view.size[:, :2].min(axis=1) <= config.muntin * bar)
     panels = filling & ~muntins
-    if not panels.any() or not _is_set_back(view, first, config)[panels].all():
+    if not panels.any() or not set_back[panels].all():
         return ()
     if not _fits(view, filling, pair, along, opening, config.gap * extent, config.filled):
         return ()
-    return (*pair, *np.flatnonzero(rails).tolist(), *np.flatnonzero(filling).tolist())
+    return (*pair, *np.flatnonzero(rails).tolist(), *np.flatnonzero(filling & own).tolist())
 
 
 def _is_set_back(view: ShellsView, bar: int, config: FrameConfig) -> MaskOfShells:
