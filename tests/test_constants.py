@@ -205,7 +205,8 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorFrameConfig, DoorRuleConfig,
+    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorFrameConfig,
+    DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,

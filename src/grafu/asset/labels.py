@@ -219,14 +219,20 @@ def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sen
     if (tail or end - start > 1) and set(said[:start]) & _HARDWARE:
         return None  # `hinge_door_leaf`: the leaf of the hinge that is on the door
     own = _PIECES | (_LEAF_PIECES if label is PartLabel.DOOR else frozenset())
-    if all(w in own or w in _PLACES for w in tail):
-        pieces = set(tail) & own | ({"surface"} & set(said[start:end]))
-        return Sense(label, is_piece=bool(pieces))
+    known = _without_strange_end(tail)
+    if all(w in own or w in _PLACES for w in known):
+        pieces = set(known) & own | ({"surface"} & set(said[start:end]))
+        return Sense(label, is_piece=bool(pieces), is_blurred=len(known) < len(tail))
     after = _last(said, _OF_OTHERS)
     later = after is not None and after[1] > end
     if later or any(w in _CONTAINERS for w in tail):
         return None
     return Sense(label, is_piece=bool(set(tail) & own), is_blurred=True)
+
+
+def _without_strange_end(tail: tuple[str, ...]) -> tuple[str, ...]:
+    """Returns the words without those at the end that state nothing: a material, a file's ending."""
+    return tail[: max((k + 1 for k, word in enumerate(tail) if word in _KNOWN), default=0)]
 
 
 def _names_both(said: tuple[str, ...]) -> bool:
@@ -266,3 +272,18 @@ _MOVING = frozenset({PartLabel.DOOR, PartLabel.DRAWER})
 _OF_MOVING: Final = _rows(_MOVING)
 _OF_HANDLES: Final = _rows(frozenset({PartLabel.HANDLE}))
 _OF_OTHERS: Final = _rows(frozenset(PartLabel) - _MOVING - {PartLabel.HANDLE})
+_KNOWN: Final = (
+    frozenset(
+        word
+        for rows in (_OF_MOVING, _OF_HANDLES, _OF_OTHERS)
+        for found in rows.values()
+        for _, said, _ in found
+        for word in said
+    )
+    | _PIECES
+    | _LEAF_PIECES
+    | _PLACES
+    | _CONTAINERS
+    | _VOIDS
+    | _FITTINGS
+)
