@@ -108,8 +108,8 @@ class Sense:
     """What a name states: the label, whether it is a piece of a door or drawer, and whether nothing blurs it.
 
     A name `is_blurred` where it goes on, after the noun, with words that are not known (`drawer_sprocket`).
-    `is_container` states that it is the name of a whole piece of furniture or of its body, `mention` which door or
-    drawer it names besides (`drawer_unit`), `is_fitting` that it is that of a hinge, a rail or the like,
+    `is_container` states that it is the name of a whole piece of furniture or of its body, `is_fitting` that it is that
+    of a hinge, a rail or the like, `mention` which door or drawer such a name says besides (`drawer_unit`),
     `is_either` that it names doors and drawers alike.
     """
 
@@ -209,7 +209,8 @@ def _sense(said: tuple[str, ...]) -> Sense:
     if head is None or container >= head[1]:
         mention = None if moving is None else moving[2]
         return Sense(PartLabel.UNKNOWN, is_container=container >= 0, mention=mention if container >= 0 else None)
-    return Sense(head[2], is_fitting=bool(set(said[head[0] : head[1]]) & _FITTINGS))
+    is_fitting = bool(set(said[head[0] : head[1]]) & _FITTINGS)
+    return Sense(head[2], is_fitting=is_fitting, mention=None if moving is None or not is_fitting else moving[2])
 
 
 def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sense | None:

@@ -143,7 +143,10 @@ def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
 
 
 def with_bodies(parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()) -> tuple[Part, ...]:
-    """Returns the parts with unlabelled ones that hold several doors or drawers as the bodies of these."""
+    """Returns the parts with unlabelled ones that hold several doors or drawers as the bodies of these.
+
+    What is called a cabinet or the like is a body where it holds a single one.
+    """
     extent = max((float(np.max(part.box.size)) for part in parts), default=1.0)
     spare = config.spare * extent
     fronts = [part.box for part in parts if part.label.is_movable]
@@ -153,7 +156,8 @@ def with_bodies(parts: tuple[Part, ...], config: PlausibilityConfig = Plausibili
             return part
         low, high = part.box.low - spare, part.box.high + spare
         held = sum(bool((box.low >= low).all() and (box.high <= high).all()) for box in fronts)
-        return replace(part, label=BODY, labelled_by="shape") if held > 1 else part
+        least = 1 if sense_of(part.source.name).is_container else 2
+        return replace(part, label=BODY, labelled_by="shape") if held >= least else part
 
     return tuple(judged(part) for part in parts)
 

@@ -16,6 +16,7 @@ from grafu.asset.folder import divide, looked_for_fronts
 from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
 from grafu.asset.loose import loose_parts, with_split_handles
+from grafu.asset.named_fittings import with_named_fittings
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
 from grafu.asset.pieces import with_joined_pieces
@@ -108,7 +109,8 @@ def _joined(reading: Reading) -> Reading:
 
 def _plausible(reading: Reading) -> Reading:
     judged, notes = with_plausible_labels(reading.parts)
-    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *notes)))
+    judged, told = with_named_fittings(judged)
+    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *notes, *told)))
 
 
 def _with_split_handles(reading: Reading) -> Reading:
