@@ -24,6 +24,7 @@ from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.grips import DrawnGripConfig
 from grafu.asset.lasso_cut import LassoConfig
 from grafu.asset.loose import LooseConfig
+from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
 from grafu.asset.plausibility import PlausibilityConfig
@@ -32,7 +33,7 @@ from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
-from grafu.completion.decode_config import FactConfig
+from grafu.completion.decode_config import CaseConfig, FactConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
 from grafu.export.gltf_packing import DracoConfig
@@ -205,15 +206,16 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorFrameConfig,
-    DoorRuleConfig,
+    AgreementConfig, BodyKindConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
+    DoorFrameConfig, DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
     LooseConfig,
     MassConfig, MatchConfig,
-    MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
+    MemberConfig, NamedFittingConfig,
+    PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
     SeenSideConfig, SegmentationConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
 )  # fmt: skip
 NUMBERS = [
