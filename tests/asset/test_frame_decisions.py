@@ -124,11 +124,23 @@ def test_a_convention_holds_unless_nearly_all_speaks_against_it():
 
 def test_without_labels_nothing_is_claimed():
     asset = cabinet().with_labels({p.id: PartLabel.UNKNOWN for p in cabinet().parts})
-    assert up_votes(asset.parts, asset.box).best is None
+    assert up_votes(asset.parts, asset.box).best() is None
     assert not any(front_votes(asset.parts, asset.box, "+Z").values())
     frame = settle_frame(reading_of(asset, turned("+Y", "+Z")), LoadOptions())
     assert (frame.up, frame.front) == ("+Y", "+Z")
     assert any("--up changes it" in said for said in frame.assumed)
+
+
+@pytest.mark.parametrize(("height", "up"), [(0.72, "+Y"), (0.08, "+Z")], ids=["a table's legs", "feet below a body"])
+def test_legs_as_high_as_a_table_tell_nothing_and_short_feet_do(height, up):
+    """The legs stand nearer to one side, as under a round table or a desk with a cut corner."""
+    places = ((0.1, 0.1), (0.1, 0.9), (0.7, 0.9))
+    legs = [
+        replace(box(f"leg_{k}", (x, y, 0.0), (x + 0.06, y + 0.06, height)), label=PartLabel.LEG)
+        for k, (x, y) in enumerate(places)
+    ]
+    parts = (box("Cube", (0.0, 0.0, height), (1.6, 1.0, 0.75)), *legs)
+    assert settle_frame(Reading("mesh file", parts, Convention("test")), LoadOptions()).up == up
 
 
 def test_a_front_on_the_upright_axis_is_refused():

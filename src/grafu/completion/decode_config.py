@@ -63,7 +63,7 @@ class OverlayConfig(ShortRepr):
 
 @final
 @dataclass(frozen=True, slots=True)
-class CaseConfig(ShortRepr):
+class HeldFrontsConfig(ShortRepr):
     """When a body that stands on the floor is the case of fronts at its face, and no front itself.
 
     Raises:
@@ -219,7 +219,7 @@ class DecodeConfig:
     overlay: OverlayConfig = OverlayConfig()
     """Of fronts that lie on panels."""
 
-    case: CaseConfig = CaseConfig()
+    held_fronts: HeldFrontsConfig = HeldFrontsConfig()
     """Of bodies with fronts at their face."""
 
     regular: RegularConfig = RegularConfig()

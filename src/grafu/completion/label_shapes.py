@@ -9,7 +9,7 @@ from itertools import combinations
 
 import numpy as np
 
-from grafu.completion.decode_config import CaseConfig, DecodeConfig, OverlayConfig
+from grafu.completion.decode_config import DecodeConfig, HeldFrontsConfig, OverlayConfig
 from grafu.geometry.box import Box
 from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
 from grafu.graph.functional_graph import FunctionalGraph
@@ -73,13 +73,15 @@ def without_cases(weights: np.ndarray, graph: FunctionalGraph, config: DecodeCon
     Such a body stands on the floor, which no drawer does, and several doors or drawers lie side by side in its face.
     """
     fronts = [k for k, label in enumerate(_likely(weights, graph)) if label in (DOOR, DRAWER)]
-    floor = float(graph.box.low[2]) + config.case.floor * float(graph.box.size.max())
+    floor = float(graph.box.low[2]) + config.held_fronts.floor * float(graph.box.size.max())
     cases = [
         k
         for k in fronts
         if graph.nodes[k].label is PartLabel.UNKNOWN
         and float(graph.nodes[k].box.low[2]) <= floor
-        and _has_fronts(graph.nodes[k].box, [graph.nodes[i].box for i in fronts if i != k], graph.box, config.case)
+        and _has_fronts(
+            graph.nodes[k].box, [graph.nodes[i].box for i in fronts if i != k], graph.box, config.held_fronts
+        )
     ]
     if not cases:
         return weights
@@ -96,7 +98,7 @@ def _likely(weights: np.ndarray, graph: FunctionalGraph) -> list[int]:
     ]
 
 
-def _has_fronts(body: Box, fronts: Sequence[Box], whole: Box, config: CaseConfig) -> bool:
+def _has_fronts(body: Box, fronts: Sequence[Box], whole: Box, config: HeldFrontsConfig) -> bool:
     """Whether several fronts lie side by side in one of the four upright faces of a body."""
     slack = config.spare * float(whole.size.max())
     for axis in (0, 1):
