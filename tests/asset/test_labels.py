@@ -188,6 +188,19 @@ def test_words_behind_the_noun_that_nobody_knows_blur_a_name():
 
 
 @pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        ("cold_handle2_Circle.004", PartLabel.MISC),
+        ("Hot_knob", PartLabel.MISC),
+        ("hot_water_tank_door_handle", PartLabel.HANDLE),
+        ("drawers_handle", PartLabel.HANDLE),
+    ],
+)
+def test_handles_of_taps_are_on_no_door(name, label):
+    assert label_of(name) is label
+
+
+@pytest.mark.parametrize(
     ("name", "label", "is_piece"),
     [
         ("leftdoor_leftside_Plane.014_dark_walnut_jpg", PartLabel.DOOR, True),

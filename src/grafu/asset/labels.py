@@ -85,6 +85,7 @@ _PIECES = word_set(
 )
 _LEAF_PIECES = word_set("stile rail mullion molding moulding trim bead slat")
 _VOIDS = word_set("recess shadow gap cavity slot groove cutout hole pocket")
+_VALVES = word_set("tap faucet hot cold heat water burner")  # whose handles are on no door or drawer
 _FITTINGS = word_set("hinge lock rail slide slider runner screw knuckle bearing bracket wheel caster castor")
 _HARDWARE = frozenset({"hinge", "lock", "latch", "knuckle"})
 _PLURALS = frozenset({"doors", "drawers"})
@@ -194,10 +195,10 @@ def _phrases(said: tuple[str, ...]) -> list[tuple[str, ...]]:
 
 @lru_cache(maxsize=20_000)  # many names differ in their numbers alone
 def _sense(said: tuple[str, ...]) -> Sense:
-    handle = _last(said, _OF_HANDLES)
-    if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, _last(said, _OF_MOVING))):
-        return Sense(PartLabel.HANDLE)
-    moving = _last(said, _OF_MOVING)
+    handle, moving = _last(said, _OF_HANDLES), _last(said, _OF_MOVING)
+    if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, moving)):
+        is_valve = moving is None and bool(set(said) & _VALVES)
+        return Sense(PartLabel.MISC if is_valve else PartLabel.HANDLE)
     if _names_both(said):
         return Sense(PartLabel.UNKNOWN, is_either=True)
     if moving is not None:
