@@ -114,19 +114,18 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
                 other, f"panels, doors and legs stand so, against {convention.up} of {convention.origin}{sure}"
             )
         return _by_rest(reading, votes, _Choice(convention.up, f"stated by {convention.origin}"))
-    best = votes.best()
     if options.front is not None and options.front[1] == convention.usual_up[1]:
         other = "+Z" if convention.usual_up == "+Y" else "+Y"
-        return _Choice(best or other, "left over by the user's front")
-    if best is not None:
-        sure = _sure(votes.confidence(best))
-        return _Choice(best, f"from the places and thin sides of labelled panels and legs{sure}")
+        return _Choice(votes.best or other, "left over by the user's front")
+    if votes.best is not None:
+        sure = _sure(votes.confidence(votes.best))
+        return _Choice(votes.best, f"from the places and thin sides of labelled panels and legs{sure}")
     return _by_rest(reading, votes, _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it"))
 
 
 def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice) -> _Choice:
     """Returns the direction that is up by the format, or the one that the shape tells where labels tell nothing."""
-    if votes.lying.any() or votes.standing.any() or votes.sense.any():
+    if votes.lying.any() or votes.standing.any() or votes.tells_sense:
         return usual
     other = stands_on_another_side(reading.parts, usual.value, "+Z" if usual.value == "+Y" else "+Y")
     if other is None:

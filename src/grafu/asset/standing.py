@@ -88,11 +88,6 @@ class UpEvidenceConfig:
     """Fraction of the votes that another axis must have to overrule the stated one, which may have none ..."""
     least: float = 3.0
     """... of so many votes at least: two standing plates whose thin sides differ, and one that lies."""
-    placed: float = 0.8
-    """Sum of the places of tops, bottoms and legs from which on these tell it where nothing lies or stands ..."""
-    long: float = 2.0
-    """... of legs that are as long as this along their length alone (multiple of the middle side): in plan they may
-    stand nearer to one side."""
     turned: float = 1.0
     """Sum of the places of tops, bottoms and legs (each -1..1) from which on a piece stands upside down."""
 
@@ -128,20 +123,31 @@ class UpVotes:
     standing: Vec3
     sense: Vec3
 
-    def best(self, config: UpEvidenceConfig = UpEvidenceConfig()) -> str | None:
-        """Returns the upward direction that most agree on, or None where they say nothing."""
+    @property
+    def tells_sense(self) -> bool:
+        """Whether tops, bottoms and legs lie to one side far enough to tell which axis is up, without any plate."""
+        return bool(np.abs(self.sense).max() >= UpEvidenceConfig().turned)
+
+    @property
+    def best(self) -> str | None:
+        """The upward direction that most agree on, or None where they say nothing."""
         votes = self.lying - self.standing
-        if not votes.any() and not self.sense.any():
+        if not votes.any() and not self.tells_sense:
             return None
         score = votes + np.abs(self.sense)
         axis = int(np.argmax(score))
-        if score[axis] < config.placed or (score >= score[axis] - 1e-9).sum() > 1:
+        if score[axis] <= 0 or (score >= score[axis] - 1e-9).sum() > 1:
             return None
         return spelled(axis, bool(self.sense[axis] >= 0))
 
     def confidence(self, up: str) -> float:
-        """Returns which fraction of what lies or stands does so where this direction is up; 0 where nothing tells."""
+        """Returns which fraction of what lies or stands does so where this direction is up.
+
+        Where there is no plate, it is the fraction of the places of tops, bottoms and legs; 0 where nothing tells.
+        """
         axis = "XYZ".index(up[1])
+        if not self.lying.any() and not self.standing.any():
+            return float(np.abs(self.sense[axis]) / max(np.abs(self.sense).sum(), 1e-12))
         agree = self.lying[axis] + self.standing.sum() - self.standing[axis]
         return float(agree / max(self.lying.sum() + self.standing.sum(), 1.0))
 
@@ -172,8 +178,6 @@ def up_votes(parts: Sequence[Part], whole: Box, config: UpEvidenceConfig = UpEvi
         lying[thin] += float(is_plate and part.label in _LYING)
         standing[thin] += float(is_plate and part.label in _STANDING)
         offset = (part.box.center - whole.center) / np.maximum(whole.half, 1e-12)
-        if part.label is PartLabel.LEG and sides[2] >= config.long * sides[1]:
-            offset = np.where(part.box.size == sides[2], offset, 0.0)
         sense += _PLACES.get(part.label, 0.0) * offset
     return UpVotes(lying, standing, sense)
 
