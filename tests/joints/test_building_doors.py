@@ -70,7 +70,7 @@ def jambs(name="inner", sill=0.0):
         box("c", (0.1, -0.05, 2.0), (0.8, 0.05, 2.05)),
         *([box("d", (0.1, -0.05, 0.0), (0.8, 0.05, sill))] if sill else []),
     ]
-    return replace(box(name, (0, 0, 0), (1, 1, 1)), surfaces=tuple(s for p in pieces for s in p.surfaces))
+    return replace(box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=tuple(s for p in pieces for s in p.surfaces))
 
 
 def standing(low, name="panel"):
