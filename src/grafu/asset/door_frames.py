@@ -1,4 +1,4 @@
-"""What is called a door but stands around doors is their frame. It asks names and shapes, and knows no direction.
+"""What is called a door but stands around doors is their frame. It looks at names and shapes, in any frame of axes.
 
 A leaf has a rail at its bottom, below its pane. The frame of a door in a wall has none: a leaf in it reaches the floor.
 """
@@ -21,7 +21,7 @@ _RAYS = 12  # along each side of a leaf
 
 @final
 @dataclass(frozen=True, slots=True)
-class DoorFrameConfig:
+class FramedDoorsConfig:
     """What is a frame around doors.
 
     Raises:
@@ -46,7 +46,7 @@ class DoorFrameConfig:
 
 
 def with_door_frames(
-    parts: tuple[Part, ...], config: DoorFrameConfig = DoorFrameConfig()
+    parts: tuple[Part, ...], config: FramedDoorsConfig = FramedDoorsConfig()
 ) -> tuple[tuple[Part, ...], list[str]]:
     """Returns the parts with frames around doors, which were called doors as well, as frames; and notes on that.
 
@@ -61,7 +61,7 @@ def with_door_frames(
     ), notes
 
 
-def _is_frame(door: Part, doors: Sequence[Part], config: DoorFrameConfig) -> bool:
+def _is_frame(door: Part, doors: Sequence[Part], config: FramedDoorsConfig) -> bool:
     box, thin = door.box, door.box.thin_axis
     around = box.grown(config.spare * float(box.size.max()))
     whole = [other for other in doors if other is not door and not is_piece(other.source.name)]
@@ -76,7 +76,7 @@ def _is_frame(door: Part, doors: Sequence[Part], config: DoorFrameConfig) -> boo
     return _fill([*outer], box, thin, config) if len(outer) > 1 else any(_ends_in(leaf, box, config) for leaf in outer)
 
 
-def _is_open_before(rays: RayCaster, leaf: Box, thin: int, frame: Box, config: DoorFrameConfig) -> bool:
+def _is_open_before(rays: RayCaster, leaf: Box, thin: int, frame: Box, config: FramedDoorsConfig) -> bool:
     depths = depths_below(rays, leaf, thin, _RAYS, frame.diagonal)
     return float(np.isfinite(depths).mean()) <= config.open
 
@@ -88,7 +88,7 @@ def _lies_in(leaf: Part, other: Part, thin: int) -> bool:
     return leaf is not other and bool(inside)
 
 
-def _fill(leaves: Sequence[Box], frame: Box, thin: int, config: DoorFrameConfig) -> bool:
+def _fill(leaves: Sequence[Box], frame: Box, thin: int, config: FramedDoorsConfig) -> bool:
     """Whether leaves lie beside each other, and fill a frame."""
     across = np.delete(np.arange(3), thin)
     areas = [float(np.prod(leaf.size[across])) for leaf in leaves]
@@ -100,7 +100,7 @@ def _fill(leaves: Sequence[Box], frame: Box, thin: int, config: DoorFrameConfig)
     return sum(areas) >= config.filled * float(np.prod(frame.size[across]))
 
 
-def _ends_in(leaf: Box, frame: Box, config: DoorFrameConfig) -> bool:
+def _ends_in(leaf: Box, frame: Box, config: FramedDoorsConfig) -> bool:
     """Whether a leaf reaches one end of its frame, and stands off the other three sides of it."""
     across = np.delete(np.arange(3), frame.thin_axis)
     gaps = np.concatenate([leaf.low - frame.low, frame.high - leaf.high]).reshape(2, 3)[:, across] / frame.size[across]

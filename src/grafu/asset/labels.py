@@ -112,7 +112,7 @@ class Sense:
 
     A name `is_blurred` where it goes on, after the noun, with words that are not known (`drawer_sprocket`).
     `is_container` states that it is the name of a whole piece of furniture or of its body, `is_fitting` that it is that
-    of a hinge, a rail or the like, `mention` which door or drawer such a name says besides (`drawer_unit`),
+    of a hinge, a rail or the like, `mention` which door or drawer it names besides (`drawer_unit`, `drawer_lock`),
     `is_either` that it names doors and drawers alike.
     """
 
