@@ -109,6 +109,16 @@ NOT_DOORS = {
     ),
     "a wardrobe": (frame(0.5), leaf((-0.27, -0.25)), box("shelf", (0.05, -0.2, 1.0), (0.85, 0.25, 1.02))),
     "a bookcase with a back": (frame(0.25), leaf((0.11, 0.125)), box("shelf", (0.05, -0.12, 1.0), (0.85, 0.11, 1.02))),
+    "a cabinet with a drawer": (
+        frame(0.3, width=1.5),
+        leaf((-0.17, -0.15), (0.053, 0.8)),
+        box("board", (0.82, -0.15, 0.0), (1.45, 0.15, 1.4)),
+    ),
+    "a cabinet with what is called a drawer": (
+        frame(0.3, width=1.5),
+        leaf((-0.17, -0.15), (0.053, 1.2)),
+        box("drawer", (1.22, -0.15, 0.3), (1.45, 0.12, 0.5)),
+    ),
     "a panel before a wall": (box("wall", (0.0, 0.0, 0.0), (0.9, 0.1, 2.1)), leaf()),
 }
 

@@ -58,6 +58,8 @@ class BuildingDoorConfig:
     """How high above the floor a leaf ends at most (fraction of the height of the whole)."""
     sill: float = 0.01
     """How high above a frame around it a leaf ends at most (fraction of the height of the whole): rails are higher."""
+    beside: float = 0.15
+    """Greatest side of what is beside a leaf: buttons, a lamp (fraction of the height of the whole)."""
     small: float = 0.3
     """Greatest side of a handle or lock (fraction of its leaf's height)."""
     aside: float = 0.2
@@ -84,9 +86,8 @@ def building_door(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig(
     on_leaf = tuple(tuple(part for part in others if is_on_leaf(part, leaf, config)) for leaf in leaves)
     known = {part.id for parts in on_leaf for part in parts}
     left = (part for part in others if part.id not in known)
-    if any(_shares_outline(part.box, leaf.box) for part in left for leaf in leaves):
-        return None
-    return FramedLeaves(frame, leaves, on_leaf, inner)
+    stay = all(_is_beside(part, leaf.box, asset.box, config) for part in left for leaf in leaves)
+    return FramedLeaves(frame, leaves, on_leaf, inner) if stay else None
 
 
 def with_door_labels(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> Asset:
@@ -167,10 +168,13 @@ def _outermost(boards: Sequence[Part]) -> Iterator[Part]:
     yield from found
 
 
-def _shares_outline(box: Box, leaf: Box) -> bool:
-    """Whether something stands before or behind a leaf, seen from before it."""
-    shared = np.minimum(box.high, leaf.high) - np.maximum(box.low, leaf.low)
-    return bool(np.all(shared[[_WIDTH, _UP]] > 0))
+def _is_beside(part: Part, leaf: Box, whole: Box, config: BuildingDoorConfig) -> bool:
+    """Whether a part lies beside a leaf, seen from before it: small, on the floor or above, and no drawer in a case."""
+    shared = np.minimum(part.box.high, leaf.high) - np.maximum(part.box.low, leaf.low)
+    if part.label.is_movable or np.all(shared[[_WIDTH, _UP]] > 0):
+        return False
+    lies = part.box.high[_UP] <= whole.low[_UP] + config.threshold * whole.size[_UP]
+    return bool(lies or part.box.low[_UP] >= leaf.high[_UP] or part.box.size.max() <= config.beside * whole.size[_UP])
 
 
 def _is_board(part: Part, whole: Box, config: BuildingDoorConfig) -> bool:
