@@ -162,7 +162,7 @@ def framed(view: ShellsView, segmentation: SegmentationConfig) -> list[tuple[int
         bars = slender & (size[:, 2] <= config.deep * size[:, across]) & (size[:, across] > 0)
         bars &= size[:, along] >= segmentation.candidates.least * extent
         for bar, others in _pairs(view, bars, along, extent * config.same):
-            near = _level_with(view, bar, along, config.same * extent[bar])
+            near = _level_with(view, bar, along, config.same * extent[bar], config.pane)
             around, numbers = view.of_shells(near), {shell: k for k, shell in enumerate(near.tolist())}
             for other in others:
                 members = _filled(around, (numbers[bar], numbers[other]), along, extent[bar], config)
@@ -225,23 +225,26 @@ def _pairs(view: ShellsView, bars: MaskOfShells, along: int, same: np.ndarray) -
             yield bar, others[np.argsort(low[others, across], kind="stable")].tolist()
 
 
-def _level_with(view: ShellsView, bar: int, along: int, same: float) -> Indices:
-    """Returns the shells that reach beyond none of a bar's ends, nor before it or behind it, of any object."""
+def _level_with(view: ShellsView, bar: int, along: int, same: float, pane: float) -> Indices:
+    """Returns the shells of a bar's object that reach beyond none of its ends, nor before it or behind it.
+
+    So are panes, of the thickness `pane` of the bar's at most, that are another object.
+    """
     low, high = view.low, view.high
     inside = (low[:, along] >= low[bar, along] - same) & (high[:, along] <= high[bar, along] + same)
     level = (low[:, 2] >= low[bar, 2] - same) & (high[:, 2] <= high[bar, 2] + same)
-    return np.flatnonzero(inside & level)
+    own = view.owner == view.owner[bar]
+    return np.flatnonzero(inside & level & (own | (view.size[:, 2] <= pane * view.size[bar, 2])))
 
 
 def _filled(view: ShellsView, pair: tuple[int, int], along: int, extent: float, config: FrameConfig) -> tuple[int, ...]:
     """Returns the pair with the bars across and the panels between, empty where they are no filled frame.
 
-    The view shows the shells that are level with the pair. Panes of glass are often objects of their own: they fill the
-    frame, and are not returned.
+    The view shows the shells that are level with the pair. Panes of another object fill a frame, too, and are left out.
     """
     first, second = pair
     across: Final = 1 - along
-    low, high, same = view.low, view.high, config.same * extent
+    low, high, same, own = view.low, view.high, config.same * extent, view.owner == view.owner[first]
     bar = float(view.size[first, across])
     groove = config.groove * bar
     left, right = high[first, across], low[second, across]
@@ -249,17 +252,15 @@ def _filled(view: ShellsView, pair: tuple[int, int], along: int, extent: float, 
     spans = between & (low[:, across] <= left + same) & (high[:, across] >= right - same)
     low_ends = spans & (np.abs(low[:, along] - low[first, along]) <= same)
     high_ends = spans & (np.abs(high[:, along] - high[first, along]) <= same)
-    own = view.owner == view.owner[first]
     rails = (low_ends ^ high_ends) & own
     if not ((low_ends & rails).any() and (high_ends & rails).any()):
         return ()
     opening = high[low_ends & rails, along].min(), low[high_ends & rails, along].max()
-    set_back = _is_set_back(view, first, config)
-    filling = between & ~rails & (own | set_back)
+    filling = between & ~rails & (own | _is_set_back(view, first, config))
     filling[[first, second]] = False
-    muntins = filling & ~set_back & (view.size[:, :2].min(axis=1) <= config.muntin * bar)
+    muntins = filling & ~_is_set_back(view, first, config) & (view.size[:, :2].min(axis=1) <= config.muntin * bar)
     panels = filling & ~muntins
-    if not panels.any() or not set_back[panels].all():
+    if not panels.any() or not _is_set_back(view, first, config)[panels].all():
         return ()
     if not _fits(view, filling, pair, along, opening, config.gap * extent, config.filled):
         return ()

@@ -87,6 +87,8 @@ class FrameConfig:
     """How many times as long as wide a strip is that lies beside a front without a gap, and is a stile of it ..."""
     strip_area: float = 0.4
     """... and how large it is at most (of that front's outline)."""
+    pane: float = 0.3
+    """How thick a pane is at most that is another object (of the frame's thickness)."""
     set_back: float = 0.02
     """How far behind the face of a frame its panels lie at least (of its thickness)."""
 
