@@ -99,16 +99,6 @@ def test_shelves_that_are_a_whole_case_are_cut_and_a_board_called_shelf_is_not()
     assert [p.id for p in cut(board, welded((CASE[0],))).parts] == ["shelf", "body"]
 
 
-@pytest.mark.parametrize(("name", "is_cut"), [("cabinet_Cube.000", True), ("side_panel", False), ("shelves", False)])
-def test_a_shallow_body_that_is_called_a_cabinet_is_cut(name, is_cut):
-    """A third as deep as it is wide at most: shelves as shallow are boards."""
-    label = PartLabel.SHELF if name == "shelves" else PartLabel.SIDE_PANEL
-    body = welded(label=label, name=name)
-    shallow = np.diag([1.0, 0.25 * np.sort(body.box.size)[1] / body.box.size[1], 1.0, 1.0])
-    body = replace(body, surfaces=tuple(surface.transformed(shallow) for surface in body.surfaces))
-    assert (len(cut(body).parts) > 1) is is_cut
-
-
 def test_a_robot_of_several_links_is_left_alone_and_one_of_one_link_is_not():
     body, other = welded(), welded((CASE[0],), name="other")
     links = [replace(p, source=PartSource(p.id, link=link)) for p, link in ((body, "base"), (other, "arm"))]

@@ -49,16 +49,14 @@ class CutConfig:
     few: int = 3
     """Fronts drawn on a surface are looked for where an input has no others, and so many objects at most."""
     thick: float = 0.35
-    """What is called a shelf and is thicker than this is no board, but shelves (fraction of its middle side) ..."""
-    shallow: float = 0.15
-    """... and so is what is called a cabinet or the like (fraction): many are shallow."""
+    """What is thicker than this is no board (fraction of its middle side)."""
     bed_width: float = 0.8
     """What takes this much of a bed's side (fraction) ..."""
     bed_height: float = 0.4
     """... and is as high as this (fraction of its width) is a headboard or footboard, and no front."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "door_height", "thick", "shallow", "bed_width", "bed_height")
+        require_ratios(self, "door_height", "thick", "bed_width", "bed_height")
         require_positive(self, "few")
 
 
@@ -135,8 +133,8 @@ def _may_be_cut(part: Part, config: CutConfig) -> bool:
     """Whether a part may hide fronts: so may the body of a piece of furniture that is named after that."""
     sides = np.sort(part.box.size)
     is_body = part.label is BODY and sense_of(part.source.name).is_container
-    least = config.shallow if is_body else config.thick if part.label is PartLabel.SHELF else np.inf
-    return part.label in _OPEN or bool(sides[0] > least * sides[1])
+    is_body |= part.label is PartLabel.SHELF  # no board, but shelves: a bookcase
+    return part.label in _OPEN or (is_body and bool(sides[0] > config.thick * sides[1]))
 
 
 def _materials(part: Part) -> Indices:

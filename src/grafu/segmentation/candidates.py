@@ -65,7 +65,7 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
         if (  # rays come last: many views are never asked for any
             (body[k] and _has_handle(view, k, config.near * float(scale.extent[k]), config))
             or (
-                _has_room(view, k, config.room * float(shorter[k]), config.near * float(scale.extent[k]), config)
+                _has_room(view, k, config.room * float(shorter[k]), config)
                 and (plate[k] or _is_flanked(view, k, scale, config))
             )
         )
@@ -112,26 +112,16 @@ def _has_handle(view: ShellsView, shell: int, near: float, config: CandidateConf
     return bool((on & (middles <= near).any(axis=1)).any())
 
 
-def _has_room(view: ShellsView, shell: int, least: float, near: float, config: CandidateConfig) -> bool:
-    """Whether what stands behind a shell reaches farther back than it is thick: one shell, or a wall of planks."""
-    covers = overlaps(view, shell)
-    covers[shell] = 0.0
-    behind, thick = covers > config.hidden, float(view.size[shell, 2])
+def _has_room(view: ShellsView, shell: int, least: float, config: CandidateConfig) -> bool:
+    """Whether what stands behind a shell reaches farther back than the shell is thick."""
+    behind = overlaps(view, shell) > config.hidden
+    behind[shell] = False
     if not behind.any():
-        back = float(view.low[shell, 2]) - min(least, thick)
-        planks = (covers > 0) & (view.high[:, 2] <= back)
-        return any(float(covers[wall].sum()) > config.hidden for wall in _walls(view, planks, near))
-    back = float(view.low[behind, 2].min())
+        return False
+    back, thick = float(view.low[behind, 2].min()), float(view.size[shell, 2])
     if float(view.low[shell, 2]) - back >= min(least, thick):
         return True
     return float(view.high[shell, 2]) - back >= 2 * least and thick > least
-
-
-def _walls(view: ShellsView, among: MaskOfShells, near: float) -> Iterator[MaskOfShells]:
-    """Yields for each object those of some shells that stand in one plane, the farthest behind."""
-    for owner in np.unique(view.owner[among]).tolist():
-        own = among & (view.owner == owner)
-        yield own & (view.low[:, 2] <= view.low[own, 2].min() + near)
 
 
 def _is_flanked(view: ShellsView, shell: int, scale: Scale, config: CandidateConfig) -> bool:
