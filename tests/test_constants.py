@@ -206,17 +206,14 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig,
-    FramedDoorsConfig, DoorRuleConfig,
+    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
-    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, HeldFrontsConfig,
-    LassoConfig,
-    LooseConfig,
-    MassConfig, MatchConfig,
-    MemberConfig, NamedFittingConfig,
-    PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
+    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
+    FramedDoorsConfig, HeldFrontsConfig, LooseConfig,
+    MassConfig, MatchConfig, NamedFittingConfig,
+    MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
     SeenSideConfig, SegmentationConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
 )  # fmt: skip
 NUMBERS = [
