@@ -17,12 +17,14 @@ from grafu.articulation.finger_room import FingerRoomCutConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.asset.body_kinds import BodyKindConfig
 from grafu.asset.cutting import CutConfig
+from grafu.asset.door_frames import FramedDoorsConfig
 from grafu.asset.drafts import GroupConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.grips import DrawnGripConfig
 from grafu.asset.lasso_cut import LassoConfig
 from grafu.asset.loose import LooseConfig
+from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
 from grafu.asset.plausibility import PlausibilityConfig
@@ -31,7 +33,7 @@ from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
-from grafu.completion.decode_config import FactConfig
+from grafu.completion.decode_config import FactConfig, HeldFrontsConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
 from grafu.export.gltf_packing import DracoConfig
@@ -94,6 +96,7 @@ OF_MODULES = {
     "asset": {
         "bodies.py": {},
         "cutting.py": {},
+        "door_frames.py": {"_RAYS": SAMPLES},
         "drafts.py": {},
         "lasso_cut.py": {"MOST_CORNERS": FORMAT, "_NO_AREA": TOLERANCE},
         "foreign/agreement.py": {"_FEW": EFFORT},
@@ -208,8 +211,8 @@ CONFIGS = (
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
-    LooseConfig,
-    MassConfig, MatchConfig,
+    FramedDoorsConfig, HeldFrontsConfig, LooseConfig,
+    MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
     SeenSideConfig, SegmentationConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
 )  # fmt: skip

@@ -191,6 +191,33 @@ def test_words_behind_the_noun_that_nobody_knows_blur_a_name():
     assert sense_of("CabinetBody").is_container
 
 
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        ("cold_handle2_Circle.004", PartLabel.MISC),
+        ("Hot_knob", PartLabel.MISC),
+        ("hot_water_tank_door_handle", PartLabel.HANDLE),
+        ("drawers_handle", PartLabel.HANDLE),
+    ],
+)
+def test_handles_of_taps_are_on_no_door(name, label):
+    assert label_of(name) is label
+
+
+@pytest.mark.parametrize(
+    ("name", "label", "is_piece"),
+    [
+        ("leftdoor_leftside_Plane.014_dark_walnut_jpg", PartLabel.DOOR, True),
+        ("drawer_left_side_teak", PartLabel.DRAWER, True),
+        ("drawer_cabinet_left_side_teak", PartLabel.SIDE_PANEL, False),
+        ("drawer_side_rail_teak", PartLabel.MISC, False),
+    ],
+)
+def test_strange_words_at_the_end_change_nothing_of_what_stands_before_them(name, label, is_piece):
+    """The material is often the end of a name; where a door is, is no panel of the case."""
+    assert (label_of(name), sense_of(name).is_piece) == (label, is_piece)
+
+
 _WORDS = sorted({singular(w) for _, row in TABLE for w in row.replace(",", " ").replace("=", " ").split()})
 
 

@@ -178,6 +178,22 @@ def test_what_holds_several_drawers_is_their_body_whatever_its_name():
     assert with_bodies((named, *fronts))[0].label is named.label
 
 
+@pytest.mark.parametrize(
+    ("name", "front", "is_body"),
+    [
+        ("cabinet_1_Cube.004", "flap_1", True),
+        ("Cube.004", "flap_1", False),
+        ("cabinet_1_Cube.004", "drawer_1", False),
+        ("cabinet_1_side", "flap_1", False),
+    ],
+    ids=["a cabinet", "nothing by its name", "a drawer's box", "a part of it"],
+)
+def test_what_is_called_a_cabinet_is_the_body_of_its_one_door(name, front, is_body):
+    wide = part("top", (-1, 0, 0.8), (1, 0.6, 0.83))
+    body, other = part(name, (0, 0.02, 0.3), (0.4, 0.5, 0.8)), part(front, (0, 0, 0.31), (0.4, 0.02, 0.79))
+    assert (with_bodies((body, other, wide))[0].label is BODY) is (is_body or body.label is BODY)
+
+
 def sink_base(*without):
     """Two doors with handles, each under a front that is called a drawer."""
     found = []

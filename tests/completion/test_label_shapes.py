@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from grafu.completion.decode_config import DecodeConfig
-from grafu.completion.label_shapes import held_by_handles, without_overlaid, without_slim
+from grafu.completion.label_shapes import held_by_handles, without_cases, without_overlaid, without_slim
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
@@ -91,3 +91,50 @@ def test_what_touches_handles_alone_is_a_piece_of_a_handle():
     assert held_by_handles(graph, labels | {"post": PartLabel.BAR}) == frozenset()
     assert held_by_handles(replace(graph, edges=(Contact("front", "post"),)), labels) == frozenset()
     assert held_by_handles(replace(graph, edges=(*edges, Contact("bar", "front"))), labels) == frozenset()
+
+
+CASE = Box(vec3(0.0, 0.0, 0.0), vec3(1.3, 0.42, 0.8))
+LEAVES = tuple(Box(vec3(x, 0.01, 0.08), vec3(x + 0.4, 0.03, 0.78)) for x in (0.02, 0.88))
+BESIDE_IT = Box(vec3(1.3, 0.0, 0.0), vec3(2.0, 0.42, 2.0))
+
+
+def is_front(body, *fronts, label=PartLabel.UNKNOWN) -> bool:
+    """Whether a body is still a drawer, after it and what lies in its face were predicted to be fronts."""
+    nodes = tuple(
+        PartNode(str(k), label if k == 1 else PartLabel.UNKNOWN, box)
+        for k, box in enumerate((BESIDE_IT, body, *fronts))
+    )
+    weights = np.full((len(nodes), len(LABELS)), 0.01)
+    weights[0, LABELS.index(PartLabel.SIDE_PANEL)] = weights[1, DRAWER] = 0.9
+    weights[2:, DOOR] = 0.9
+    made = without_cases(weights, FunctionalGraph("g", nodes, ()), DecodeConfig())
+    assert np.array_equal(made[[0, *range(2, len(nodes))]], weights[[0, *range(2, len(nodes))]])
+    return bool(made[1, DRAWER] > 0)
+
+
+@pytest.mark.parametrize("turns", range(4))
+def test_a_body_on_the_floor_with_two_fronts_in_its_face_is_a_case(turns):
+    c, s = np.cos(turns * np.pi / 2), np.sin(turns * np.pi / 2)
+    R = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    body, *leaves = (Box.around(box.corners() @ R.T) for box in (CASE, *LEAVES))
+    assert not is_front(body, *leaves)
+
+
+def moved(box: Box, y: float = 0.0, z: float = 0.0) -> Box:
+    return Box(box.low + vec3(0.0, y, z), box.high + vec3(0.0, y, z))
+
+
+@pytest.mark.parametrize(
+    ("body", "fronts", "label"),
+    [
+        (CASE, LEAVES[:1], PartLabel.UNKNOWN),
+        (moved(CASE, z=0.5), tuple(moved(leaf, z=0.5) for leaf in LEAVES), PartLabel.UNKNOWN),
+        (CASE, tuple(moved(leaf, y=0.15) for leaf in LEAVES), PartLabel.UNKNOWN),
+        (CASE, (LEAVES[0], Box(LEAVES[0].low + vec3(0.05, 0.0, 0.0), LEAVES[0].high)), PartLabel.UNKNOWN),
+        (CASE, tuple(Box(b.low, b.low + vec3(0.2, 0.02, 0.1)) for b in LEAVES), PartLabel.UNKNOWN),
+        (CASE, LEAVES, PartLabel.DRAWER),
+    ],
+    ids=["a drawer's own front", "above the floor", "inner drawers", "a front and its pane", "small", "by its name"],
+)
+def test_other_bodies_may_be_drawers(body, fronts, label):
+    assert is_front(body, *fronts, label=label)

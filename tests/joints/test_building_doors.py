@@ -62,6 +62,43 @@ def test_a_leaf_that_stands_beside_its_frame_slides_before_it():
     assert request.drawn_at == pytest.approx(0.425)
 
 
+def jambs(name="inner", sill=0.0):
+    """A frame that stands in the outer one, 0.1 narrower, with a rail below where `sill` is the height of one."""
+    pieces = [
+        box("a", (0.05, -0.05, 0.0), (0.1, 0.05, 2.05)),
+        box("b", (0.8, -0.05, 0.0), (0.85, 0.05, 2.05)),
+        box("c", (0.1, -0.05, 2.0), (0.8, 0.05, 2.05)),
+        *([box("d", (0.1, -0.05, 0.0), (0.8, 0.05, sill))] if sill else []),
+    ]
+    return replace(box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=tuple(s for p in pieces for s in p.surfaces))
+
+
+def standing(low, name="panel"):
+    return box(name, (0.102, -0.01, low), (0.798, 0.01, 1.998))
+
+
+def test_in_a_frame_within_a_frame_the_leaf_moves_and_both_frames_stay():
+    """Buttons and a sign beside the leaf stay as well."""
+    beside = (
+        box("buttons", (0.06, -0.06, 1.0), (0.09, -0.05, 1.2)),
+        box("sign", (0.4, -0.055, 2.01), (0.5, -0.05, 2.04)),
+    )
+    found = building_door(scene(frame(), jambs(), standing(0.003), *beside))
+    assert found is not None
+    assert (found.frame.id, [part.id for part in found.inner_frames]) == ("frame", ["inner"])
+    assert [part.id for part in found.leaves] == ["panel"]
+    labels = {part.id: part.label for part in with_door_labels(scene(frame(), jambs(), standing(0.003))).parts}
+    assert labels["inner"] is PartLabel.FACE_FRAME
+    assert [joint.child for joint in built(frame(), jambs(), standing(0.003), *beside).object.joints] == ["panel"]
+
+
+def test_a_leaf_with_a_rail_below_its_pane_is_no_frame():
+    found = building_door(scene(frame(), jambs("panel", sill=0.05), standing(0.045, "pane")))
+    assert found is not None
+    assert [part.id for part in found.leaves] == ["panel"]
+    assert [[part.id for part in parts] for parts in found.on_leaf] == [["pane"]]
+
+
 NOT_DOORS = {
     "a mirror": (
         replace(frame(), surfaces=(*frame().surfaces, *box("d", (0.05, -0.06, 0.0), (0.85, 0.06, 0.2)).surfaces)),
@@ -72,6 +109,16 @@ NOT_DOORS = {
     ),
     "a wardrobe": (frame(0.5), leaf((-0.27, -0.25)), box("shelf", (0.05, -0.2, 1.0), (0.85, 0.25, 1.02))),
     "a bookcase with a back": (frame(0.25), leaf((0.11, 0.125)), box("shelf", (0.05, -0.12, 1.0), (0.85, 0.11, 1.02))),
+    "a cabinet with a drawer": (
+        frame(0.3, width=1.5),
+        leaf((-0.17, -0.15), (0.053, 0.8)),
+        box("board", (0.82, -0.15, 0.0), (1.45, 0.15, 1.4)),
+    ),
+    "a cabinet with what is called a drawer": (
+        frame(0.3, width=1.5),
+        leaf((-0.17, -0.15), (0.053, 1.2)),
+        box("drawer", (1.22, -0.15, 0.3), (1.45, 0.12, 0.5)),
+    ),
     "a panel before a wall": (box("wall", (0.0, 0.0, 0.0), (0.9, 0.1, 2.1)), leaf()),
 }
 

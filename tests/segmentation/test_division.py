@@ -75,7 +75,7 @@ def test_welded_samples_give_each_front_back_whole(sample):
         (SegmentationConfig(candidates=CandidateConfig(least=0.9), division=DivisionConfig(low=0.9)), {}),
         (SegmentationConfig(candidates=CandidateConfig(least=0.9)), {"rest": 1, "front": 2, "handle": 2}),
         (SegmentationConfig(members=MemberConfig(handle_side=1e-9)), {"rest": 1, "front": 2}),
-        (SegmentationConfig(division=DivisionConfig(small=0.9)), {}),
+        (SegmentationConfig(division=DivisionConfig(small=0.9, low=0.9)), {}),
     ],
     ids=[
         "as usual",
@@ -360,6 +360,20 @@ def test_low_drawers_of_a_table_are_cut_out_where_a_handle_stands_on_them(knobs)
     for box, mesh in zip(sorted(fronts, key=lambda box: box.low[0]), LOW_FRONTS[:knobs], strict=True):
         np.testing.assert_allclose([box.low, box.high], [mesh.box.low, mesh.box.high], atol=1e-9)
     assert [role for role, _ in found.get(0, [])].count("handle") == knobs
+
+
+@pytest.mark.parametrize(("is_held", "count"), [(True, 3), (False, 2)])
+def test_a_low_drawer_of_one_piece_of_a_wide_row_is_compared_with_that_piece(is_held, count):
+    """It is lower than 2 % of the row, as a rail is, and has a knob, which is another object."""
+    case = [board((x, 0.02, 0), (x + 0.02, 0.4, 0.8)) for x in (0.0, 0.42, 0.86, 1.28)]
+    case += [board((0, 0.0, 0.8), (1.3, 0.4, 0.82)), board((0, 0.38, 0), (1.3, 0.4, 0.8))]
+    doors = [board((x, 0.0, 0.01), (x + 0.43, 0.015, 0.79)) for x in (0.0, 0.87)]
+    drawer = board((0.445, 0.0, 0.745), (0.855, 0.36, 0.795))
+    knob = board((0.64, -0.02, 0.762), (0.66, 0.0, 0.778))
+    wall = board((1.4, 0.0, 0.0), (3.4, 0.4, 2.0))
+    others = [wall, knob] if is_held else [wall]
+    found = cut(merge_meshes([*case, *doors, drawer]), *others, open_to=[True] + [False] * len(others))
+    assert [role for role, _ in found[0]].count("front") == count
 
 
 def test_a_low_upright_strip_with_a_knob_is_no_drawer():

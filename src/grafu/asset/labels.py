@@ -87,6 +87,7 @@ _PIECES = word_set(
 )
 _LEAF_PIECES = word_set("stile rail mullion molding moulding trim bead slat")
 _VOIDS = word_set("recess shadow gap cavity slot groove cutout hole pocket")
+_VALVES = word_set("tap faucet hot cold heat water burner")  # whose handles are on no door or drawer
 _FITTINGS = word_set("hinge lock rail slide slider runner screw knuckle bearing bracket wheel caster castor")
 _HARDWARE = frozenset({"hinge", "lock", "latch", "knuckle"})
 _PLURALS = frozenset({"doors", "drawers"})
@@ -110,8 +111,8 @@ class Sense:
     """What a name states: the label, whether it is a piece of a door or drawer, and whether nothing blurs it.
 
     A name `is_blurred` where it goes on, after the noun, with words that are not known (`drawer_sprocket`).
-    `is_container` states that it is the name of a whole piece of furniture or of its body, `mention` which door or
-    drawer it names besides (`drawer_unit`), `is_fitting` that it is that of a hinge, a rail or the like,
+    `is_container` states that it is the name of a whole piece of furniture or of its body, `is_fitting` that it is that
+    of a hinge, a rail or the like, `mention` which door or drawer it names besides (`drawer_unit`, `drawer_lock`),
     `is_either` that it names doors and drawers alike.
     """
 
@@ -166,6 +167,11 @@ def is_appliance(name: str) -> bool:
     return sense_of(name).is_container and bool({singular(w) for w in spoken(name)} & _APPLIANCES)
 
 
+def is_opening(name: str) -> bool:
+    """Whether Sweet Home 3D states in the name that it opens."""
+    return _OPENING.match(name) is not None
+
+
 def is_piece(name: str) -> bool:
     """Whether the name is that of a door's or drawer's piece (`drawer_front`, `cabinet_door_surface`)."""
     return sense_of(name).is_piece
@@ -191,10 +197,10 @@ def _phrases(said: tuple[str, ...]) -> list[tuple[str, ...]]:
 
 @lru_cache(maxsize=20_000)  # many names differ in their numbers alone
 def _sense(said: tuple[str, ...]) -> Sense:
-    handle = _last(said, _OF_HANDLES)
-    if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, _last(said, _OF_MOVING))):
-        return Sense(PartLabel.HANDLE)
-    moving = _last(said, _OF_MOVING)
+    handle, moving = _last(said, _OF_HANDLES), _last(said, _OF_MOVING)
+    if handle is not None and not (set(said[handle[1] :]) & _VOIDS or _overlaps(handle, moving)):
+        is_valve = moving is None and bool(set(said) & _VALVES)
+        return Sense(PartLabel.MISC if is_valve else PartLabel.HANDLE)
     if _names_both(said):
         return Sense(PartLabel.UNKNOWN, is_either=True)
     if moving is not None:
@@ -206,7 +212,8 @@ def _sense(said: tuple[str, ...]) -> Sense:
     if head is None or container >= head[1]:
         mention = None if moving is None else moving[2]
         return Sense(PartLabel.UNKNOWN, is_container=container >= 0, mention=mention if container >= 0 else None)
-    return Sense(head[2], is_fitting=bool(set(said[head[0] : head[1]]) & _FITTINGS))
+    is_fitting = bool(set(said[head[0] : head[1]]) & _FITTINGS)
+    return Sense(head[2], is_fitting=is_fitting, mention=None if moving is None or not is_fitting else moving[2])
 
 
 def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sense | None:
@@ -216,14 +223,20 @@ def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sen
     if (tail or end - start > 1) and set(said[:start]) & _HARDWARE:
         return None  # `hinge_door_leaf`: the leaf of the hinge that is on the door
     own = _PIECES | (_LEAF_PIECES if label is PartLabel.DOOR else frozenset())
-    if all(w in own or w in _PLACES for w in tail):
-        pieces = set(tail) & own | ({"surface"} & set(said[start:end]))
-        return Sense(label, is_piece=bool(pieces))
+    known = _without_strange_end(tail)
+    if all(w in own or w in _PLACES for w in known):
+        pieces = set(known) & own | ({"surface"} & set(said[start:end]))
+        return Sense(label, is_piece=bool(pieces), is_blurred=len(known) < len(tail))
     after = _last(said, _OF_OTHERS)
     later = after is not None and after[1] > end
     if later or any(w in _CONTAINERS for w in tail):
         return None
     return Sense(label, is_piece=bool(set(tail) & own), is_blurred=True)
+
+
+def _without_strange_end(tail: tuple[str, ...]) -> tuple[str, ...]:
+    """Returns the words without those at the end that state nothing: a material, a file's ending."""
+    return tail[: max((k + 1 for k, word in enumerate(tail) if word in _KNOWN), default=0)]
 
 
 def _names_both(said: tuple[str, ...]) -> bool:
@@ -263,3 +276,18 @@ _MOVING = frozenset({PartLabel.DOOR, PartLabel.DRAWER})
 _OF_MOVING: Final = _rows(_MOVING)
 _OF_HANDLES: Final = _rows(frozenset({PartLabel.HANDLE}))
 _OF_OTHERS: Final = _rows(frozenset(PartLabel) - _MOVING - {PartLabel.HANDLE})
+_KNOWN: Final = (
+    frozenset(
+        word
+        for rows in (_OF_MOVING, _OF_HANDLES, _OF_OTHERS)
+        for found in rows.values()
+        for _, said, _ in found
+        for word in said
+    )
+    | _PIECES
+    | _LEAF_PIECES
+    | _PLACES
+    | _CONTAINERS
+    | _VOIDS
+    | _FITTINGS
+)

@@ -143,17 +143,21 @@ def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
 
 
 def with_bodies(parts: tuple[Part, ...], config: PlausibilityConfig = PlausibilityConfig()) -> tuple[Part, ...]:
-    """Returns the parts with unlabelled ones that hold several doors or drawers as the bodies of these."""
+    """Returns the parts with unlabelled ones that hold several doors or drawers as the bodies of these.
+
+    What is called a cabinet or the like is a body where it holds one door; behind one drawer it may be the box of that.
+    """
     extent = max((float(np.max(part.box.size)) for part in parts), default=1.0)
     spare = config.spare * extent
-    fronts = [part.box for part in parts if part.label.is_movable]
+    fronts = [part for part in parts if part.label.is_movable]
 
     def judged(part: Part) -> Part:
         if part.label is not PartLabel.UNKNOWN or float(part.box.size.min()) <= config.plate * extent:
             return part
         low, high = part.box.low - spare, part.box.high + spare
-        held = sum(bool((box.low >= low).all() and (box.high <= high).all()) for box in fronts)
-        return replace(part, label=BODY, labelled_by="shape") if held > 1 else part
+        held = [f for f in fronts if (f.box.low >= low).all() and (f.box.high <= high).all()]
+        is_case = bool(held) and held[0].label is PartLabel.DOOR and sense_of(part.source.name).is_container
+        return replace(part, label=BODY, labelled_by="shape") if is_case or len(held) > 1 else part
 
     return tuple(judged(part) for part in parts)
 

@@ -10,11 +10,13 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.cutting import cut_where_fronts_appear, joined_where_nameless
+from grafu.asset.door_frames import with_door_frames
 from grafu.asset.either_kind import with_either_kind
 from grafu.asset.folder import divide, looked_for_fronts
 from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
 from grafu.asset.loose import loose_parts, with_split_handles
+from grafu.asset.named_fittings import with_named_fittings
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
 from grafu.asset.pieces import with_joined_pieces
@@ -100,13 +102,15 @@ def _taken_apart(reading: Reading, path: Path, options: LoadOptions) -> Reading:
 
 
 def _joined(reading: Reading) -> Reading:
-    parts, notes = with_joined_pieces(reading.parts, whole_box(reading.parts))
-    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
+    framed, found = with_door_frames(reading.parts)
+    parts, notes = with_joined_pieces(framed, whole_box(framed))
+    return replace(reading, parts=parts, notes=(*reading.notes, *found, *notes))
 
 
 def _plausible(reading: Reading) -> Reading:
     judged, notes = with_plausible_labels(reading.parts)
-    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *notes)))
+    judged, told = with_named_fittings(judged)
+    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *notes, *told)))
 
 
 def _with_split_handles(reading: Reading) -> Reading:

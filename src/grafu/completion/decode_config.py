@@ -63,6 +63,32 @@ class OverlayConfig(ShortRepr):
 
 @final
 @dataclass(frozen=True, slots=True)
+class HeldFrontsConfig(ShortRepr):
+    """When a body that stands on the floor is the case of fronts at its face, and no front itself.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    face: float = 0.1
+    """How far a front's face lies from that of the body at most (fraction of the body's depth) ..."""
+    thin: float = 0.3
+    """... and how thick the front is at most (fraction of that depth)."""
+    spare: float = 0.01
+    """How far a front may stand out of the body's outline (fraction of the object's largest side)."""
+    least: float = 0.25
+    """What the fronts cover at least, two or more side by side (fraction of the body's outline)."""
+    shared: float = 0.1
+    """What two such fronts share at most (fraction of the smaller one's outline)."""
+    floor: float = 0.02
+    """How high above the lowest point such a body ends at most (fraction of the object's largest side)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
 class FactConfig(ShortRepr):
     """From which probability on something is stated of the whole piece.
 
@@ -192,6 +218,9 @@ class DecodeConfig:
 
     overlay: OverlayConfig = OverlayConfig()
     """Of fronts that lie on panels."""
+
+    held_fronts: HeldFrontsConfig = HeldFrontsConfig()
+    """Of bodies with fronts at their face."""
 
     regular: RegularConfig = RegularConfig()
     """Of shelves that are missing from regular rows."""

@@ -1,14 +1,15 @@
 """What boxes and contacts state about the labels of unlabelled parts, whatever the network states.
 
-What a smaller front with a handle lies upon is no door or drawer, nor is what is slim as a rod; what touches nothing
-but handles is a piece of one.
+What a smaller front with a handle lies upon is no door or drawer, nor is what stands on the floor with several fronts
+in its face, nor what is slim as a rod; what touches nothing but handles is a piece of one.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
 
 import numpy as np
 
-from grafu.completion.decode_config import DecodeConfig, OverlayConfig
+from grafu.completion.decode_config import DecodeConfig, HeldFrontsConfig, OverlayConfig
 from grafu.geometry.box import Box
 from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
 from grafu.graph.functional_graph import FunctionalGraph
@@ -51,10 +52,7 @@ def without_overlaid(weights: np.ndarray, graph: FunctionalGraph, config: Decode
     Such a part is likely a door or a drawer by itself: a panel with openings, one of which the smaller front closes. It
     is one where a handle stands on it beside the smaller one, as on a door with a mirror.
     """
-    likely = [
-        LABELS.index(node.label) if node.label is not PartLabel.UNKNOWN else int(weights[k].argmax())
-        for k, node in enumerate(graph.nodes)
-    ]
+    likely = _likely(weights, graph)
     fronts = [k for k, label in enumerate(likely) if label in (DOOR, DRAWER)]
     handles = [graph.nodes[k].box for k, label in enumerate(likely) if label == HANDLE]
     made = weights
@@ -67,6 +65,69 @@ def without_overlaid(weights: np.ndarray, graph: FunctionalGraph, config: Decode
             made = made.copy() if made is weights else made
             made[k, [DOOR, DRAWER]] = 0.0
     return made
+
+
+def without_cases(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
+    """Returns the weights of labels (nodes, labels) in which unlabelled bodies with fronts in their face are no fronts.
+
+    Such a body stands on the floor, which no drawer does, and several doors or drawers lie side by side in its face.
+    """
+    fronts = [k for k, label in enumerate(_likely(weights, graph)) if label in (DOOR, DRAWER)]
+    floor = float(graph.box.low[2]) + config.held_fronts.floor * float(graph.box.size.max())
+    cases = [
+        k
+        for k in fronts
+        if graph.nodes[k].label is PartLabel.UNKNOWN
+        and float(graph.nodes[k].box.low[2]) <= floor
+        and _has_fronts(
+            graph.nodes[k].box, [graph.nodes[i].box for i in fronts if i != k], graph.box, config.held_fronts
+        )
+    ]
+    if not cases:
+        return weights
+    made = weights.copy()
+    made[np.ix_(cases, [DOOR, DRAWER])] = 0.0
+    return made
+
+
+def _likely(weights: np.ndarray, graph: FunctionalGraph) -> list[int]:
+    """Returns the number of the label of each node, of unlabelled ones of the likeliest."""
+    return [
+        LABELS.index(node.label) if node.label is not PartLabel.UNKNOWN else int(weights[k].argmax())
+        for k, node in enumerate(graph.nodes)
+    ]
+
+
+def _has_fronts(body: Box, fronts: Sequence[Box], whole: Box, config: HeldFrontsConfig) -> bool:
+    """Whether several fronts lie side by side in one of the four upright faces of a body."""
+    slack = config.spare * float(whole.size.max())
+    for axis in (0, 1):
+        across, depth = [1 - axis, 2], float(body.size[axis])
+        plates = [
+            box
+            for box in fronts
+            if float(box.size[axis]) <= config.thin * depth
+            and bool(np.all(box.low >= body.low - slack) and np.all(box.high <= body.high + slack))
+        ]
+        for gaps in (
+            [box.low[axis] - body.low[axis] for box in plates],
+            [body.high[axis] - b.high[axis] for b in plates],
+        ):
+            in_face = [box for box, gap in zip(plates, gaps, strict=True) if gap <= config.face * depth]
+            areas = [float(np.prod(box.size[across])) for box in in_face]
+            covered = sum(areas) >= config.least * float(np.prod(body.size[across]))
+            if len(in_face) > 1 and covered and not _any_shared(in_face, across, config.shared):
+                return True
+    return False
+
+
+def _any_shared(boxes: Sequence[Box], across: list[int], most: float) -> bool:
+    """Whether two boxes share more of the smaller outline than the fraction `most`."""
+    for one, other in combinations(boxes, 2):
+        shared = np.maximum(np.minimum(one.high, other.high) - np.maximum(one.low, other.low), 0.0)[across]
+        if np.prod(shared) > most * min(np.prod(one.size[across]), np.prod(other.size[across])):
+            return True
+    return False
 
 
 def _lies_on(front: Box, panel: Box, whole: Box, handles: list[Box], config: OverlayConfig) -> bool:

@@ -1,7 +1,7 @@
 """Doors of buildings: leaves in a frame that stands on the floor. They turn about the edge away from their handles.
 
 They are found by shape alone: a slim piece of a door's height, a frame around it that is open at the floor, and upright
-boards that reach down to it within.
+boards that reach down to it within. A frame may stand in another one, and what is beside all leaves stays.
 """
 
 from collections.abc import Iterator, Sequence
@@ -56,6 +56,10 @@ class BuildingDoorConfig:
     """Greatest thickness of a leaf (fraction of its width)."""
     threshold: float = 0.05
     """How high above the floor a leaf ends at most (fraction of the height of the whole)."""
+    sill: float = 0.01
+    """How high above a frame around it a leaf ends at most (fraction of the height of the whole): rails are higher."""
+    beside: float = 0.15
+    """Greatest side of what is beside a leaf: buttons, a lamp (fraction of the height of the whole)."""
     small: float = 0.3
     """Greatest side of a handle or lock (fraction of its leaf's height)."""
     aside: float = 0.2
@@ -71,13 +75,19 @@ class BuildingDoorConfig:
 def building_door(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> FramedLeaves | None:
     """Returns the door that an asset is; None where it is another piece, or has parts that no door has."""
     frame = _frame(asset, config)
-    leaves = () if frame is None else tuple(_leaves(frame, asset, config))
-    if frame is None or not leaves:
+    if frame is None:
         return None
-    others = [part for part in asset.parts if part is not frame and part not in leaves]
+    boards = list(_boards(frame, asset, config))
+    inner = tuple(board for board in boards if _is_around(board, boards, asset.box, config))
+    leaves = tuple(_outermost([board for board in boards if board not in inner]))
+    if not leaves:
+        return None
+    others = [part for part in asset.parts if part not in (frame, *inner, *leaves)]
     on_leaf = tuple(tuple(part for part in others if is_on_leaf(part, leaf, config)) for leaf in leaves)
     known = {part.id for parts in on_leaf for part in parts}
-    return FramedLeaves(frame, leaves, on_leaf) if all(part.id in known for part in others) else None
+    left = (part for part in others if part.id not in known)
+    stay = all(_is_beside(part, leaf.box, asset.box, config) for part in left for leaf in leaves)
+    return FramedLeaves(frame, leaves, on_leaf, inner) if stay else None
 
 
 def with_door_labels(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> Asset:
@@ -88,7 +98,8 @@ def with_door_labels(asset: Asset, config: BuildingDoorConfig = BuildingDoorConf
     found = building_door(asset, config)
     if found is None:
         return asset
-    labels = {found.frame.id: PartLabel.FACE_FRAME, **{leaf.id: PartLabel.DOOR for leaf in found.leaves}}
+    labels = dict.fromkeys((frame.id for frame in (found.frame, *found.inner_frames)), PartLabel.FACE_FRAME)
+    labels |= dict.fromkeys((leaf.id for leaf in found.leaves), PartLabel.DOOR)
     return relabelled(asset, labels)
 
 
@@ -125,17 +136,45 @@ def _frame(asset: Asset, config: BuildingDoorConfig) -> Part | None:
     return max(frames, key=lambda part: float(np.prod(part.box.size[[_WIDTH, _UP]])), default=None)
 
 
-def _leaves(frame: Part, asset: Asset, config: BuildingDoorConfig) -> Iterator[Part]:
-    """Yields the upright boards within a frame that end near the floor, without those that lie within another."""
-    whole, found = asset.box, list[Part]()
+def _boards(frame: Part, asset: Asset, config: BuildingDoorConfig) -> Iterator[Part]:
+    """Yields the upright boards within a frame that end near the floor, the largest first."""
     rays = RayCaster(frame.mesh)
     for part in sorted(asset.parts, key=lambda part: -float(np.prod(part.box.size[[_WIDTH, _UP]]))):
-        if part is frame or not _is_board(part, whole, config) or any(_within(part.box, one.box) for one in found):
-            continue
-        depths = depths_below(rays, part.box, _DEPTH, _RAYS, whole.diagonal)
-        if float(np.isfinite(depths).mean()) <= config.open:
+        is_within = part is not frame and _is_board(part, asset.box, config)
+        if is_within and _is_open_before(rays, part, asset.box.diagonal, config):
+            yield part
+
+
+def _is_open_before(frame: RayCaster, leaf: Part, above: float, config: BuildingDoorConfig) -> bool:
+    return float(np.isfinite(depths_below(frame, leaf.box, _DEPTH, _RAYS, above)).mean()) <= config.open
+
+
+def _is_around(board: Part, boards: Sequence[Part], whole: Box, config: BuildingDoorConfig) -> bool:
+    """Whether a board is a frame in which others stand, within another frame; a leaf has a rail below its pane."""
+    most = board.box.low[_UP] + config.sill * whole.size[_UP]
+    inner = [other for other in boards if other is not board and _within(other.box, board.box)]
+    if not any(other.box.low[_UP] <= most for other in inner):
+        return False
+    rays = RayCaster(board.mesh)
+    return all(_is_open_before(rays, other, whole.diagonal, config) for other in inner)
+
+
+def _outermost(boards: Sequence[Part]) -> Iterator[Part]:
+    """Yields boards, the largest first, without those that lie within another."""
+    found = list[Part]()
+    for part in boards:
+        if not any(_within(part.box, one.box) for one in found):
             found.append(part)
     yield from found
+
+
+def _is_beside(part: Part, leaf: Box, whole: Box, config: BuildingDoorConfig) -> bool:
+    """Whether a part lies beside a leaf, seen from before it: small, on the floor or above, and no drawer in a case."""
+    shared = np.minimum(part.box.high, leaf.high) - np.maximum(part.box.low, leaf.low)
+    if part.label.is_movable or np.all(shared[[_WIDTH, _UP]] > 0):
+        return False
+    lies = part.box.high[_UP] <= whole.low[_UP] + config.threshold * whole.size[_UP]
+    return bool(lies or part.box.low[_UP] >= leaf.high[_UP] or part.box.size.max() <= config.beside * whole.size[_UP])
 
 
 def _is_board(part: Part, whole: Box, config: BuildingDoorConfig) -> bool:

@@ -24,11 +24,12 @@ LeafRequest = Callable[[Part, Sequence[Part]], JointRequest | None]
 @final
 @dataclass(frozen=True, eq=False)
 class FramedLeaves:
-    """A frame, its leaves, and what is on each leaf: panes, bars, handles, locks."""
+    """A frame, its leaves, and what is on each leaf: panes, bars, handles, locks; `inner_frames` stand in the frame."""
 
     frame: Part
     leaves: tuple[Part, ...]
     on_leaf: tuple[tuple[Part, ...], ...]
+    inner_frames: tuple[Part, ...] = ()
 
     def with_joints(self, plan: RealizationPlan, asset: Asset, request: LeafRequest) -> RealizationPlan:
         """Returns the plan whose joints are those of the leaves alone."""

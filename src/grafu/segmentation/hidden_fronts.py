@@ -39,7 +39,10 @@ def is_one_with_handles(view: ShellsView, owner: int, fronts: tuple[FrontShells,
 
 
 def is_flush(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bool:
-    """Whether a front lies near the front of its object, its handles left out, and is no trifle."""
+    """Whether a front lies near the front of its object, its handles left out, and is no trifle.
+
+    The drawer of one object of a wide row is low beside the whole: one with a handle is compared with its object alone.
+    """
     plate = front.shells[0]
     handles = [shell for handle in front.handles for shell in handle]
     own = np.setdiff1d(np.flatnonzero(view.owner == view.owner[plate]), handles)
@@ -48,7 +51,8 @@ def is_flush(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bo
     inside = float(view.high[own, 2].max() - view.high[plate, 2])
     shorter, thick = float(view.size[plate, :2].min()), float(view.size[plate, 2])
     flush = config.flush_held if front.is_held else config.flush
-    return inside <= flush * depth + thick and shorter >= config.small * extent
+    low = config.low * float(Scale.of(view).extent[plate]) if front.is_held else np.inf
+    return inside <= flush * depth + thick and shorter >= min(config.small * extent, low)
 
 
 def hides(
