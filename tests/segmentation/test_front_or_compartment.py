@@ -251,22 +251,3 @@ def test_a_face_frame_that_is_open_or_holds_inset_doors_of_another_object_is_no_
     doors = [board(x + 0.06, -0.019, 0.06, x + 0.38, 0.0, 1.34) for x in DOORS_AT] if filled != "open" else []
     found = fronts(merge_meshes(frame), merge_meshes(CUPBOARD), *doors)
     assert found.get(0, []) == []
-
-
-def sided(*boxes):
-    """Boxes as one mesh, and for each face the number of the side that it is on: each side is an island of its own."""
-    mesh = merge_meshes(boxes)
-    towards = np.argmax(np.abs(mesh.face_normals), axis=1)
-    side = 2 * towards + (np.take_along_axis(mesh.face_normals, towards[:, None], axis=1)[:, 0] > 0)
-    return mesh, side.astype(np.int64)
-
-
-@pytest.mark.parametrize(
-    ("width", "depth", "height", "count"), [(0.08, 0.08, 0.7, 0), (0.06, 0.1, 0.7, 0), (0.4, 0.6, 0.7, 2)]
-)
-def test_no_front_is_drawn_on_a_leg_but_on_the_pedestal_of_a_desk(width, depth, height, count):
-    at = [(x, y) for x in (-0.7, 0.7 - width) for y in ((-0.45, 0.45 - depth) if depth < 0.3 else (-0.3,))]
-    stands = [board(x, y, 0.0, x + width, y + depth, height) for x, y in at]
-    mesh, side = sided(board(-0.7, -0.45, height, 0.7, 0.45, height + 0.05), *stands)
-    found = drawn_fronts([mesh], [True], [side]).get(0, [])
-    assert sum(piece.role == "front" for piece in found) == count

@@ -237,8 +237,6 @@ class CreaseConfig:
     """Cosine between a face's normal and the direction to the viewer from which on it faces the viewer."""
     near: float = 1e-3
     """How far the edge of a front may reach beyond its outline (of its object's largest side)."""
-    bar: float = 5.0
-    """How many times as long as its middle side a leg or a bar is at least: no front is drawn on it."""
     thick: float = 0.015
     """How thick a front becomes that is drawn as a sheet (of its object's largest side)."""
 

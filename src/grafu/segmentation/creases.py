@@ -17,7 +17,7 @@ from jaxtyping import Bool, Float, Int
 from grafu.geometry.arrays import Faces, Indices, Vec3
 from grafu.geometry.components import linked, welded
 from grafu.geometry.config_checks import require_ratios
-from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.config import CreaseConfig, SegmentationConfig
 from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object, split
 from grafu.segmentation.fronts import FrontShells
@@ -51,7 +51,7 @@ def drawn_fronts(
     """
     if not any(len(mesh.faces) and is_open for mesh, is_open in zip(meshes, open_to, strict=True)):
         return {}
-    most, slender = 0.0, _is_slender(meshes, config.creases.bar)
+    most = 0.0
     pieces: dict[int, list[FacePiece]] = {}
     for turn in range(4):
         axes = axes_from(turn)
@@ -59,8 +59,7 @@ def drawn_fronts(
         patches = [front_patches(mesh, material, axes[2], config.creases) for mesh, material in pairs]
         shells = MeshShells.of(meshes, patches)
         view = view_of(shells.mesh, shells.shell, shells.owner, axes)
-        may = np.asarray(open_to)[shells.owner] & ~slender[np.unique(shells.shell, return_index=True)[1]]
-        found = fronts_by_object(view, may, [False] * len(meshes), config)
+        found = fronts_by_object(view, np.asarray(open_to)[shells.owner], [False] * len(meshes), config)
         clear = found.clear(config.division)
         area = sum(outline(view, front) for fronts in clear.values() for front in fronts)
         if area > most:
@@ -69,17 +68,6 @@ def drawn_fronts(
         if pieces:
             break  # the front is most likely at -Y: other sides count only where it shows none
     return {k: [replace(p, is_sheet=p.role == "front") for p in found] for k, found in sorted(pieces.items())}
-
-
-def _is_slender(meshes: Sequence[TriangleMesh], bar: float) -> MaskOfFaces:
-    """Returns for each face of some meshes whether its shell is a leg or a bar, on which no front is drawn."""
-    shells = MeshShells.of(meshes)
-    low, high = (np.full((len(shells.owner), 3), end) for end in (np.inf, -np.inf))
-    bounds = triangle_bounds(shells.mesh.triangles)
-    np.minimum.at(low, shells.shell, bounds[0])
-    np.maximum.at(high, shells.shell, bounds[1])
-    sides = np.sort(high - low, axis=1)
-    return np.asarray(sides[:, 2] >= bar * sides[:, 1])[shells.shell]
 
 
 def _trimmed(
