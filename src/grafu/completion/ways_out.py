@@ -4,7 +4,6 @@ Rays are cast on the meshes. What is predicted stays where they do not tell: a d
 from none.
 """
 
-from collections.abc import Set
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -70,7 +69,7 @@ def _way_out(
     if part not in known or predicted == 2:
         return None
     axis = _across(known[part].box, predicted, config)
-    low, high = open_ratios(_others(asset, _riding(part, graph)), known[part].box, axis)
+    low, high = open_ratios(rest_of(asset, part, graph), known[part].box, axis)
     sure = abs(high - low)
     return (signed_axis(axis, high > low), sure) if sure >= config.seen else None
 
@@ -81,9 +80,7 @@ def _across(box: Box, predicted: int, config: WayOutConfig) -> int:
     return thin if box.size[thin] <= config.plate * min(box.size[1 - thin], box.size[2]) else predicted
 
 
-def _riding(part: str, graph: FunctionalGraph) -> Set[str]:
-    return {part, *(edge.child for edge in graph.attachments if edge.parent == part)}
-
-
-def _others(asset: Asset, own: Set[str]) -> RayCaster:
+def rest_of(asset: Asset, part: str, graph: FunctionalGraph) -> RayCaster:
+    """Returns what casts rays on everything but a part and what is attached to it."""
+    own = {part, *(edge.child for edge in graph.attachments if edge.parent == part)}
     return RayCaster(merge_meshes([part.mesh for part in asset.parts if part.id not in own]))
