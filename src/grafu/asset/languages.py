@@ -55,7 +55,6 @@ GERMAN: Final = """
     freezer: gefrierschrank gefrierfach; microwave: mikrowelle
     dishwasher: spulmaschine spuelmaschine geschirrspuler geschirrspueler; washer: waschmaschine
     sink: spule spuele waschbecken
-    faucet: wasserhahn wasserhahne
     mirror: spiegel
     glass: glas scheibe
     screw: schraube schrauben
@@ -95,7 +94,6 @@ FRENCH: Final = """
     kitchen: cuisine
     oven: four; stove: cuisiniere; fridge: frigo refrigerateur; freezer: congelateur; dishwasher: vaisselle
     sink: evier lavabo
-    faucet: robinet robinets mitigeur
     mirror: miroir
     glass: vitre vitres verre
     wheel: roulette roulettes
@@ -132,7 +130,6 @@ SPANISH: Final = """
     oven: horno; stove: estufa; fridge: nevera frigorifico refrigerador heladera; freezer: congelador
     microwave: microondas; dishwasher: lavavajillas; washer: lavadora
     sink: fregadero lavabo
-    faucet: grifo grifos
     mirror: espejo
     glass: vidrio cristal
     screw: tornillo tornillos
@@ -170,7 +167,6 @@ ITALIAN: Final = """
     oven: forno; fridge: frigorifero frigo; freezer: congelatore; microwave: microonde; dishwasher: lavastoviglie
     washer: lavatrice
     sink: lavello lavandino
-    faucet: rubinetto rubinetti
     mirror: specchio
     glass: vetro vetri
     screw: vite viti
@@ -239,7 +235,6 @@ CHINESE: Final = """
     kitchen: 厨房
     oven: 烤箱; fridge: 冰箱; microwave: 微波炉; dishwasher: 洗碗机; washer: 洗衣机
     sink: 水槽 洗手盆
-    faucet: 水龙头
     mirror: 镜子 镜 鏡
     glass: 玻璃
     screw: 螺丝 螺钉

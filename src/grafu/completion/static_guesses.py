@@ -145,10 +145,10 @@ def _uncased(node: PartNode, completion: GraphCompletion, asset: Asset) -> str:
 
 
 def _carried(node: PartNode, completion: GraphCompletion, asset: Asset, config: StaticGuessConfig) -> str:
-    """Returns the static part that a part alone keeps up, from legs below it or from the floor; empty for none.
+    """Returns the static part that a part alone keeps up; empty for none.
 
-    At a height at which nothing else stands it bears all that is above. A door bears nothing unless it stands on the
-    floor: a lid lies on a case.
+    At a height at which nothing else stands it bears all that is above: a drawer from what is below it, as it may hang
+    from what is above where nothing is; a door from the floor, as a lid lies on a case.
     """
     touched = [completion.completed.node(name) for name in completion.input.neighbours[node.id]]
     supports = {other.id for other in touched if other.label.is_support}
@@ -159,9 +159,11 @@ def _carried(node: PartNode, completion: GraphCompletion, asset: Asset, config: 
     low, high = _alone(node.box, [bounds[name] for name in bounds if not _rides(name, node, completion)])
     if high - low < config.alone * node.box.size[2]:
         return ""
-    stands = node.box.low[2] <= asset.box.low[2] + touch
-    rests = stands or any(bounds[name].high[:, 2].min() <= low + touch for name in supports)
-    if not rests or (node.label is PartLabel.DOOR and not stands):
+    if node.label is PartLabel.DOOR:
+        stands = node.box.low[2] <= asset.box.low[2] + touch
+    else:
+        stands = any(bounds[name].low[:, 2].min() <= low - touch for name in supports)
+    if not stands:
         return ""
     return next((n for n in sorted(supports) if bounds[n].covered(node.box, high - touch) >= config.covers), "")
 
