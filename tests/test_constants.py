@@ -32,6 +32,8 @@ from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.decode_config import FactConfig
+from grafu.completion.drawer_case import CaseConfig
+from grafu.completion.static_guesses import StaticGuessConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
 from grafu.export.gltf_packing import DracoConfig
@@ -145,6 +147,7 @@ OF_MODULES = {
         "slots.py": {},
         "rule.py": {"_FRONTS": NUMBERING},
         "rule_scene.py": {"CARRIES": VOTES, "_FLAT": TOLERANCE},
+        "static_guesses.py": {"_ROUNDS": EFFORT},
         "votes.py": {"_PRIOR": VOTES},
     },
     "pipeline": {"verdict.py": {"_NAMED": WORDS}, "triage.py": {}},
@@ -203,7 +206,8 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorRuleConfig,
+    AgreementConfig, BodyKindConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
+    DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
@@ -211,7 +215,8 @@ CONFIGS = (
     LooseConfig,
     MassConfig, MatchConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
-    SeenSideConfig, SegmentationConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
+    SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig, UpEvidenceConfig, VerdictConfig,
+    WayOutConfig,
 )  # fmt: skip
 NUMBERS = [
     (kind, f.name)

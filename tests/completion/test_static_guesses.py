@@ -39,7 +39,9 @@ def legs(height: float, aside: float = 0.45) -> list[Part]:
 TOP = at("board", (-0.55, -0.55, 0.7), (0.55, 0.55, 0.72), PartLabel.TOP_PANEL)
 APRON = at("frame", (-0.48, -0.48, 0.6), (0.48, 0.48, 0.7))
 BETWEEN = at("frame", (-0.4, -0.42, 0.58), (0.4, 0.42, 0.7))
-SIDES = [at(f"side_{k}", (x, -0.3, 0.0), (x + 0.02, 0.3, 0.5), PartLabel.SIDE_PANEL) for k, x in enumerate((-0.3, 0.28))]
+SIDES = [
+    at(f"side_{k}", (x, -0.3, 0.0), (x + 0.02, 0.3, 0.5), PartLabel.SIDE_PANEL) for k, x in enumerate((-0.3, 0.28))
+]
 
 
 def guessed(
@@ -97,7 +99,11 @@ LOOK_ALIKES = {
         "front",
     ),
     "a drawer on which a lamp stands": (
-        [*SIDES, at("lamp", (-0.05, -0.05, 0.4), (0.05, 0.05, 0.7)), at("tray", (-0.27, -0.28, 0.2), (0.27, 0.28, 0.4))],
+        [
+            *SIDES,
+            at("lamp", (-0.05, -0.05, 0.4), (0.05, 0.05, 0.7)),
+            at("tray", (-0.27, -0.28, 0.2), (0.27, 0.28, 0.4)),
+        ],
         "tray",
     ),
 }

@@ -184,7 +184,7 @@ def test_a_guess_that_stays_static_is_one_yellow_line_with_the_option_that_moves
     guess = GuessRecord(
         part="frame", question="label", choice="misc", score=0.0, runner_up="drawer", runner_up_score=0.9
     )
-    skip = SkippedRecord(request="frame", reason=reason, detail="it is taken for a drawer (90%), but a board stands on it")
+    skip = SkippedRecord(request="frame", reason=reason, detail="it is taken for a drawer (90%), but it stays")
     moves = {**report.moves, "frame": ("--move frame=slide",)}
     verdict = verdict_of(
         report.model_copy(update={"parts": parts, "guesses": (guess,), "skipped": (skip,), "moves": moves})

@@ -1,4 +1,7 @@
-"""Whether what is around a drawer could hold it: something beside it, or above and below. Rays are cast on the meshes."""
+"""Whether what is around a drawer could hold it: something beside it, or above and below.
+
+Rays are cast on the meshes.
+"""
 
 from dataclasses import dataclass
 from typing import final

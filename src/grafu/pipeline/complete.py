@@ -37,8 +37,8 @@ def complete_by_annotation(asset: Asset, graph: FunctionalGraph, source: str = "
 def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | None = None) -> GraphCompletion:
     """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
 
-    Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`). What is only guessed to be a
-    door or drawer stays static where it cannot be one (`with_static_guesses`).
+    Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`). What is only guessed to be
+    a door or drawer stays static where it cannot be one (`with_static_guesses`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.

@@ -97,7 +97,7 @@ def basin_with_tap(
 
 
 def _is_tap(part: Part, basin: Box, coverage: Coverage, config: TapConfig, metre: float) -> bool:
-    """Whether a part stands over or in what one looks into, well within the plan of a basin, and rises above its rim."""
+    """Whether a part stands over or in what one looks into, within the plan of a basin, and rises above its rim."""
     assert coverage.level is not None
     box = part.box
     slim = float(box.size[:2].max()) <= config.size * float(basin.size[:2].min())
