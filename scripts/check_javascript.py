@@ -15,7 +15,7 @@ ROOT = Path(__file__).parent.parent
 COMPILER = ROOT / "node_modules" / ".bin" / "tsc"
 OPTIONS = (
     "--allowJs", "--checkJs", "--noEmit", "--target", "es2022", "--lib", "es2022,dom,dom.iterable",
-    "--strict", "false", "--moduleDetection", "legacy",
+    "--strict", "false", "--strictNullChecks", "true", "--moduleDetection", "legacy",
 )  # fmt: skip
 _VIEWER, _EDITOR = (ROOT / "src" / "grafu" / layer / "templates" for layer in ("viewer", "editor"))
 

@@ -11,7 +11,7 @@ from grafu.asset.edit import as_static_object, yawed
 from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
 from grafu.asset.load import load_asset
 from grafu.asset.options import DIRECTIONS, LoadOptions
-from grafu.asset.part import Asset
+from grafu.asset.part import Asset, Part
 from grafu.asset.pieces import with_attached
 from grafu.asset.reading import Convention, Placing, Reading
 from grafu.asset.scale import estimate_scale, is_normalised, likely_unit
@@ -81,6 +81,18 @@ def test_made_cabinets_are_estimated_within_a_factor_of_two(spec):
     # the specs also draw what no joiner makes: one drawer as high as a wardrobe states nothing about size
     assume(all(part.box.size[2] < 0.9 for part in asset.parts if part.label is PartLabel.DRAWER))
     assert 0.5 < estimate_scale(asset.parts, asset.box, 2, None).scale < 2.0
+
+
+def test_handles_in_one_object_and_a_case_called_a_side_are_measured_as_what_they_are():
+    fronts = [box(f"door_{k}", (0.5 * k, 0.0, 0.1), (0.5 * k + 0.49, 0.02, 0.9), PartLabel.DOOR) for k in range(6)]
+    handles = [box(f"handle_{k}", (0.5 * k + 0.4, -0.03, 0.4), (0.5 * k + 0.41, 0.0, 0.55)) for k in range(6)]
+    joined = Part("handles", PartLabel.HANDLE, tuple(s for part in handles for s in part.surfaces), handles[0].source)
+    case = box("wardrobe", (0.0, 0.02, 0.0), (3.0, 0.6, 1.0), PartLabel.SIDE_PANEL)
+    parts = (*fronts, joined, case)
+    apart = (*fronts, *(replace(part, label=PartLabel.HANDLE) for part in handles))
+    found, usual = (estimate_scale(these, whole_box(parts), 2, None) for these in (parts, apart))
+    assert found.measures == usual.measures  # no panel thickness of 0.58 m
+    assert found.scale == pytest.approx(usual.scale)
 
 
 def test_units_are_told_by_plausible_sizes():

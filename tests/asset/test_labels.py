@@ -44,6 +44,10 @@ NAMES = {
     ],
     PartLabel.HANDLE: ["handle-8", "door_handle", "drawer_knob_2", "DoorPull", "door_right_nob", "handle_top"],
     PartLabel.MISC: [
+        "blanket_Plane.003",
+        "burner_2",
+        "left_armrest",
+        "flower_pot",
         "wheel-3",
         "caster_2",
         "drawer_rails-40",

@@ -24,4 +24,6 @@ def test_a_wrong_type_is_told(monkeypatch, tmp_path, capfd):
     wrong.write_text("document.getElementById('a').value = 1;\n")
     monkeypatch.setattr(check_javascript, "programs", lambda: {"a page": [wrong]})
     assert check_javascript.main() == 1
-    assert "Property 'value' does not exist" in capfd.readouterr().out
+    said = capfd.readouterr().out
+    assert "Property 'value' does not exist" in said
+    assert "possibly 'null'" in said

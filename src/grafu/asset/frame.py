@@ -125,7 +125,7 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
 
 def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice) -> _Choice:
     """Returns the direction that is up by the format, or the one that the shape tells where labels tell nothing."""
-    if votes.lying.any() or votes.standing.any() or votes.sense.any():
+    if votes.lying.any() or votes.standing.any() or votes.tells_sense:
         return usual
     other = stands_on_another_side(reading.parts, usual.value, "+Z" if usual.value == "+Y" else "+Y")
     if other is None:

@@ -64,6 +64,8 @@ TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
         "misc, connector, glass, pane, window, mirror, lamp, light, led, sink, basin, cushion, pillow, book, clock",
     ),
     (PartLabel.MISC, "decoration, cord, cable, hook, key, vase, rail, runner, slider, cloth, mattress, grille, vent"),
+    (PartLabel.MISC, "blanket, quilt, duvet, bedspread, backrest, armrest, headrest, burner, hotplate, hob, cooktop"),
+    (PartLabel.MISC, "bottle, bowl, cup, mug, candle, statue, plant, flower, lampshade, curtain, toilet, bidet"),
     (PartLabel.MISC, "gap, shadow, reveal, recess, cavity, slot, groove, trim, molding, moulding, bead, band"),
     (
         PartLabel.MISC,

@@ -16,6 +16,7 @@ from grafu.asset.part import Part
 from grafu.asset.reading import Furniture
 from grafu.geometry.arrays import median
 from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import require_positive
 from grafu.vocabulary import PartLabel
 
@@ -103,6 +104,8 @@ class ScaleConfig:
     """Distance of the middle of what hangs about the origin from it (fraction of half the sides)."""
     radii: tuple[float, float] = (0.99, 1.08)
     """Least and greatest radius of the sphere about the origin in which it lies (in units)."""
+    plate: float = 0.25
+    """Greatest thickness of a panel (fraction of its middle side): a whole case that is called a side is none."""
     doorway: float = 0.4
     """Greatest depth of a door with its frame (fraction of its width)."""
 
@@ -151,11 +154,11 @@ def estimate_scale(
         whole: the box around them.
         up: the index of the vertical axis.
         furniture: what kind it is, where the input states it.
-        config: what a doorway looks like.
+        config: what a doorway and a panel look like.
     """
     kind = furniture or _kind(parts, whole, up, config)
     usual = _USUAL[kind]
-    found = {k: v for k, v in _measures(parts, whole, up).items() if v > 0}
+    found = {k: v for k, v in _measures(parts, whole, up, config).items() if v > 0}
     known = sorted(set(found) & set(usual), key=lambda k: (usual[k].spread, k))
     weights = np.array([usual[k].spread ** -2 for k in known])
     logs = np.array([math.log(usual[k].metres / found[k]) for k in known])
@@ -210,7 +213,14 @@ def _is_doorway(parts: tuple[Part, ...], whole: Box, up: int, config: ScaleConfi
     return any(_DOORWAYS & set(name) or ("door", "frame") in pairwise(name) for name in names)
 
 
-def _measures(parts: tuple[Part, ...], whole: Box, up: int) -> dict[str, float]:
+def _longest_shell(handle: Part) -> float:
+    """Returns the length of a handle; of one object that holds the handles of several fronts, that of its longest."""
+    faces, number = handle.mesh.triangles, shell_numbers(handle.mesh)
+    shells = [faces[number == k].reshape(-1, 3) for k in range(int(number.max(initial=0)) + 1)]
+    return max(float(np.ptp(shell, axis=0).max()) for shell in shells)
+
+
+def _measures(parts: tuple[Part, ...], whole: Box, up: int, config: ScaleConfig) -> dict[str, float]:
     across = np.delete(whole.size, up)
     found = {"height": float(whole.size[up]), "width": float(across.max()), "depth": float(across.min())}
     for label, noun in ((PartLabel.DOOR, "door"), (PartLabel.DRAWER, "drawer")):
@@ -218,10 +228,11 @@ def _measures(parts: tuple[Part, ...], whole: Box, up: int) -> dict[str, float]:
         if boxes:
             found[f"{noun} height"] = median([s[up] for s in boxes])
             found[f"{noun} width"] = median([np.delete(s, up).max() for s in boxes])
-    handles = [p.box.size.max() for p in parts if p.label is PartLabel.HANDLE]
+    handles = [_longest_shell(p) for p in parts if p.label is PartLabel.HANDLE]
     if handles:
         found["handle length"] = median(handles)
-    panels = [p.box.size.min() for p in parts if p.label in _PANELS]
+    sizes = [np.sort(p.box.size) for p in parts if p.label in _PANELS]
+    panels = [size[0] for size in sizes if size[0] <= config.plate * size[1]]
     if panels:
         found["panel thickness"] = median(panels)
     return found

@@ -124,10 +124,15 @@ class UpVotes:
     sense: Vec3
 
     @property
+    def tells_sense(self) -> bool:
+        """Whether tops, bottoms and legs lie to one side far enough to tell which axis is up, without any plate."""
+        return bool(np.abs(self.sense).max() >= UpEvidenceConfig().turned)
+
+    @property
     def best(self) -> str | None:
         """The upward direction that most agree on, or None where they say nothing."""
         votes = self.lying - self.standing
-        if not votes.any() and not self.sense.any():
+        if not votes.any() and not self.tells_sense:
             return None
         score = votes + np.abs(self.sense)
         axis = int(np.argmax(score))
@@ -136,8 +141,13 @@ class UpVotes:
         return spelled(axis, bool(self.sense[axis] >= 0))
 
     def confidence(self, up: str) -> float:
-        """Returns which fraction of what lies or stands does so where this direction is up; 0 where nothing tells."""
+        """Returns which fraction of what lies or stands does so where this direction is up.
+
+        Where there is no plate, it is the fraction of the places of tops, bottoms and legs; 0 where nothing tells.
+        """
         axis = "XYZ".index(up[1])
+        if not self.lying.any() and not self.standing.any():
+            return float(np.abs(self.sense[axis]) / max(np.abs(self.sense).sum(), 1e-12))
         agree = self.lying[axis] + self.standing.sum() - self.standing[axis]
         return float(agree / max(self.lying.sum() + self.standing.sum(), 1.0))
 

@@ -171,8 +171,7 @@ class LiveView extends ModelView {
     this.show(scene, images);
     if (!before) return;
     before.switches.forEach(([name, on]) => {
-      const box = controlAt(`input[data-switch="${name}"]`);
-      if (box) box.checked = this.view[name] = on;
+      for (const box of controlsAt(`input[data-switch="${name}"]`)) box.checked = this.view[name] = on;
     });
     this.joints.joints.forEach((joint, k) => {
       if (!joint.coupling && before.open.get(joint.part) > 0) this.joints.setFraction(k, before.open.get(joint.part));

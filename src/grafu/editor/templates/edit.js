@@ -63,10 +63,10 @@ class Editor {
   show(state, built) {
     const giveBack = heldFocus();
     this.state = state;
-    document.getElementById("model-header").innerHTML = state.markup.header;
-    document.getElementById("sections").innerHTML = state.markup.sections;
+    elementAt("#model-header").innerHTML = state.markup.header;
+    elementAt("#sections").innerHTML = state.markup.sections;
     if (built) {
-      document.getElementById("joint-panel").innerHTML = state.markup.panel;
+      elementAt("#joint-panel").innerHTML = state.markup.panel;
       this.view.replace(built.scene, built.images);
     }
     this.inspector.show(state);
@@ -148,7 +148,7 @@ class Editor {
 }
 
 function startEditor() {
-  const stage = document.getElementById("stage");
+  const stage = elementAt("#stage");
   performance.mark("view");
   try {
     Object.assign(window, { grafuEditor: new Editor(stage) });

@@ -29,7 +29,7 @@ function heldFocus() {
   };
 }
 
-/** @param {Element} box @param {Known} known @returns {HTMLInputElement[]} */
+/** @param {Element | undefined} box @param {Known} known @returns {HTMLInputElement[]} */
 const found = (box, [name, value, isPart]) =>
   (box ? controlsIn(box) : []).filter((control) => {
     const said = name === "label" ? labelOf(control) : control.dataset[name] ?? "";
@@ -43,7 +43,7 @@ const labelOf = (control) => control.labels?.[0]?.textContent ?? "";
 /** @param {HTMLInputElement} control @returns {Known[]} */
 function namesOf(control) {
   /** @type {Known[]} */
-  const words = NAMES.filter((name) => control.dataset[name] !== undefined).map((name) => [name, control.dataset[name], false]);
+  const words = NAMES.filter((name) => control.dataset[name] !== undefined).map((name) => [name, control.dataset[name] ?? "", false]);
   const option = /^--move .+=/.exec(control.dataset.copy ?? "");
   if (option) words.push(["copy", option[0], true]);
   if (!words.length && labelOf(control)) words.push(["label", labelOf(control), false]);

@@ -12,8 +12,8 @@ class Inspector {
     this.rails = at.rails;
     this.limits = at.limits;
     this.part = this.before = "";
-    this.pick = /** @type {HTMLSelectElement} */ (document.getElementById("pick"));
-    this.about = document.getElementById("about-part");
+    this.pick = /** @type {HTMLSelectElement} */ (elementAt("#pick"));
+    this.about = elementAt("#about-part");
     this.pick.addEventListener("change", () => picked(this.pick.value));
     controlsAt("[data-motion]").forEach((button) =>
       button.addEventListener("click", () => this.motion(button.dataset.motion)));
@@ -23,11 +23,11 @@ class Inspector {
       field.addEventListener("change", () => this.answer(field)));
     controlsAt("[data-offset]").forEach((field) =>
       field.addEventListener("change", () => this.place()));
-    document.getElementById("shelves-fields").addEventListener("change", (event) => {
+    elementAt("#shelves-fields").addEventListener("change", (event) => {
       const field = /** @type {HTMLInputElement} */ (event.target);
       if (mayBeSent(field)) choose("shelves", field.dataset.shelves, entered(field));
     });
-    document.getElementById("left-out").addEventListener("click", (event) => {
+    elementAt("#left-out").addEventListener("click", (event) => {
       const { restore } = elementOf(event).dataset;
       if (restore) choose("restore", restore, true);
     });
@@ -73,10 +73,10 @@ class Inspector {
 
   showPart() {
     const { settings, sides, report } = this.state, { part, joint } = this;
-    document.getElementById("certainty").textContent = this.said();
+    elementAt("#certainty").textContent = this.said();
     const word = this.word();
     controlsAt("[data-motion]").forEach((button) => {
-      const side = button.dataset.motion;
+      const side = button.dataset.motion ?? "";
       const borders = ["left", "right", "top", "bottom", "front", "back"];
       button.setAttribute("aria-pressed", String(side === word));
       button.disabled = this.isAdded || (borders.includes(side) && !sides[part].includes(side));
@@ -95,7 +95,7 @@ class Inspector {
     limit(opening, this.limits[slides ? "slide" : "turn"], slides ? "centimetres" : "degrees");
     put(opening, choice.opening ? String(tenths(choice.opening * factor)) : "", part);
     opening.placeholder = joint ? String(tenths(joint.upper * factor)) : "automatic";
-    document.getElementById("unit").textContent = unit;
+    elementAt("#unit").textContent = unit;
     this.field("template").replaceChildren(
       new Option(joint ? `automatic (${joint.template})` : "automatic", ""),
       ...(slides ? this.rails : this.hinges).map((id) => new Option(id, id)));
@@ -110,7 +110,7 @@ class Inspector {
     ["opening", "template", "handle"].forEach((name) => (this.field(name).disabled = !joint));
     this.field("label").disabled = this.isAdded;
     const room = this.state.rooms[part];
-    document.getElementById("offset-fields").hidden = !room;
+    elementAt("#offset-fields").hidden = !room;
     if (room) this.showPlace(room, settings.additions.fronts[part]?.offset ?? [0, 0]);
     this.showShelves();
   }
@@ -130,7 +130,7 @@ class Inspector {
 
   // Shows a field for each compartment that the part stands before, the lowest first.
   showShelves() {
-    const { compartments, settings } = this.state, box = document.getElementById("shelves-fields");
+    const { compartments, settings } = this.state, box = elementAt("#shelves-fields");
     const numbers = [...compartments.keys()].filter((k) => compartments[k].behind.includes(this.part));
     const floor = (k) => Math.min(...compartments[k].corners.map((corner) => corner[2]));
     numbers.sort((a, b) => floor(a) - floor(b));
@@ -143,7 +143,7 @@ class Inspector {
       const chosen = settings.additions.compartments[number], { shelves, why } = compartments[number];
       put(box.querySelector(`[data-shelves="${number}"]`), String(chosen?.shelves ?? ""), about);
       const built = chosen && shelves < chosen.shelves ? `${shelves} of ${chosen.shelves} built${why ? `: ${why}` : ""}` : "";
-      Object.assign(document.getElementById(`built-${number}`), { textContent: built, hidden: !built });
+      Object.assign(elementAt(`#built-${number}`), { textContent: built, hidden: !built });
     }
   }
 
@@ -171,7 +171,7 @@ class Inspector {
       button.dataset.restore = part;
       return button;
     });
-    document.getElementById("left-out").replaceChildren(...buttons);
+    elementAt("#left-out").replaceChildren(...buttons);
   }
 
   field(name) {

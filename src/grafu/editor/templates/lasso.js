@@ -21,7 +21,7 @@ class LassoTool {
     this.svg.setAttribute("class", "overlay lasso");
     this.svg.setAttribute("aria-hidden", "true");
     this.svg.append(this.shape, this.mark);
-    this.said = document.getElementById("chosen");
+    this.said = elementAt("#chosen");
     this.corners = [];
     this.cursor = { x: 0.5, y: 0.5 };
     canvas.after(this.svg);

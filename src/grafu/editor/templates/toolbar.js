@@ -4,8 +4,8 @@
 class Toolbar {
   constructor(actions) {
     this.actions = actions;
-    this.progress = document.getElementById("progress");
-    this.fault = document.getElementById("fault");
+    this.progress = elementAt("#progress");
+    this.fault = elementAt("#fault");
     controlsAt("[data-do]").forEach((button) =>
       button.addEventListener("click", () => this.do(button.dataset.do)));
   }
@@ -26,7 +26,7 @@ class Toolbar {
     this.button("anew").disabled = !build && !error;
     this.button("export").disabled = !build;
     this.button("stop").hidden = !busy || stage === "judge"; // which gives way to every choice
-    document.getElementById("bar").hidden = !busy;
+    elementAt("#bar").hidden = !busy;
     document.body.toggleAttribute("data-busy", busy);
     if (busy) this.progress.textContent = `${STAGES[stage] ?? stage} ...`;
     else if (exported) this.progress.textContent = exportedWords(exported);

@@ -9,10 +9,10 @@ function filterWall() {
   const word = box.value.trim().toLowerCase();
   const pressed = colours.filter((one) => one.getAttribute("aria-pressed") === "true").map((one) => one.dataset.colour);
   cards.forEach((card) => {
-    const { words, colour } = card.dataset;
+    const { words = "", colour } = card.dataset;
     card.hidden = !words.includes(word) || (pressed.length > 0 && !pressed.includes(colour));
   });
-  document.getElementById("found").textContent = `${cards.filter((card) => !card.hidden).length} of ${cards.length} models`;
+  elementAt("#found").textContent = `${cards.filter((card) => !card.hidden).length} of ${cards.length} models`;
 }
 
 box.addEventListener("input", filterWall);

@@ -5,6 +5,8 @@ const FOV = (28 * Math.PI) / 180;
 const START = { azimuth: (-32 * Math.PI) / 180, elevation: (18 * Math.PI) / 180 };
 
 class OrbitCamera {
+  /** @type {number} */ distance;
+
   constructor(box) {
     this.box = box;
     this.size = Math.hypot(...minus(box[1], box[0])) || 1;

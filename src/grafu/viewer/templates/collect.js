@@ -24,10 +24,10 @@ function showCollected() {
   const command = ["grafu", "functionalize", collecting.input, "--settings", "settings.json", "--out", resultsFolder(), "--overwrite"];
   if (collecting.name) command.push("--name", collecting.name);
   if (collecting.formats.length) command.push("--formats", collecting.formats.join(","));
-  const button = document.getElementById("collected-command");
+  const button = elementAt("#collected-command");
   button.textContent = button.dataset.copy = command.map(quoted).join(" ");
-  document.getElementById("collected").hidden = !collectedMoves.size;
-  document.getElementById("collected-said").textContent = [...collectedMoves].map(([part, word]) => `${part}: ${word}`).join(", ");
+  elementAt("#collected").hidden = !collectedMoves.size;
+  elementAt("#collected-said").textContent = [...collectedMoves].map(([part, word]) => `${part}: ${word}`).join(", ");
   document.querySelectorAll("[data-copy]").forEach((one) => {
     const found = moveOf(one);
     if (found) one.setAttribute("aria-pressed", String(collectedMoves.get(found[1]) === found[2]));
@@ -48,7 +48,7 @@ document.addEventListener("click", (event) => {
   showCollected();
 }, true);
 
-document.getElementById("collected-save").addEventListener("click", () => {
+elementAt("#collected-save").addEventListener("click", () => {
   const file = new Blob([JSON.stringify(collectedSettings(), null, 1)], { type: "application/json" });
   const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(file), download: "settings.json" });
   link.click();

@@ -15,7 +15,7 @@ async function copied(button) {
     await navigator.clipboard.writeText(button.dataset.copy);
     return true;
   } catch {
-    getSelection().selectAllChildren(button); // a page from a disk may not reach the clipboard in every browser
+    getSelection()?.selectAllChildren(button); // a page from a disk may not reach the clipboard in every browser
     return document.execCommand("copy");
   }
 }

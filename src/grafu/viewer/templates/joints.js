@@ -122,11 +122,11 @@ class Joints {
       run.again();
       return this.run !== null;
     }
-    run.from ??= stage.map((k) => this.fraction(k));
+    const from = (run.from ??= stage.map((k) => this.fraction(k)));
     run.time += elapsed;
     const t = run.seconds > 0 ? clamp(run.time / run.seconds, 0, 1) : 1;
     const soft = t * t * (3 - 2 * t);
-    stage.forEach((k, i) => this.setFraction(k, run.from[i] + ((run.open ? 1 : 0) - run.from[i]) * soft));
+    stage.forEach((k, i) => this.setFraction(k, from[i] + ((run.open ? 1 : 0) - from[i]) * soft));
     if (t >= 1) Object.assign(run, { at: run.at + 1, time: 0, from: null });
     return true;
   }

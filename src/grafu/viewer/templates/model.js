@@ -11,15 +11,19 @@ function whenSeen() {
 
 function goWithout(stage, why) {
   stage.className = "without";
-  document.getElementById("view-note").textContent =
+  elementAt("#view-note").textContent =
     `This browser cannot show the model in 3D (${why}): the pictures below show it as it came and open.`;
 }
 
 class ModelView {
+  /** @type {Joints} */ joints;
+  /** @type {OrbitCamera} */ camera;
+  /** @type {View} */ view;
+
   constructor(stage) {
     this.canvas = stage.querySelector("canvas");
     this.label = stage.querySelector(".label");
-    this.said = document.getElementById("chosen");
+    this.said = elementAt("#chosen");
     this.renderer = new Renderer(this.canvas);
     this.overlay = new Overlay(stage.querySelector("svg.overlay"));
     this.frames = 0;
@@ -132,7 +136,7 @@ class ModelView {
     const item = this.scene.items[index], joint = item ? this.scene.links[item.link].joint : null;
     this.focused = joint;
     this.view.joint = joint;
-    this.said.textContent = item ? this.described(item, joint) : this.said.dataset.empty;
+    this.said.textContent = item ? this.described(item, joint) : this.said.dataset.empty ?? "";
     if (seen) this.canvas.scrollIntoView({ block: "nearest" });
     this.redraw();
   }

@@ -28,7 +28,7 @@ function sortTable(table, column, falling) {
 }
 
 controlsAt("button[data-sort]").forEach((button) => {
-  const head = button.closest("th"), column = Number(button.dataset.sort);
+  const head = /** @type {HTMLElement} */ (button.closest("th")), column = Number(button.dataset.sort);
   button.addEventListener("click", () => {
     const now = head.getAttribute("aria-sort"), numbers = head.classList.contains("number") && column > 0;
     sortTable(button.closest("table"), column, now ? now === "ascending" : numbers);  // of numbers the largest first
@@ -36,7 +36,7 @@ controlsAt("button[data-sort]").forEach((button) => {
 });
 
 controlsAt("input[data-filter]").forEach((box) => {
-  const table = /** @type {HTMLTableElement} */ (document.getElementById(box.dataset.filter)), rows = [...table.tBodies[0].rows];
+  const table = /** @type {HTMLTableElement} */ (elementAt("#" + box.dataset.filter)), rows = [...table.tBodies[0].rows];
   box.addEventListener("input", () => {
     const word = box.value.trim().toLowerCase();
     rows.forEach((row) => (row.hidden = !row.textContent.toLowerCase().includes(word)));

@@ -1,10 +1,10 @@
 // @ts-check
 // The data of the page: JSON tables and one buffer (zlib, then base64). docs/pages.md describes the form.
 
-const readJson = (id) => JSON.parse(document.getElementById(id).textContent);
+const readJson = (id) => JSON.parse(elementAt("#" + id).textContent);
 
 async function inflated(id) {
-  const text = atob(document.getElementById(id).textContent.trim());
+  const text = atob(elementAt("#" + id).textContent.trim());
   const bytes = Uint8Array.from(text, (sign) => sign.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).arrayBuffer();
