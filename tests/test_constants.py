@@ -147,7 +147,6 @@ OF_MODULES = {
         "slots.py": {},
         "rule.py": {"_FRONTS": NUMBERING},
         "rule_scene.py": {"CARRIES": VOTES, "_FLAT": TOLERANCE},
-        "static_guesses.py": {"_ROUNDS": EFFORT},
         "votes.py": {"_PRIOR": VOTES},
     },
     "pipeline": {"verdict.py": {"_NAMED": WORDS}, "triage.py": {}},

@@ -3,7 +3,6 @@
 Each case stands beside what looks like it and moves.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 import pytest
@@ -11,9 +10,9 @@ import pytest
 from grafu.asset.part import Asset, Part
 from grafu.completion.static_guesses import StaticGuessConfig, static_guesses, with_static_guesses
 from grafu.graph.completion import Decision, GraphCompletion
-from grafu.graph.edges import Attached, Edge, Hinge, Rail, Slide
+from grafu.graph.edges import Attached, Edge, Hinge, Rail
 from grafu.graph.edit import relabelled, with_edges
-from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.functional_graph import PartNode
 from grafu.graph.parse import parse_graph
 from grafu.refusal import Reason
 from grafu.vocabulary import PartLabel
@@ -58,7 +57,7 @@ def guessed(
 
 
 def reasons(completion: GraphCompletion, asset: Asset) -> list[Reason]:
-    return [refusal.reason for refusal in static_guesses(completion, completion.decisions, asset)]
+    return [refusal.reason for refusal in static_guesses(completion, asset)]
 
 
 def with_score(completion: GraphCompletion, part: str, question: str, score: float) -> GraphCompletion:
@@ -69,7 +68,7 @@ def with_score(completion: GraphCompletion, part: str, question: str, score: flo
 @pytest.mark.parametrize("ornament", [(), (at("rosette", (-0.05, -0.5, 0.63), (0.05, -0.48, 0.67)),)])
 def test_the_frame_between_a_top_and_its_legs_is_no_drawer(ornament):
     completion, asset = guessed([TOP, APRON, *legs(0.6), *ornament], "frame")
-    (refusal,) = static_guesses(completion, completion.decisions, asset)
+    (refusal,) = static_guesses(completion, asset)
     assert refusal.reason is Reason.CARRIES
     assert "taken for a drawer (90%)" in refusal.why
     assert "board stands on it" in refusal.why
@@ -143,7 +142,7 @@ INSIDE = at("front", (-0.27, -0.32, 0.05), (0.27, -0.3, 0.25))
 )
 def test_what_may_as_well_open_another_way_stays(score, label, question, least):
     completion, asset = guessed(case_with(INSIDE), "front", label)
-    found = static_guesses(with_score(completion, "front", question, score), completion.decisions, asset)
+    found = static_guesses(with_score(completion, "front", question, score), asset)
     assert [refusal.reason for refusal in found] == ([Reason.UNLIKELY] if score < least else [])
 
 
@@ -151,7 +150,7 @@ def test_what_is_likelier_neither_door_nor_drawer_stays():
     assert reasons(*guessed(case_with(INSIDE), "front", score=0.3)) == [Reason.UNLIKELY]
     completion, asset = guessed(case_with(INSIDE), "front", score=0.3)
     either = (replace(completion.decisions[0], runner_up="door", runner_up_score=0.3),)
-    assert list(static_guesses(completion, either, asset)) == []
+    assert reasons(replace(completion, decisions=either), asset) == []
     handle = at("handle", (-0.1, -0.34, 0.14), (0.1, -0.32, 0.16), PartLabel.HANDLE)
     edges = (Rail("side_0", "front", FRONT), Attached("front", "handle"))
     assert reasons(*guessed(case_with(INSIDE, handle), "front", score=0.3, edges=edges)) == []
@@ -180,36 +179,35 @@ def test_a_part_whose_label_is_stated_is_no_guess():
     assert reasons(stated, asset) == []
 
 
-def test_the_rest_is_completed_with_the_labels_that_it_had():
-    completion, asset = guessed([TOP, APRON, *legs(0.6), at("tray", (-0.2, -0.2, 0.0), (0.2, 0.2, 0.1))], "frame")
-    asked: list[Mapping[str, PartLabel]] = []
+def test_what_stays_static_is_refused_and_all_others_move_as_they_did():
+    handle = at("handle", (-0.05, -0.05, 0.72), (0.05, 0.05, 0.76), PartLabel.HANDLE)
+    tray = at("tray", (-0.2, -0.2, 0.0), (0.2, 0.2, 0.1), PartLabel.DRAWER)
+    edges = (Rail("board", "frame", FRONT), Rail("leg_0", "tray", BACK), Attached("frame", "handle"))
+    completion, asset = guessed([TOP, APRON, *legs(0.6), handle, tray], "frame", edges=edges)
+    added = PartNode("handle_added_1", PartLabel.HANDLE, handle.box)
+    graph = completion.completed
+    grown = replace(graph, nodes=(*graph.nodes, added), edges=(*graph.edges, Attached("frame", "handle_added_1")))
+    told = (
+        Decision("frame", "slide", "2", 0.9),
+        Decision("handle", "parent", "frame", 0.9),
+        Decision("tray", "slide", "3", 0.8),
+        Decision("handle_added_1", "exists", "yes", 0.9),
+    )
+    made = GraphCompletion(
+        completion.input,
+        grown,
+        "network",
+        ("handle_added_1",),
+        (*completion.decisions, *told),
+        rides=(("frame", "handle"),),
+    )
 
-    def complete(labels: Mapping[str, PartLabel]) -> GraphCompletion:
-        asked.append(labels)
-        if not labels:
-            return completion
-        graph: FunctionalGraph = relabelled(completion.input, labels)
-        moved = with_edges(graph, (Rail("board", "frame", BACK),)) if labels["frame"].is_movable else graph
-        return replace(completion, input=graph, completed=moved, decisions=())
+    found = with_static_guesses(made, asset)
 
-    found = with_static_guesses(complete, asset)
-    assert asked == [{}, {"frame": PartLabel.MISC, "tray": PartLabel.MISC}]
-    assert not found.completed.moving
+    assert [(edge.parent, edge.child) for edge in found.completed.motions] == [("leg_0", "tray")]
+    assert (found.completed.attachments, found.added, found.rides) == ((), (), ())
     assert [(refusal.part, refusal.reason) for refusal in found.refused] == [("frame", Reason.CARRIES)]
-    (label,) = (d for d in found.decisions if d.question == "label")
+    (label, tray_slides) = found.decisions
     assert (label.choice, label.runner_up, label.runner_up_score) == ("misc", "drawer", 0.9)
-
-
-def test_what_stays_static_does_not_move_in_another_way():
-    completion, asset = guessed([TOP, APRON, *legs(0.6)], "frame")
-
-    def complete(labels: Mapping[str, PartLabel]) -> GraphCompletion:
-        if not labels:
-            return completion
-        graph = with_edges(relabelled(completion.input, labels), (Slide("board", "frame", FRONT),))
-        slides = Decision("frame", "slide", "2", 0.9)
-        return replace(completion, input=graph, completed=graph, decisions=(slides,))
-
-    found = with_static_guesses(complete, asset)
-    assert not found.completed.moving
-    assert found.decision("frame", "slide") is None
+    assert tray_slides == told[2]
+    assert with_static_guesses(found, asset) is found

@@ -1,9 +1,9 @@
-"""Which parts that are guessed to be doors or drawers stay static: what carries others, and what moves anyhow or nohow.
+"""Which parts that are only guessed to be doors or drawers stay static: what carries others, and weak guesses.
 
-A label that the input states is no guess. It looks at meshes along the height alone, and at the scores of decisions.
+A label that the input states is no guess.
 """
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -17,7 +17,7 @@ from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import triangle_bounds
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail
-from grafu.graph.edit import without_edges
+from grafu.graph.edit import relabelled, without_nodes
 from grafu.graph.functional_graph import PartNode
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
@@ -52,43 +52,38 @@ class StaticGuessConfig:
 
 
 _MOVABLE = frozenset(label.value for label in PartLabel if label.is_movable)
-_ROUNDS = 3  # what becomes static may make a guess about another part doubtful
 
 
 def with_static_guesses(
-    complete: Callable[[Mapping[str, PartLabel]], GraphCompletion],
-    asset: Asset,
-    config: StaticGuessConfig = StaticGuessConfig(),
+    completion: GraphCompletion, asset: Asset, config: StaticGuessConfig = StaticGuessConfig()
 ) -> GraphCompletion:
-    """Returns what `complete` returns for labels in which no part moves that is only guessed to, and cannot.
+    """Returns the completion in which no part moves that is only guessed to, and cannot; all others move as they did.
 
-    `complete` is called without labels first, and again with those that it found. What stays static is refused with the
-    reason, and is a part of no category, whose runner-up is what it was taken for.
+    What stays static is refused with the reason, and of no category, whose runner-up is what it was taken for. What was
+    added to it is left out.
     """
-    found = complete({})
-    unlabelled = [node.id for node in found.input.nodes if node.label is PartLabel.UNKNOWN]
-    labelling = {d.part: d for d in found.decisions if d.question == "label" and d.part in unlabelled}
-    labels = {name: found.completed.node(name).label for name in unlabelled}
-    refused: dict[str, Refusal] = {}
-    for _ in range(_ROUNDS):
-        doubtful = {r.part: r for r in static_guesses(found, labelling.values(), asset, config)}
-        if not doubtful:
-            break
-        labelling |= {part: _as_static(labelling[part]) for part in doubtful}
-        refused |= doubtful
-        found = _without_motions(complete(labels | dict.fromkeys(refused, PartLabel.MISC)), refused)
-    if not refused:
-        return found
+    while doubtful := tuple(static_guesses(completion, asset, config)):
+        completion = _with_static(completion, doubtful)
+    return completion
+
+
+def _with_static(completion: GraphCompletion, doubtful: Sequence[Refusal]) -> GraphCompletion:
+    """Returns the completion in which the parts that are refused stay static."""
+    still, graph = {refusal.part for refusal in doubtful}, completion.completed
+    gone = {e.child for e in graph.attachments if e.parent in still and e.child in completion.added}
+
+    def is_kept(decision: Decision) -> bool:
+        is_moot = decision.part in gone or (decision.question == "parent" and decision.choice in still)
+        return not is_moot and (decision.part not in still or decision.question == "label")
+
     return replace(
-        found, decisions=(*labelling.values(), *found.decisions), refused=(*found.refused, *refused.values())
+        completion,
+        completed=relabelled(without_nodes(graph, gone), dict.fromkeys(still, PartLabel.MISC)),
+        added=tuple(name for name in completion.added if name not in gone),
+        decisions=tuple(_as_static(d) if d.part in still else d for d in completion.decisions if is_kept(d)),
+        refused=(*(refusal for refusal in completion.refused if refusal.part not in still | gone), *doubtful),
+        rides=tuple(pair for pair in completion.rides if (still | gone).isdisjoint(pair)),
     )
-
-
-def _without_motions(completion: GraphCompletion, still: Collection[str]) -> GraphCompletion:
-    """Returns the completion in which some parts that are neither doors nor drawers do not move."""
-    edges = [edge for edge in completion.completed.motions if edge.child in still]
-    decisions = tuple(decision for decision in completion.decisions if decision.part not in still)
-    return replace(completion, completed=without_edges(completion.completed, edges), decisions=decisions)
 
 
 def _as_static(guess: Decision) -> Decision:
@@ -98,18 +93,12 @@ def _as_static(guess: Decision) -> Decision:
 
 
 def static_guesses(
-    completion: GraphCompletion,
-    labelling: Iterable[Decision],
-    asset: Asset,
-    config: StaticGuessConfig = StaticGuessConfig(),
+    completion: GraphCompletion, asset: Asset, config: StaticGuessConfig = StaticGuessConfig()
 ) -> Iterator[Refusal]:
-    """Yields a refusal for each part that is only guessed to be a door or drawer, and stays static.
-
-    `labelling` are the decisions of what unlabelled parts are.
-    """
-    for guess in labelling:
+    """Yields a refusal for each part that is only guessed to be a door or drawer, and stays static."""
+    for guess in completion.decisions:
         node = completion.completed.node(guess.part)
-        if not node.label.is_movable:
+        if guess.question != "label" or not node.label.is_movable:
             continue
         taken = f"it is taken for a {node.label} ({guess.score:.0%})"
         if carried := _carried(node, completion, asset, config):

@@ -9,14 +9,14 @@ from pathlib import Path
 from grafu.asset.part import Asset
 from grafu.completion.network import complete_by_network
 from grafu.completion.rule import complete_by_rule
-from grafu.completion.session import SHIPPED_WEIGHTS, NetworkSession, open_network
+from grafu.completion.session import SHIPPED_WEIGHTS, open_network
 from grafu.completion.static_guesses import with_static_guesses
 from grafu.completion.ways_out import with_ways_out
 from grafu.geometry.sampling import sample_surfaces
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.completion import GraphCompletion, decision_of
 from grafu.graph.edges import Attached
-from grafu.graph.edit import relabelled, with_edges, without_names
+from grafu.graph.edit import with_edges, without_names
 from grafu.graph.functional_graph import FunctionalGraph
 
 
@@ -48,16 +48,13 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
-    found = with_static_guesses(lambda labels: _completed(relabelled(seen, labels), asset, network), asset)
+    moved = with_ways_out(complete_by_network(seen, network, network.features), asset)
+    found = with_static_guesses(moved, asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
         replace(node, points=None, source_name=names.get(node.id, node.source_name)) for node in found.completed.nodes
     )
     return replace(found, input=graph, completed=replace(found.completed, nodes=bare))
-
-
-def _completed(graph: FunctionalGraph, asset: Asset, network: NetworkSession) -> GraphCompletion:
-    return with_ways_out(complete_by_network(graph, network, network.features), asset)
 
 
 def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
