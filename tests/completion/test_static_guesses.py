@@ -14,6 +14,7 @@ from grafu.graph.edges import Attached, Edge, Hinge, Rail
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.functional_graph import PartNode
 from grafu.graph.parse import parse_graph
+from grafu.pipeline.complete import complete_by_weights
 from grafu.refusal import Reason
 from grafu.vocabulary import PartLabel
 from small_scenes import box
@@ -84,6 +85,17 @@ def test_a_top_and_its_legs_may_be_one_part():
 def test_what_stands_on_the_floor_under_all_else_is_no_door():
     parts = [at("shaft", (-0.2, -0.2, 0.0), (0.2, 0.2, 0.9)), at("cap", (-0.3, -0.3, 0.9), (0.3, 0.3, 1.1))]
     assert reasons(*guessed(parts, "shaft", PartLabel.DOOR)) == [Reason.CARRIES]
+
+
+def test_the_shipped_network_takes_that_for_a_door_and_it_stays():
+    parts = [at("a", (-0.22, -0.22, 0.0), (0.22, 0.22, 0.88)), at("b", (-0.33, -0.33, 0.88), (0.33, 0.33, 1.1))]
+    asset = Asset("made", "", "made", tuple(replace(part, labelled_by="none") for part in parts))
+    completion = complete_by_weights(asset, parse_graph(asset))
+    label = completion.decision("a", "label")
+    assert label is not None
+    assert (label.choice, label.runner_up) == ("misc", "door")
+    assert {refusal.part: refusal.reason for refusal in completion.refused} == {"a": Reason.CARRIES}
+    assert "a" not in completion.completed.moving
 
 
 LOOK_ALIKES = {

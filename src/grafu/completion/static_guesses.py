@@ -33,13 +33,13 @@ class StaticGuessConfig:
     """
 
     slide: float = 0.5
-    """Least score of the side that a drawer slides to. Of 337 real drawers and doors whose names were hidden none has
-    less; what has less on other models is no drawer: a burner, a stair, a mattress."""
-    label: float = 0.45
-    """Least score of being a door or a drawer, together, of a part without a handle."""
+    """Least score of the side that a drawer slides to. Of 150 real drawers whose names were hidden the least has 0.65;
+    what has less on other models is no drawer: a burner, a stair, a mattress."""
     sign: float = 0.6
     """Least score of the side that a door opens to: below it both are alike, which they are of no front of a case. Of
-    the same real doors none has less."""
+    107 real doors whose names were hidden the least has 0.90."""
+    label: float = 0.45
+    """Least score of being a door or a drawer, together, of a part without a handle."""
     alone: float = 0.5
     """A part carries what is above it where nothing else stands at as much of its height (fraction) ..."""
     covers: float = 0.5
