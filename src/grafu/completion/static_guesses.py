@@ -3,7 +3,7 @@
 A label that the input states is no guess.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -96,12 +96,13 @@ def static_guesses(
     completion: GraphCompletion, asset: Asset, config: StaticGuessConfig = StaticGuessConfig()
 ) -> Iterator[Refusal]:
     """Yields a refusal for each part that is only guessed to be a door or drawer, and stays static."""
-    for guess in completion.decisions:
-        node = completion.completed.node(guess.part)
-        if guess.question != "label" or not node.label.is_movable:
-            continue
+    graph = completion.completed
+    guesses = [d for d in completion.decisions if d.question == "label" and graph.node(d.part).label.is_movable]
+    bounds = {part.id: _Bounds.of(part) for part in asset.parts} if guesses else {}
+    for guess in guesses:
+        node = graph.node(guess.part)
         taken = f"it is taken for a {node.label} ({guess.score:.0%})"
-        if carried := _carried(node, completion, asset, config):
+        if carried := _carried(node, completion, bounds, asset.box, config):
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but {carried} stands on it and on nothing else")
         elif why := _unlikely(node, guess, completion, config) or _uncased(node, completion, asset):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but {why}")
@@ -133,7 +134,9 @@ def _uncased(node: PartNode, completion: GraphCompletion, asset: Asset) -> str:
     return "nothing that could hold it is beside it, or above and below" if open_around else ""
 
 
-def _carried(node: PartNode, completion: GraphCompletion, asset: Asset, config: StaticGuessConfig) -> str:
+def _carried(
+    node: PartNode, completion: GraphCompletion, bounds: Mapping[str, "_Bounds"], whole: Box, config: StaticGuessConfig
+) -> str:
     """Returns the static part that a part alone keeps up; empty for none.
 
     At a height at which nothing else stands it bears all that is above: a drawer from what is below it, as it may hang
@@ -143,13 +146,13 @@ def _carried(node: PartNode, completion: GraphCompletion, asset: Asset, config: 
     supports = {other.id for other in touched if other.label.is_support}
     if not supports or _is_held(node, completion):
         return ""
-    touch = config.touch * asset.extent
-    bounds = {part.id: _Bounds.of(part) for part in asset.parts if part.id != node.id}
-    low, high = _alone(node.box, [bounds[name] for name in bounds if not _rides(name, node, completion)])
+    touch = config.touch * float(whole.size.max())
+    others = [name for name in bounds if name != node.id and not _rides(name, node, completion)]
+    low, high = _alone(node.box, [bounds[name].within(node.box) for name in others])
     if high - low < config.alone * node.box.size[2]:
         return ""
     if node.label is PartLabel.DOOR:
-        stands = node.box.low[2] <= asset.box.low[2] + touch
+        stands = node.box.low[2] <= whole.low[2] + touch
     else:
         stands = any(bounds[name].low[:, 2].min() <= low - touch for name in supports)
     if not stands:
@@ -184,6 +187,11 @@ class _Bounds:
     def of(cls, part: Part) -> "_Bounds":
         """Returns the corners of a part's triangles."""
         return cls(*triangle_bounds(part.mesh.triangles))
+
+    def within(self, box: Box) -> "_Bounds":
+        """Returns the corners of those triangles that stand at the heights of a box."""
+        near = (self.high[:, 2] > box.low[2]) & (self.low[:, 2] < box.high[2])
+        return _Bounds(self.low[near], self.high[near])
 
     def covered(self, box: Box, height: float) -> float:
         """Returns the fraction of a box that lies below what is above a height, seen from above."""
