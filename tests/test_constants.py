@@ -136,7 +136,6 @@ OF_MODULES = {
         "division.py": {"_Z": NUMBERING},
         "fronts.py": {"_RING_CELLS": SAMPLES, "SHEET": TOLERANCE},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
-        "lids.py": {},
         "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES, "_MANY": SAMPLES, "_SPARE": TOLERANCE},
     },
     "completion": {

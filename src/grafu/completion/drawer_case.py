@@ -44,13 +44,13 @@ _UP = np.linspace(0.25, 0.75, 3)  # and from below to above
 
 
 def is_without_case(
-    drawer: PartNode, way: SignedAxis, asset: Asset, graph: FunctionalGraph, config: CaseConfig = CaseConfig()
+    drawer: PartNode, slide: SignedAxis, asset: Asset, graph: FunctionalGraph, config: CaseConfig = CaseConfig()
 ) -> bool:
-    """Whether a drawer that slides level along `way` has both its sides open, and what is above it.
+    """Whether a drawer that slides level along `slide` has both its sides open, and what is above it.
 
     A drawer that is only a front needs something below it, too: a box may hang from what is above.
     """
-    axis, starts = way // 2, _starts(drawer.box, way, asset.box, config)
+    axis, starts = slide // 2, _starts(drawer.box, slide, asset.box, config)
     if axis == 2:
         return False
     caster = rest_of(asset, drawer.id, graph)
@@ -68,12 +68,12 @@ def _is_plate(box: Box, axis: int, config: CaseConfig) -> bool:
     return bool(box.size[axis] < config.plate * box.size[1 - axis])
 
 
-def _starts(box: Box, way: SignedAxis, whole: Box, config: CaseConfig) -> Points:
+def _starts(box: Box, slide: SignedAxis, whole: Box, config: CaseConfig) -> Points:
     """Returns where rays start: inside a drawer, or in the room that its box would take behind a front."""
-    axis, low, size = way // 2, box.low.copy(), box.size.copy()
+    axis, low, size = slide // 2, box.low.copy(), box.size.copy()
     if axis != 2 and _is_plate(box, axis, config):
         size[axis] = config.behind * whole.size[axis]
-        low[axis] = box.high[axis] - size[axis] if way % 2 else box.low[axis]
-    along = 1.0 - _ALONG if way % 2 else _ALONG
+        low[axis] = box.high[axis] - size[axis] if slide % 2 else box.low[axis]
+    along = 1.0 - _ALONG if slide % 2 else _ALONG
     steps = (along, _ACROSS) if axis == 0 else (_ACROSS, along)
     return low + size * np.stack(np.meshgrid(*steps, _UP, indexing="ij"), axis=-1).reshape(-1, 3)

@@ -5,7 +5,7 @@ Both are known by their names alone. A washing machine that has a door in front 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final, final
+from typing import final
 
 import numpy as np
 
@@ -34,19 +34,31 @@ class LidConfig:
     """How much of the chest is beside it on the left and on the right at least (fraction of the width)."""
     near: float = 0.02
     """What stands at its height lies on it, or at its edge, within this of it (fraction of the width)."""
-    door: float = 0.1
-    """What covers as much of the face of a washing machine is a door (fraction) ..."""
-    casing: float = 0.5
-    """... and from here on its casing."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "plan", "height", "near", "door", "casing")
+        require_ratios(self, "plan", "height", "near")
         require_positive(self, "most")
         require_not_negative(self, "inset")
 
 
-SET_IN: Final = LidConfig(plan=0.35, most=0.85, height=0.1, inset=0.01)
-"""The lid of a washing machine that is loaded from above; what covers others is their top."""
+@final
+@dataclass(frozen=True, slots=True)
+class WasherConfig:
+    """When a washing machine is loaded from above.
+
+    Raises:
+        ValueError: if a fraction is not between 0 and 1.
+    """
+
+    lid: LidConfig = LidConfig(plan=0.35, most=0.85, height=0.1, inset=0.01)
+    """Of its lid, which is set in; what covers others is their top."""
+    door: float = 0.1
+    """What covers as much of its face is a door (fraction) ..."""
+    casing: float = 0.5
+    """... and from here on its casing."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, "door", "casing")
 
 
 def lid_of_chest(
@@ -63,7 +75,7 @@ def lid_of_chest(
 
 
 def lid_of_washer(
-    meshes: Sequence[TriangleMesh], open_to: Sequence[bool], config: LidConfig = SET_IN
+    meshes: Sequence[TriangleMesh], open_to: Sequence[bool], config: WasherConfig = WasherConfig()
 ) -> dict[int, list[FacePiece]]:
     """Returns the same of a washing machine; empty where it has a door in front.
 
@@ -71,15 +83,15 @@ def lid_of_washer(
     """
     shells = MeshShells.of(meshes)
     view = _view(shells)
-    lid = _lid(view, open_to, config)
+    lid = _lid(view, open_to, config.lid)
     if lid is None:
         return {}
     low, high = view.low.min(axis=0), view.high.max(axis=0)
     ratio = view.size[:, :2].prod(axis=1) / (high - low)[:2].prod()
-    in_front = view.high[:, 2] >= high[2] - config.near * (high - low)[0]
+    in_front = view.high[:, 2] >= high[2] - config.lid.near * (high - low)[0]
     below = view.high[:, 1] <= view.high[lid, 1]
     doors = in_front & below & (ratio >= config.door) & (ratio < config.casing)
-    return {} if doors.any() else _cut(shells, view, lid, meshes, config)
+    return {} if doors.any() else _cut(shells, view, lid, meshes, config.lid)
 
 
 def _view(shells: MeshShells) -> ShellsView:
