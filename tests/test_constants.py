@@ -34,6 +34,8 @@ from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig
+from grafu.completion.drawer_case import CaseConfig
+from grafu.completion.static_guesses import StaticGuessConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
 from grafu.export.gltf_packing import DracoConfig
@@ -206,7 +208,8 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BodyKindConfig, CandidateConfig, CatchConfig, CutConfig, DivisionConfig, DoorRuleConfig,
+    AgreementConfig, BodyKindConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
+    DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
@@ -214,7 +217,8 @@ CONFIGS = (
     FramedDoorsConfig, HeldFrontsConfig, LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RowConfig, RuleConfig, ScaleConfig,
-    SeenSideConfig, SegmentationConfig, StandingConfig, UpEvidenceConfig, VerdictConfig, WayOutConfig,
+    SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig, UpEvidenceConfig, VerdictConfig,
+    WayOutConfig,
 )  # fmt: skip
 NUMBERS = [
     (kind, f.name)

@@ -39,6 +39,8 @@ class Reason(StrEnum):
     NO_MOTION = "no motion", "How the part moves is not known."
     REJECTED = "rejected", "The user fixed the part."
     UNSUPPORTED = "unsupported motion", "Motions of this kind are not built."
+    CARRIES = "carries others", "A guess states that the part moves, but other parts stand on it alone."
+    UNLIKELY = "unlikely", "A guess states that the part moves, but not which way it would."
     # of anything
     TOO_COMPLEX = "too complex", "The work would take more time or memory than its part of the budget."
     NO_ROOM = "no room", "There is too little room for it between other parts."

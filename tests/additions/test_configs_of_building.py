@@ -22,6 +22,7 @@ from grafu.additions.top.config import (
     TopConfig,
 )
 from grafu.additions.top.slope_config import SlopeConfig
+from grafu.additions.top.tap_config import TapConfig
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
@@ -74,6 +75,7 @@ POSITIVE = [
     (ReliefConfig, "cell"),
     (RoomConfig, "drawer_cells"),
     (SupportConfig, "divider"),
+    (TapConfig, "rises"),
     (TopConfig, "thickness"),
 ]
 RATIOS = [
@@ -111,6 +113,7 @@ RATIOS = [
     (ReliefConfig, "plane"),
     (RoomConfig, "walled"),
     (SupportConfig, "full"),
+    (TapConfig, "bottom"),
     (TopConfig, "coverage"),
     (TopConfig, "metal"),
 ]

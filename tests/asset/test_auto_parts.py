@@ -282,6 +282,42 @@ def test_what_is_called_a_chest_gets_the_lid_that_covers_it(model, objects, has_
         assert (lids[0].box.low[1] == pytest.approx(GRIP[0][1])) == (GRIP in objects[0])
 
 
+CASING = [
+    *(((x, -0.3, 0.0), (x + 0.02, 0.3, 0.8)) for x in (-0.3, 0.28)),
+    ((-0.28, 0.28, 0.0), (0.28, 0.3, 1.0)),  # the panel of its controls stands behind, above the lid
+    ((-0.28, -0.3, 0.0), (0.28, -0.28, 0.8)),
+    ((-0.28, -0.28, 0.0), (0.28, 0.28, 0.02)),
+]
+SERVICE = ((-0.25, -0.305, 0.05), (0.25, -0.29, 0.75))
+PORTHOLE = ((-0.18, -0.31, 0.25), (0.18, -0.29, 0.6))
+KNOB = ((-0.02, 0.2, 0.85), (0.02, 0.28, 0.9))
+SET_IN, TOP_PLATE = ((-0.25, -0.25, 0.78), (0.25, 0.15, 0.8)), ((-0.31, -0.31, 0.8), (0.31, 0.31, 0.83))
+
+
+@pytest.mark.parametrize(
+    ("model", "boards", "has_lid"),
+    [
+        ("washing_machine", [*CASING, SERVICE, SET_IN, KNOB], True),
+        ("Waschmaschine 3", [*CASING, SET_IN], True),
+        ("washing_machine", [*CASING, PORTHOLE, SET_IN, KNOB], False),
+        ("washing_machine", [*CASING, SERVICE, TOP_PLATE], False),
+        ("dishwasher", [*CASING, SERVICE, SET_IN, KNOB], False),
+    ],
+    ids=["loaded from above", "by its German name", "a door in front", "a top", "a dishwasher"],
+)
+def test_a_washing_machine_without_a_door_in_front_has_its_lid_on_top(model, boards, has_lid):
+    meshes = [TriangleMesh.box_mesh(Box(np.array(a), np.array(b))) for a, b in boards]
+    part = Part("body", PartLabel.UNKNOWN, (Surface(merge_meshes(meshes)),), PartSource("Cube"))
+    found = cut_where_fronts_appear(Reading("mesh file", (part,), Convention("test")), IDENTITY_FRAME, model)
+
+    lids = [part for part in found.parts if part.id.endswith("_lid")]
+    assert len(lids) == has_lid
+    if has_lid:
+        assert lids[0].box.low == pytest.approx(SET_IN[0])
+        assert lids[0].box.high == pytest.approx(SET_IN[1])
+        assert [part.label for part in found.parts].count(PartLabel.DOOR) == 1
+
+
 @pytest.mark.parametrize(
     ("model", "beside", "height", "fronts"),
     [

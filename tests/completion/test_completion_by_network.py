@@ -17,7 +17,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.arrays import EDGE_CODES, LABELS
 from grafu.graph.completion import Decision, GraphCompletion
-from grafu.graph.edges import Attached, Contact, Hinge, Rail
+from grafu.graph.edges import Attached, Contact, Hinge, Rail, ends_of
 from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.refusal import Refusal
@@ -329,6 +329,20 @@ def test_a_knob_on_a_static_panel_moves_with_nothing(touched: str, is_attached: 
     graph = replace(graph, nodes=(*graph.nodes, node), edges=(*graph.edges, Contact("knob", touched)))
 
     completion = complete(graph, told())
+
+    assert bool(completion.completed.attachments) is is_attached
+    assert ("knob" in {refusal.part for refusal in completion.refused}) is not is_attached
+
+
+@pytest.mark.parametrize(("aside", "is_attached"), [(-0.2, True), (0.004, True), (0.03, False)])
+def test_what_stands_apart_beside_a_door_is_no_handle_of_it(aside: float, is_attached: bool) -> None:
+    """Whatever the network states: knobs that stand off a control panel beside the door, and touch nothing."""
+    graph, knob = cupboard(), box_of("knob")
+    beside = moved(knob, vec3(float(box_of("door").high[0]) + aside - float(knob.low[0]), 0.0, 0.0))
+    nodes = tuple(replace(node, box=beside) if node.id == "knob" else node for node in graph.nodes)
+    edges = tuple(edge for edge in graph.edges if "knob" not in ends_of(edge))
+
+    completion = complete(replace(graph, nodes=nodes, edges=edges), told())
 
     assert bool(completion.completed.attachments) is is_attached
     assert ("knob" in {refusal.part for refusal in completion.refused}) is not is_attached

@@ -76,6 +76,12 @@ def test_doors_of_a_pair_hang_on_their_outer_sides():
     assert hinge_of(graph, "door_2") == Hinge("right", "door_2", 1, 1)
 
 
+@pytest.mark.parametrize(("z", "is_attached"), [(0.65, True), (0.715, True), (0.73, False)])
+def test_a_knob_apart_from_the_outline_of_a_door_is_not_its(z, is_attached):
+    graph = scene(**case(0.5), door=front(0, 0.5, 0, 0.7), handle=knob(0.25, z))
+    assert bool(complete_by_rule(graph).completed.attachments) is is_attached
+
+
 def test_handles_in_the_middle_of_the_top_leave_a_pair_a_pair():
     handles = {"handle_1": knob(0.25, 0.95), "handle_2": knob(0.75, 0.95)}
     graph = scene(**case(), door_1=front(0, 0.499), door_2=front(0.501, 1), **handles)

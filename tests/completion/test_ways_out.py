@@ -1,4 +1,4 @@
-"""Drawers come out to the side from which they are seen, whatever was predicted."""
+"""Drawers come out, and lids open, to the side from which they are seen, whatever was predicted."""
 
 from dataclasses import replace
 
@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 
 from grafu.asset.part import Asset
 from grafu.completion.ways_out import WayOutConfig, with_ways_out
-from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Contact, Rail
+from grafu.graph.completion import Decision, GraphCompletion
+from grafu.graph.edges import Contact, Hinge, Rail
 from grafu.graph.edit import with_edges
+from grafu.graph.motion import opening_face
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.vocabulary import PartLabel
 from small_scenes import box
@@ -71,3 +72,49 @@ def test_what_is_seen_from_both_sides_or_none_stays_as_predicted(without, also):
 def test_a_drawer_that_is_predicted_to_rise_stays():
     completion, asset = completed(PLATE, 5)
     assert with_ways_out(completion, asset) is completion
+
+
+TUB = {
+    "left": ((-0.4, 0.0, 0.0), (-0.38, 0.5, 0.5)),
+    "right": ((0.38, 0.0, 0.0), (0.4, 0.5, 0.5)),
+    "front": ((-0.4, 0.0, 0.0), (0.4, 0.02, 0.5)),
+    "back": ((-0.4, 0.48, 0.0), (0.4, 0.5, 0.5)),
+    "floor": ((-0.4, 0.0, 0.0), (0.4, 0.5, 0.02)),
+}
+LID = ((-0.38, 0.02, 0.48), (0.38, 0.48, 0.5))
+
+
+def with_lid(sign: int, turned: bool = False, **also) -> tuple[GraphCompletion, Asset]:
+    """Returns a tub whose lid hangs on its back; `turned` upside down, so that it closes a case from below."""
+
+    def placed(low, high):
+        return ((*low[:2], -high[2]), (*high[:2], -low[2])) if turned else (low, high)
+
+    boards = [replace(box(n, *placed(*ends)), label=PartLabel.SIDE_PANEL) for n, ends in {**TUB, **also}.items()]
+    asset = Asset("made", "", "made", (*boards, replace(box("lid", *placed(*LID)), label=PartLabel.DOOR)))
+    graph = parse_graph(asset, ParsingConfig(contact="none"))
+    predicted = Decision("lid", "sign", str(sign), 0.6, str(1 - sign), 0.4)
+    return GraphCompletion(
+        graph, with_edges(graph, [Hinge("back", "lid", 3, sign)]), "network", (), (predicted,)
+    ), asset
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("sign", [0, 1])
+def test_a_lid_opens_to_the_side_that_it_is_seen_from(sign, turned):
+    completion, asset = with_lid(sign, turned)
+    found = with_ways_out(completion, asset)
+    (hinge,) = found.completed.hinges
+    outside = 4 if turned else 5
+    assert opening_face(2, hinge.border, hinge.sign) == outside
+    assert found.decision("lid", "sign").choice == str(hinge.sign)
+    assert (found is completion) == (opening_face(2, 3, sign) == outside)
+
+
+@pytest.mark.parametrize("sign", [0, 1])
+def test_a_leaf_that_is_seen_from_above_and_below_stays_as_predicted(sign):
+    completion, asset = with_lid(sign)
+    boards = tuple(part for part in asset.parts if part.id != "floor")
+    graph = parse_graph(replace(asset, parts=boards), ParsingConfig(contact="none"))
+    leaf = replace(completion, input=graph, completed=with_edges(graph, completion.completed.hinges))
+    assert with_ways_out(leaf, replace(asset, parts=boards)) is leaf

@@ -12,6 +12,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
 from grafu.geometry.solids import ConvexSolid
 from grafu.joints import build
 from grafu.joints.clearance import carve as carving
@@ -326,6 +327,17 @@ def test_what_loses_too_much_to_a_few_solids_is_left_out_before_all_are_made(mon
     assert [one[0] for one in first] == [one[0] for one in second] == [["block"], []]
     assert [one[1] for one in first] == [one[1] for one in second]
     assert first[1][2] < second[1][2]
+
+
+def test_what_is_seen_of_a_scene_is_prepared_once(monkeypatch):
+    """To prepare all faces of a large piece for rays takes longer than all else that is asked of a cut."""
+    made = []
+    monkeypatch.setattr(carving, "RayCaster", lambda mesh: made.append(mesh) or RayCaster(mesh))
+    plates = [box(f"plate_{k}", (0.096, y, -0.06), (0.104, y + 0.05, -0.01)) for k, y in enumerate((-0.08, 0.02))]
+    built, path = trough_above(*plates)
+    for _ in range(2):
+        carve(built, path, ["plate_0", "plate_1"], RealizationConfig(max_carve=1e-6), 10_000)
+    assert len(made) == 1
 
 
 def test_a_door_that_stays_blocked_is_cleared_once(monkeypatch):

@@ -29,7 +29,7 @@ from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.synth.samples import KINDS
 from grafu.templates.gallery import builtin_gallery
-from grafu.vocabulary import JointType
+from grafu.vocabulary import JointType, PartLabel
 
 DEFAULT = VerdictConfig()
 
@@ -174,6 +174,25 @@ def test_a_part_that_somebody_stopped_is_no_fault():
 
     assert (verdict.colour, verdict.lines) == (Colour.GREEN, ())
     assert verdict.sentence.startswith("Everything works: 1 drawer;")
+
+
+@pytest.mark.parametrize("reason", [Reason.CARRIES, Reason.UNLIKELY])
+def test_a_guess_that_stays_static_is_one_yellow_line_with_the_option_that_moves_it(reason):
+    report = sound(0)
+    (door,) = (part for part in report.parts if part.category.is_movable)
+    parts = (*report.parts, door.model_copy(update={"id": "frame", "category": PartLabel.MISC, "link": "body"}))
+    guess = GuessRecord(
+        part="frame", question="label", choice="misc", score=0.0, runner_up="drawer", runner_up_score=0.9
+    )
+    skip = SkippedRecord(request="frame", reason=reason, detail="it is taken for a drawer (90%), but it stays")
+    moves = {**report.moves, "frame": ("--move frame=slide",)}
+    verdict = verdict_of(
+        report.model_copy(update={"parts": parts, "guesses": (guess,), "skipped": (skip,), "moves": moves})
+    )
+    [line] = verdict.lines
+
+    assert (verdict.colour, line.kind, line.option) == (Colour.YELLOW, FaultKind.NOT_BUILT, "--move frame=slide")
+    assert line.why == skip.detail
 
 
 def test_where_all_was_stopped_nothing_moves_as_asked_and_where_nothing_could_is_yellow():

@@ -11,7 +11,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.labels import is_appliance, is_bed, is_chest, sense_of
+from grafu.asset.labels import is_appliance, is_bed, is_chest, is_washer, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
 from grafu.asset.part import ROBOTS, Frame, Part
@@ -24,9 +24,10 @@ from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.config import CreaseConfig
-from grafu.segmentation.creases import back_of, drawn_fronts, lid_of_chest, uv_islands
+from grafu.segmentation.creases import back_of, drawn_fronts, uv_islands
 from grafu.segmentation.division import FacePiece, divided
 from grafu.segmentation.joining import joined_objects
+from grafu.segmentation.lids import lid_of_chest, lid_of_washer
 from grafu.vocabulary import PartLabel
 
 # What may hide fronts: what no name tells, and what is called by what it holds.
@@ -88,6 +89,8 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
             cuts = drawn_fronts(meshes, open_to, [_islands(part) for part in reading.parts])
     if is_chest(name) and not any(whole) and sum(p.role == "front" for found in cuts.values() for p in found) <= 1:
         cuts = lid_of_chest(meshes, open_to) or cuts  # its front wall is a plate, too
+    if is_washer(name) and not any(whole):
+        cuts = lid_of_washer(meshes, open_to) or cuts
     if not cuts:
         return reading
     model = "" if any(part.label is PartLabel.DOOR for part in reading.parts) else name

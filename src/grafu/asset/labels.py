@@ -157,6 +157,12 @@ def is_chest(name: str) -> bool:
     return bool(said & _CHESTS) and "drawer" not in said
 
 
+def is_washer(name: str) -> bool:
+    """Whether the name is that of a washing machine."""
+    said = {singular(w) for w in spoken(name)}
+    return "washer" in said or {"washing", "machine"} <= said
+
+
 def is_bed(name: str) -> bool:
     """Whether the name is that of a bed or of what lies on one: a cot, a mattress, a pillow."""
     return bool({singular(w) for w in spoken(name)} & _BEDS)

@@ -172,7 +172,9 @@ class RuleConfig(ShortRepr):
     """The thresholds of the rule-based baseline."""
 
     handle_reach: float = 0.05
-    """A handle farther from every door and drawer belongs to none (fraction of the object's largest side)."""
+    """A handle farther from every door and drawer belongs to none (fraction of the object's largest side) ..."""
+    handle_apart: float = 0.01
+    """... and so does one farther than this that stands beside all of them: none of 212 real handles does."""
     guess: GuessConfig = GuessConfig()
     """Of labels for parts without one."""
     doors: DoorRuleConfig = DoorRuleConfig()
@@ -183,4 +185,4 @@ class RuleConfig(ShortRepr):
     """Of rails."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "handle_reach")
+        require_positive(self, "handle_reach", "handle_apart")

@@ -42,7 +42,9 @@ def attach_handles(graph: FunctionalGraph, config: RuleConfig = RuleConfig()) ->
             continue
         nodes = () if sits_on_static(handle, graph) else movable.nodes
         misfits = _misfits(handle, movable, graph) if nodes else []
-        ranked = sorted(zip(misfits, (n.id for n in nodes), strict=True), key=lambda item: item[0])
+        apart = (stands_apart(handle.box, node, config.handle_apart * float(graph.box.size.max())) for node in nodes)
+        fits = ((misfit, n.id) for misfit, n, is_apart in zip(misfits, nodes, apart, strict=True) if not is_apart)
+        ranked = sorted(fits, key=lambda item: item[0])
         if not ranked or ranked[0][0] > config.handle_reach:
             refused.append(Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT))
             continue
@@ -64,6 +66,11 @@ def sits_on_static(handle: PartNode, graph: FunctionalGraph) -> bool:
     beside = all(_stands_beside(handle.box, part) for part in graph.labelled(PartLabel.DOOR, PartLabel.DRAWER))
     larger = (node for node in touched if float(np.sort(node.box.size)[1]) > largest)
     return any(beside or node.label is PartLabel.MISC for node in larger)
+
+
+def stands_apart(handle: Box, part: PartNode, reach: float) -> bool:
+    """Whether a handle stands beside a door or drawer, farther from it than `reach` (metres): it is not its."""
+    return _stands_beside(handle, part) and handle.gap(part.box) > reach
 
 
 def _stands_beside(handle: Box, part: PartNode) -> bool:

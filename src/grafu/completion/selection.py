@@ -18,7 +18,7 @@ import numpy as np
 from grafu.completion.answers import MotionAnswer, decision_of
 from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_front, vote_mount
 from grafu.completion.drawers import run_drawer, vote_direction
-from grafu.completion.handles import sits_on_static
+from grafu.completion.handles import sits_on_static, stands_apart
 from grafu.completion.probabilities import softmax
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.view import GraphView
@@ -64,7 +64,7 @@ def choose_parent(handle: PartNode, view: GraphView) -> tuple[Attached, Decision
     if not len(view.moving_bodies):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     near = view.gaps(handle, view.moving_bodies) <= view.config.grasp * view.extent
-    slots = np.array([k for k in view.moving_bodies[near] if not _is_behind(handle, view.graph.nodes[k], view)], int)
+    slots = np.array([k for k in view.moving_bodies[near] if _may_hold(handle, view.graph.nodes[k], view)], int)
     if not len(slots) or sits_on_static(handle, view.graph):
         return Refusal(handle.id, Reason.NO_MOTION, _NO_PARENT)
     ratios, none = parent_ratios(view.place[handle.id], slots, view)
@@ -75,6 +75,12 @@ def choose_parent(handle: PartNode, view: GraphView) -> tuple[Attached, Decision
         )
     ranking = ranking_of(view.ids(slots), ratios)
     return Attached(ranking.choice, handle.id), decision_of(handle.id, "parent", ranking)
+
+
+def _may_hold(handle: PartNode, part: PartNode, view: GraphView) -> bool:
+    """Whether a handle, seen from where it stands, may be that of a door or drawer."""
+    reach = view.config.slack * view.extent
+    return not _is_behind(handle, part, view) and not stands_apart(handle.box, part, reach)
 
 
 def _is_behind(handle: PartNode, door: PartNode, view: GraphView) -> bool:

@@ -1,10 +1,9 @@
-"""Which way a drawer can come out: towards the side from which it is seen, whatever was predicted.
+"""Which way a drawer can come out, or a lid open: towards the side from which it is seen, whatever was predicted.
 
 Rays are cast on the meshes. What is predicted stays where they do not tell: a drawer that is seen from both sides, or
 from none.
 """
 
-from collections.abc import Set
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -16,9 +15,9 @@ from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster, open_ratios
 from grafu.graph.completion import BY_RULE, Decision, GraphCompletion
-from grafu.graph.edges import Rail, SignedAxis
+from grafu.graph.edges import AxisSign, Hinge, Rail, SignedAxis
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import signed_axis
+from grafu.graph.motion import sign_for_opening, signed_axis
 
 
 @final
@@ -40,10 +39,35 @@ class WayOutConfig:
 
 
 def with_ways_out(completion: GraphCompletion, asset: Asset, config: WayOutConfig = WayOutConfig()) -> GraphCompletion:
-    """Returns the completion in which drawers slide to the side that they are seen from, where only one side is.
+    """Returns the completion in which drawers and lids move to the side that they are seen from, where only one is.
 
     A drawer that is only a plate slides across that plate. Drawers on moving parts, and coupled ones, stay as they are.
     """
+    return _with_lids(_with_drawers(completion, asset, config), asset, config)
+
+
+def _with_lids(completion: GraphCompletion, asset: Asset, config: WayOutConfig) -> GraphCompletion:
+    """Returns the completion in which level doors open up where they are seen from above, and down from below."""
+    graph = completion.completed
+    given = {part.id for part in asset.parts}
+    level = [hinge for hinge in graph.hinges if hinge.child in given and graph.node(hinge.child).box.thin_axis == 2]
+    new: dict[str, tuple[AxisSign, float]] = {}
+    for hinge in level:
+        below, above = open_ratios(rest_of(asset, hinge.child, graph), graph.node(hinge.child).box, 2)
+        sign = sign_for_opening(2, hinge.border, signed_axis(2, above > below))
+        if abs(above - below) >= config.seen and sign != hinge.sign:
+            new[hinge.child] = sign, abs(above - below)
+    if not new:
+        return completion
+    edges = tuple(
+        replace(e, sign=new[e.child][0]) if isinstance(e, Hinge) and e.child in new else e for e in graph.edges
+    )
+    kept = (d for d in completion.decisions if d.part not in new or d.question != "sign")
+    told = (Decision(p, "sign", str(sign), sure, str(1 - sign), 1.0 - sure, BY_RULE) for p, (sign, sure) in new.items())
+    return replace(completion, completed=replace(graph, edges=edges), decisions=(*kept, *told))
+
+
+def _with_drawers(completion: GraphCompletion, asset: Asset, config: WayOutConfig) -> GraphCompletion:
     graph = completion.completed
     axes = {rail.child: rail.axis for rail in graph.edges if isinstance(rail, Rail) and _is_free(rail, graph)}
     found = {part: _way_out(part, axis // 2, asset, graph, config) for part, axis in axes.items()}
@@ -70,7 +94,7 @@ def _way_out(
     if part not in known or predicted == 2:
         return None
     axis = _across(known[part].box, predicted, config)
-    low, high = open_ratios(_others(asset, _riding(part, graph)), known[part].box, axis)
+    low, high = open_ratios(rest_of(asset, part, graph), known[part].box, axis)
     sure = abs(high - low)
     return (signed_axis(axis, high > low), sure) if sure >= config.seen else None
 
@@ -81,9 +105,7 @@ def _across(box: Box, predicted: int, config: WayOutConfig) -> int:
     return thin if box.size[thin] <= config.plate * min(box.size[1 - thin], box.size[2]) else predicted
 
 
-def _riding(part: str, graph: FunctionalGraph) -> Set[str]:
-    return {part, *(edge.child for edge in graph.attachments if edge.parent == part)}
-
-
-def _others(asset: Asset, own: Set[str]) -> RayCaster:
+def rest_of(asset: Asset, part: str, graph: FunctionalGraph) -> RayCaster:
+    """Returns what casts rays on everything but a part and what is attached to it."""
+    own = {part, *(edge.child for edge in graph.attachments if edge.parent == part)}
     return RayCaster(merge_meshes([part.mesh for part in asset.parts if part.id not in own]))

@@ -207,13 +207,13 @@ def outer_faces(mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
     return seen[first]
 
 
-def outer_points(points: Points, mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
+def outer_points(points: Points, caster: RayCaster, size: float) -> Bool[np.ndarray, " n"]:
     """Returns for each of some points on a mesh whether it can be seen from far away, along one of 26 directions.
 
-    They are those of `outer_faces`, turned: furniture has no faces along them.
+    They are those of `outer_faces`, turned: furniture has no faces along them. `caster` is of the mesh, whose largest
+    side is `size` (metres).
     """
-    seen = np.zeros(len(points), dtype=np.bool_)
-    caster, off = RayCaster(mesh), _OFF * float(mesh.box.size.max())
+    seen, off = np.zeros(len(points), dtype=np.bool_), _OFF * size
     for direction in _OBLIQUE:
         left = np.flatnonzero(~seen)
         seen[left] = caster.is_clear(points[left] + off * direction, direction)

@@ -10,6 +10,7 @@ from grafu.asset.part import Asset
 from grafu.completion.network import complete_by_network
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, open_network
+from grafu.completion.static_guesses import with_static_guesses
 from grafu.completion.ways_out import with_ways_out
 from grafu.geometry.sampling import sample_surfaces
 from grafu.graph.annotated import annotated_edges
@@ -36,7 +37,8 @@ def complete_by_annotation(asset: Asset, graph: FunctionalGraph, source: str = "
 def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | None = None) -> GraphCompletion:
     """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
 
-    Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`).
+    Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`). What is only guessed to be
+    a door or drawer stays static where it cannot be one (`with_static_guesses`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
@@ -46,12 +48,13 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
-    found = complete_by_network(seen, network, network.features)
+    moved = with_ways_out(complete_by_network(seen, network, network.features), asset)
+    found = with_static_guesses(moved, asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
         replace(node, points=None, source_name=names.get(node.id, node.source_name)) for node in found.completed.nodes
     )
-    return with_ways_out(replace(found, input=graph, completed=replace(found.completed, nodes=bare)), asset)
+    return replace(found, input=graph, completed=replace(found.completed, nodes=bare))
 
 
 def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:

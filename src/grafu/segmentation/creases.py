@@ -8,18 +8,16 @@ changes, has each front as a patch, with the edges that it has.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import final
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from grafu.geometry.arrays import Faces, Indices, Vec3
 from grafu.geometry.components import linked, welded
-from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.config import CreaseConfig, SegmentationConfig
-from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object, split
+from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object
 from grafu.segmentation.fronts import FrontShells
 from grafu.segmentation.hidden_fronts import outline
 from grafu.segmentation.surroundings import within
@@ -207,45 +205,3 @@ def _border(faces: Faces) -> tuple[Edges, Edges]:
     _, number, counts = np.unique(key, return_inverse=True, return_counts=True)
     alone = counts[number.reshape(-1)] == 1
     return start[alone], end[alone]
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class LidConfig:
-    """What may be the lid of a chest.
-
-    Raises:
-        ValueError: if a fraction is not between 0 and 1.
-    """
-
-    plan: float = 0.85
-    """What of the chest's plan it covers at least (fraction of the area)."""
-    height: float = 0.3
-    """How high it is at most (fraction of the chest's height)."""
-
-    def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
-
-
-def lid_of_chest(
-    meshes: Sequence[TriangleMesh], open_to: Sequence[bool], config: LidConfig = LidConfig()
-) -> dict[int, list[FacePiece]]:
-    """Returns the object that holds the lid of a chest, cut into that, with what stands on it, and the rest, if any.
-
-    Of the shells that cover the chest from above the lid is the largest.
-    """
-    shells = MeshShells.of(meshes)
-    view = view_of(shells.mesh, shells.shell, shells.owner, axes_from(0))
-    low, high = view.low.min(axis=0), view.high.max(axis=0)
-    plan, tall = view.size[:, 0] * view.size[:, 2], high[1] - low[1]
-    lids = plan >= config.plan * (high - low)[0] * (high - low)[2]
-    lids &= (view.size[:, 1] <= config.height * tall) & (view.low[:, 1] > low[1] + tall / 2)
-    lids &= np.asarray(open_to, dtype=bool)[view.owner]
-    if not lids.any():
-        return {}
-    lid = max(np.flatnonzero(lids).tolist(), key=lambda k: float(plan[k] * view.size[k, 1]))
-    owner, middle = int(view.owner[lid]), float(view.low[lid, 1])
-    above = np.flatnonzero((view.owner == owner) & ((view.low + view.high)[:, 1] / 2 >= middle)).tolist()
-    start = sum(len(mesh.faces) for mesh in meshes[:owner])
-    rest, (found,) = split(shells, owner, start, [tuple(above)])
-    return {owner: [*([FacePiece("rest", rest)] if len(rest) else []), FacePiece("lid", found)]}

@@ -220,6 +220,41 @@ def test_both_maps_are_told() -> None:
     assert coverage.level == pytest.approx(H, abs=1e-6)
 
 
+def tap(x: float = 0.0, rises: float = 0.1) -> Part:
+    low, high = (x - 0.02, 0.06, H - 0.06), (x + 0.02, 0.12, H + rises)
+    return board("tap", low, high, PartLabel.MISC)
+
+
+PREDICTED = Box(vec3(-0.25, -0.16, H - 0.01), vec3(0.25, 0.16, H + 0.01))
+
+
+def test_a_basin_that_a_tap_stands_over_has_no_top_whatever_was_predicted() -> None:
+    waste = board("waste", (-0.02, -0.02, 0.0), (0.02, 0.02, H - 0.15), PartLabel.LEG)
+    verdict = missing_top([basin(), waste, tap()], hint=PREDICTED)
+    assert verdict.covered
+    assert verdict.addition is None
+    assert verdict.why == "`basin` is a basin: `tap` stands over it"
+
+
+@pytest.mark.parametrize(
+    "beside",
+    [
+        [],
+        [tap(rises=-0.01)],
+        [tap(x=0.6)],
+        [board("wall", (-0.25, 0.16, 0.0), (0.25, 0.18, H + 0.3))],
+        [tap(), board("drawer", (-0.25, -0.18, H - 0.14), (0.25, -0.16, H), PartLabel.DRAWER)],
+    ],
+    ids=["alone", "a post inside it", "a tap elsewhere", "a back behind it", "a drawer in it"],
+)
+def test_other_boxes_that_are_open_above_get_the_top_that_they_lack(beside: list[Part]) -> None:
+    assert missing_top([basin(), *beside], hint=PREDICTED).addition is not None
+
+
+def test_a_case_in_which_something_tall_stands_is_no_basin() -> None:
+    assert missing_top([*carcass(), front(), tap(rises=0.3)], [swing()]).addition is not None
+
+
 def test_what_is_nothing_but_a_basin_is_judged_like_any_other_piece() -> None:
     lone = replace(basin(), label=PartLabel.MISC)
     assert missing_top([lone]).coverage is not None

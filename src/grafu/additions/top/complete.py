@@ -16,7 +16,15 @@ from grafu.additions.step import Addition, added_part, free_ids
 from grafu.additions.top.config import TopConfig
 from grafu.additions.top.coverage import Coverage, coverage_of
 from grafu.additions.top.cutouts import cutouts_of, thick_enough
-from grafu.additions.top.evidence import basins_of, bowls_of, cells_of, named_cells, plate_in, speaks_for_bars
+from grafu.additions.top.evidence import (
+    basin_with_tap,
+    basins_of,
+    bowls_of,
+    cells_of,
+    named_cells,
+    plate_in,
+    speaks_for_bars,
+)
 from grafu.additions.top.outline import (
     inset_regions,
     one_piece,
@@ -182,6 +190,9 @@ def _judged(
     level = coverage.level
     if level is None:
         return TopVerdict(True, coverage.ratio, "nothing is open at the top", coverage)
+    basin = basin_with_tap(roles, coverage, config.evidence, metre)
+    if basin is not None:
+        return TopVerdict(True, coverage.ratio, f"`{basin[0].id}` is a basin: `{basin[1].id}` stands over it", coverage)
     named = named_cells(roles, views, coverage, config.evidence, metre)
     near_top = coverage.near_top | (named & coverage.everything)
     coverage = replace(coverage, near_top=near_top)

@@ -9,8 +9,9 @@ import numpy as np
 
 from grafu.additions.top.config import EvidenceConfig, TopConfig
 from grafu.additions.top.coverage import Coverage
-from grafu.additions.top.height_map import CellMask, heights_of
+from grafu.additions.top.height_map import CellMask, grown, heights_of
 from grafu.additions.top.roles import Roles
+from grafu.additions.top.tap_config import TapConfig
 from grafu.additions.top.views import Views
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
@@ -67,6 +68,44 @@ def plate_in(roles: Roles, views: Views, coverage: Coverage, config: TopConfig, 
         if ratio >= least and (spanned & coverage.everything).sum() >= own.spans * coverage.everything.sum():
             return part
     return None
+
+
+def basin_with_tap(
+    roles: Roles, coverage: Coverage, config: EvidenceConfig, metre: float, tap: TapConfig = TapConfig()
+) -> tuple[Part, Part] | None:
+    """Returns the still part that one looks into and that has a bottom of its own, and what stands over it; else None.
+
+    A door or a drawer beside it states that it is a case, whose top is missing.
+    """
+    level, opened, grid = coverage.level, coverage.opened, coverage.grid
+    assert level is not None
+    deep = level - config.shallowest_basin * metre
+    for part in roles.still:
+        if abs(float(part.box.high[2]) - level) > config.basin_below * metre:
+            continue
+        own = heights_of(part.mesh.triangles, grid)[opened]
+        bottom = (own <= deep) & (own >= level - config.deepest_basin * metre)
+        if bottom.sum() < tap.bottom * len(own):
+            continue
+        low = float(own[bottom].min())
+        if any(moves.mesh.box.low[2] < deep and moves.mesh.box.high[2] > low for moves in roles.moving):
+            continue
+        over = next((p for p in roles.still if _is_tap(p, part.box, coverage, tap, metre)), None)
+        if over is not None:
+            return part, over
+    return None
+
+
+def _is_tap(part: Part, basin: Box, coverage: Coverage, config: TapConfig, metre: float) -> bool:
+    """Whether a part stands over or in what one looks into, within the plan of a basin, and rises above its rim."""
+    assert coverage.level is not None
+    box = part.box
+    slim = float(box.size[:2].max()) <= config.size * float(basin.size[:2].min())
+    within = bool(np.all(box.low[:2] >= basin.low[:2]) and np.all(box.high[:2] <= basin.high[:2]))
+    if not (slim and within and box.high[2] > coverage.level + config.rises * metre):
+        return False
+    cells = np.isfinite(heights_of(part.mesh.triangles, coverage.grid))
+    return bool((cells & grown(coverage.opened, 1)).any())
 
 
 def speaks_for_bars(roles: Roles, coverage: Coverage, config: TopConfig, metre: float) -> bool:

@@ -18,7 +18,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import part_numbers
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.raycast import outer_points
+from grafu.geometry.raycast import RayCaster, outer_points
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.solids import ConvexSolid, clip, in_any, subtract
 from grafu.geometry.transform import transform_points
@@ -168,8 +168,13 @@ def _is_hidden(scene: Scene, part: Part, solids: Sequence[ConvexSolid], config: 
         return True
     points = sample_surface(part.mesh, _SAMPLES).points
     inside = points[in_any(solids, points)]
-    whole = merge_meshes(tuple(other.mesh for other in scene.parts.values()))
-    return bool(np.count_nonzero(outer_points(inside, whole)) <= config.max_carve_seen * _SAMPLES)
+    drawn = (other.box for other in scene.parts.values() if len(other.mesh.faces))  # all parts are read, each time
+    seen = outer_points(inside, scene.once(_caster), float(Box.enclosing(drawn).size.max()))
+    return bool(np.count_nonzero(seen) <= config.max_carve_seen * _SAMPLES)
+
+
+def _caster(scene: Scene) -> RayCaster:
+    return RayCaster(merge_meshes(tuple(part.mesh for part in scene.parts.values())))
 
 
 @final

@@ -1,0 +1,27 @@
+"""The thresholds by which a wash basin with a tap is known, each with its unit. It decides nothing."""
+
+from dataclasses import dataclass
+from typing import final
+
+from grafu.geometry.config_checks import require_positive, require_ratios
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class TapConfig:
+    """When what is open above is a basin that a tap stands over.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction above 1.
+    """
+
+    bottom: float = 0.6
+    """Fraction of what one looks into that is the bottom of the part whose rim it is at least."""
+    rises: float = 0.03
+    """Distance that a tap rises above the rim at least, metres on furniture of usual size."""
+    size: float = 0.5
+    """How long a tap is at most (fraction of the basin's shorter side)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "rises")
+        require_ratios(self, "bottom", "size")

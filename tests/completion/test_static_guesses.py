@@ -1,0 +1,225 @@
+"""What is only guessed to be a door or drawer stays static where others stand on it, and where the guess is weak.
+
+Each case stands beside what looks like it and moves.
+"""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.asset.part import Asset, Part
+from grafu.completion.static_guesses import StaticGuessConfig, static_guesses, with_static_guesses
+from grafu.graph.completion import Decision, GraphCompletion
+from grafu.graph.edges import Attached, Edge, Hinge, Rail
+from grafu.graph.edit import relabelled, with_edges
+from grafu.graph.functional_graph import PartNode
+from grafu.graph.parse import parse_graph
+from grafu.pipeline.complete import complete_by_weights
+from grafu.refusal import Reason
+from grafu.vocabulary import PartLabel
+from small_scenes import box
+
+FRONT, BACK = 2, 3  # -Y, +Y
+DEFAULT = StaticGuessConfig()
+UNKNOWN = PartLabel.UNKNOWN
+
+
+def at(name: str, low, high, label: PartLabel = UNKNOWN) -> Part:
+    return replace(box(name, low, high), label=label)
+
+
+def legs(height: float, aside: float = 0.45) -> list[Part]:
+    places = [(x, y) for x in (-aside, aside) for y in (-aside, aside)]
+    return [
+        at(f"leg_{k}", (x - 0.03, y - 0.03, 0.0), (x + 0.03, y + 0.03, height), PartLabel.LEG)
+        for k, (x, y) in enumerate(places)
+    ]
+
+
+TOP = at("board", (-0.55, -0.55, 0.7), (0.55, 0.55, 0.72), PartLabel.TOP_PANEL)
+APRON = at("frame", (-0.48, -0.48, 0.6), (0.48, 0.48, 0.7))
+BETWEEN = at("frame", (-0.4, -0.42, 0.58), (0.4, 0.42, 0.7))
+SIDES = [
+    at(f"side_{k}", (x, -0.3, 0.0), (x + 0.02, 0.3, 0.5), PartLabel.SIDE_PANEL) for k, x in enumerate((-0.3, 0.28))
+]
+
+
+def guessed(
+    parts: list[Part], taken: str, label: PartLabel = PartLabel.DRAWER, score: float = 0.9, edges: tuple[Edge, ...] = ()
+) -> tuple[GraphCompletion, Asset]:
+    """Returns furniture of which the part `taken`, which has no label, was guessed to be a door or drawer."""
+    asset = Asset("made", "", "made", tuple(parts))
+    graph = parse_graph(asset)
+    mount = next(part.id for part in parts if part.id != taken and part.label is not PartLabel.HANDLE)
+    moves = edges or ((Rail(mount, taken, FRONT),) if label is PartLabel.DRAWER else (Hinge(mount, taken, 0, 1),))
+    labelled = relabelled(graph, {p.id: PartLabel.MISC for p in parts if p.label is UNKNOWN} | {taken: label})
+    decisions = (Decision(taken, "label", label, score, "misc", 1.0 - score),)
+    return GraphCompletion(graph, with_edges(labelled, moves), "network", decisions=decisions), asset
+
+
+def reasons(completion: GraphCompletion, asset: Asset) -> list[Reason]:
+    return [refusal.reason for refusal in static_guesses(completion, asset)]
+
+
+def with_score(completion: GraphCompletion, part: str, question: str, score: float) -> GraphCompletion:
+    decision = Decision(part, question, "0", score, "1", 1.0 - score)
+    return replace(completion, decisions=(*completion.decisions, decision))
+
+
+@pytest.mark.parametrize("ornament", [(), (at("rosette", (-0.05, -0.5, 0.63), (0.05, -0.48, 0.67)),)])
+def test_the_frame_between_a_top_and_its_legs_is_no_drawer(ornament):
+    completion, asset = guessed([TOP, APRON, *legs(0.6), *ornament], "frame")
+    (refusal,) = static_guesses(completion, asset)
+    assert refusal.reason is Reason.CARRIES
+    assert "taken for a drawer (90%)" in refusal.why
+    assert "board stands on it" in refusal.why
+
+
+def test_a_top_and_its_legs_may_be_one_part():
+    whole = [TOP, *legs(0.6)]
+    surfaces = tuple(surface for part in whole for surface in part.surfaces)
+    merged = replace(TOP, id="table", surfaces=surfaces, label=PartLabel.MISC)
+    assert reasons(*guessed([merged, APRON], "frame")) == [Reason.CARRIES]
+
+
+def test_what_stands_on_the_floor_under_all_else_is_no_door():
+    parts = [at("shaft", (-0.2, -0.2, 0.0), (0.2, 0.2, 0.9)), at("cap", (-0.3, -0.3, 0.9), (0.3, 0.3, 1.1))]
+    assert reasons(*guessed(parts, "shaft", PartLabel.DOOR)) == [Reason.CARRIES]
+
+
+def test_the_shipped_network_takes_that_for_a_door_and_it_stays():
+    parts = [at("a", (-0.22, -0.22, 0.0), (0.22, 0.22, 0.88)), at("b", (-0.33, -0.33, 0.88), (0.33, 0.33, 1.1))]
+    asset = Asset("made", "", "made", tuple(replace(part, labelled_by="none") for part in parts))
+    completion = complete_by_weights(asset, parse_graph(asset))
+    label = completion.decision("a", "label")
+    assert label is not None
+    assert (label.choice, label.runner_up) == ("misc", "door")
+    assert {refusal.part: refusal.reason for refusal in completion.refused} == {"a": Reason.CARRIES}
+    assert "a" not in completion.completed.moving
+
+
+LOOK_ALIKES = {
+    "a drawer that hangs below the top between legs": ([TOP, BETWEEN, *legs(0.7)], "frame"),
+    "a drawer with a handle on its front": ([TOP, APRON, *legs(0.6), "handle"], "frame"),
+    "a drawer as wide as a night stand": (
+        [
+            *SIDES,
+            at("top", (-0.3, -0.3, 0.5), (0.3, 0.3, 0.52), PartLabel.TOP_PANEL),
+            at("front", (-0.3, -0.32, 0.2), (0.3, 0.28, 0.5)),
+        ],
+        "front",
+    ),
+    "a drawer on which a lamp stands": (
+        [
+            *SIDES,
+            at("lamp", (-0.05, -0.05, 0.4), (0.05, 0.05, 0.7)),
+            at("tray", (-0.27, -0.28, 0.2), (0.27, 0.28, 0.4)),
+        ],
+        "tray",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", LOOK_ALIKES)
+def test_what_looks_like_such_a_frame_moves(case):
+    given, taken = LOOK_ALIKES[case]
+    parts = [part for part in given if isinstance(part, Part)]
+    edges: tuple[Edge, ...] = (Rail(parts[0].id, taken, FRONT),)
+    if "handle" in given:
+        parts.append(at("handle", (-0.1, -0.5, 0.64), (0.1, -0.48, 0.66), PartLabel.HANDLE))
+        edges += (Attached(taken, "handle"),)
+    assert reasons(*guessed(parts, taken, edges=edges)) == []
+
+
+def test_a_lid_with_a_cushion_on_it_turns():
+    parts = [
+        at("chest", (-0.4, -0.2, 0.0), (0.4, 0.2, 0.4), PartLabel.SIDE_PANEL),
+        at("lid", (-0.4, -0.2, 0.4), (0.4, 0.2, 0.42)),
+        at("cushion", (-0.4, -0.2, 0.42), (0.4, 0.2, 0.5), PartLabel.MISC),
+    ]
+    assert reasons(*guessed(parts, "lid", PartLabel.DOOR)) == []
+
+
+def case_with(*parts: Part) -> list[Part]:
+    return [*SIDES, at("base", (-0.28, -0.3, 0.0), (0.28, 0.3, 0.02), PartLabel.BOTTOM_PANEL), *parts]
+
+
+INSIDE = at("front", (-0.27, -0.32, 0.05), (0.27, -0.3, 0.25))
+
+
+@pytest.mark.parametrize("score", [0.2, 0.49, 0.51, 0.9])
+@pytest.mark.parametrize(
+    ("label", "question", "least"),
+    [(PartLabel.DRAWER, "slide", DEFAULT.slide), (PartLabel.DOOR, "sign", DEFAULT.sign)],
+)
+def test_what_may_as_well_open_another_way_stays(score, label, question, least):
+    completion, asset = guessed(case_with(INSIDE), "front", label)
+    found = static_guesses(with_score(completion, "front", question, score), asset)
+    assert [refusal.reason for refusal in found] == ([Reason.UNLIKELY] if score < least else [])
+
+
+def test_what_is_likelier_neither_door_nor_drawer_stays():
+    assert reasons(*guessed(case_with(INSIDE), "front", score=0.3)) == [Reason.UNLIKELY]
+    completion, asset = guessed(case_with(INSIDE), "front", score=0.3)
+    either = (replace(completion.decisions[0], runner_up="door", runner_up_score=0.3),)
+    assert reasons(replace(completion, decisions=either), asset) == []
+    handle = at("handle", (-0.1, -0.34, 0.14), (0.1, -0.32, 0.16), PartLabel.HANDLE)
+    edges = (Rail("side_0", "front", FRONT), Attached("front", "handle"))
+    assert reasons(*guessed(case_with(INSIDE, handle), "front", score=0.3, edges=edges)) == []
+
+
+PLATE = at("glass", (-0.5, -0.2, 0.4), (0.5, 0.2, 0.41), PartLabel.MISC)
+
+
+@pytest.mark.parametrize(
+    ("parts", "taken", "is_static"),
+    [
+        ([PLATE, at("bracket", (-0.2, -0.2, 0.3), (0.2, -0.17, 0.4))], "bracket", True),
+        ([PLATE, at("tray", (-0.2, -0.2, 0.3), (0.2, 0.15, 0.4))], "tray", False),
+        ([PLATE, at("bottle", (-0.1, -0.1, 0.41), (0.1, 0.1, 0.8))], "bottle", True),
+        ([PLATE, *SIDES, at("bracket", (-0.2, -0.2, 0.3), (0.2, -0.17, 0.4))], "bracket", False),
+    ],
+    ids=["a bracket below a plate", "a box that hangs from it", "a bottle on it", "a front between sides"],
+)
+def test_a_drawer_needs_something_that_could_hold_it(parts, taken, is_static):
+    assert reasons(*guessed(parts, taken)) == ([Reason.UNLIKELY] if is_static else [])
+
+
+def test_a_part_whose_label_is_stated_is_no_guess():
+    completion, asset = guessed([TOP, replace(APRON, label=PartLabel.DRAWER), *legs(0.6)], "frame")
+    stated = replace(completion, decisions=())
+    assert reasons(stated, asset) == []
+
+
+def test_what_stays_static_is_refused_and_all_others_move_as_they_did():
+    handle = at("handle", (-0.05, -0.05, 0.72), (0.05, 0.05, 0.76), PartLabel.HANDLE)
+    tray = at("tray", (-0.2, -0.2, 0.0), (0.2, 0.2, 0.1), PartLabel.DRAWER)
+    edges = (Rail("board", "frame", FRONT), Rail("leg_0", "tray", BACK), Attached("frame", "handle"))
+    completion, asset = guessed([TOP, APRON, *legs(0.6), handle, tray], "frame", edges=edges)
+    added = PartNode("handle_added_1", PartLabel.HANDLE, handle.box)
+    graph = completion.completed
+    grown = replace(graph, nodes=(*graph.nodes, added), edges=(*graph.edges, Attached("frame", "handle_added_1")))
+    told = (
+        Decision("frame", "slide", "2", 0.9),
+        Decision("handle", "parent", "frame", 0.9),
+        Decision("tray", "slide", "3", 0.8),
+        Decision("handle_added_1", "exists", "yes", 0.9),
+    )
+    made = GraphCompletion(
+        completion.input,
+        grown,
+        "network",
+        ("handle_added_1",),
+        (*completion.decisions, *told),
+        rides=(("frame", "handle"),),
+    )
+
+    found = with_static_guesses(made, asset)
+
+    assert [(edge.parent, edge.child) for edge in found.completed.motions] == [("leg_0", "tray")]
+    assert (found.completed.attachments, found.added, found.rides) == ((), (), ())
+    assert [(refusal.part, refusal.reason) for refusal in found.refused] == [("frame", Reason.CARRIES)]
+    (label, tray_slides) = found.decisions
+    assert (label.choice, label.runner_up, label.runner_up_score) == ("misc", "drawer", 0.9)
+    assert tray_slides == told[2]
+    assert with_static_guesses(found, asset) is found
