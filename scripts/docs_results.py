@@ -50,8 +50,17 @@ These models were chosen because they are hard: each class of failure that was s
 
 `make figures FIGURES="--only 'results of hard models' --write"` runs it and draws what follows. Its `worst.png` shows
 the models under *What is wrong*, as annotated and as built, the parts that are wrong in red; its `ood.png` shows the
-models farthest from the training distribution beside their nearest training models. With `--tables masking` it draws
-the curves of hidden labels, 5 draws at each of ten rates, as `masking.svg`; that takes some hours.
+models farthest from the training distribution beside their nearest training models.
+"""
+HIDDEN = """\
+## Harder models with labels hidden
+
+Labels of the same models are hidden at random, a tenth to all of them, five draws each, and with a label the name. The
+command takes an hour or two of one core, goes on where it was ended, and draws the curves as `masking.svg`:
+
+    {command}
+
+![Curves of GT-aligned, collision, connectivity and works over the labels hidden](images/hidden_labels.svg)
 """
 _HARD_TABLES = ("outcomes", "static", "ood")
 
@@ -77,6 +86,11 @@ def hard_text(out: Path) -> str:
     sections = [_counts(motion), _motion(motion), *(_table(tables, name) for name in _HARD_TABLES)]
     sections.append(_wrong(json.loads((tables / "models.json").read_text("utf-8"))))
     return "\n".join(sections).replace("\n## ", "\n### ")
+
+
+def hidden_text(out: Path) -> str:
+    """Returns the table of hidden labels alone, without a heading; `out` is as given to `grafu evaluate --out`."""
+    return (out / "tables" / "masking.md").read_text("utf-8").split("\n", 2)[2]
 
 
 def _table(tables: Path, name: str) -> str:

@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from docs_results import HARD, LEAD
+from docs_results import HARD, HIDDEN, LEAD
 
 from stated.measures import MEASURES
 from stated.store import Stored, Table, drawn_table
@@ -59,6 +59,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
 def results_page(store: Store) -> str:
     """Returns docs/results.md."""
     parts = [(LEAD, store["results"]), (HARD, store["results of hard models"])]
+    parts.append((HIDDEN, store["hidden labels of hard models"]))
     return "\n".join(_section(lead, kept) for lead, kept in parts)
 
 

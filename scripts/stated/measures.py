@@ -13,7 +13,7 @@ from typing import final
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from docs_results import hard_text, motion_text, results_text
+from docs_results import hard_text, hidden_text, motion_text, results_text
 
 Read = Callable[[str, Path], str]
 
@@ -41,6 +41,11 @@ def evaluated_motions(_: str, out: Path) -> str:
 def hard_model_tables(_: str, out: Path) -> str:
     """Returns the tables that `grafu evaluate` wrote of the harder models, as docs/results.md has them."""
     return hard_text(out)
+
+
+def hidden_label_table(_: str, out: Path) -> str:
+    """Returns the table that `grafu evaluate` wrote of harder models with labels hidden, as docs/results.md has it."""
+    return hidden_text(out)
 
 
 @final
@@ -159,6 +164,19 @@ MEASURES = (
         ("results.md",),
         15,
         read=hard_model_tables,
+        weights=True,
+        whole=True,
+    ),
+    Measure(
+        "hidden labels of hard models",
+        "grafu evaluate --data {models}/pnm {models}/pnm2 --methods network --tables motion,masking --pictures --seeds 5 "
+        "--out {out} --jobs {jobs}",
+        "grafu evaluate --data {models}/pnm/46408 --methods network --tables motion,masking --rates 50 --seeds 1 "
+        "--out {out} --jobs {jobs}",
+        "motions of hard models where labels are hidden",
+        ("results.md",),
+        120,
+        read=hidden_label_table,
         weights=True,
         whole=True,
     ),
