@@ -154,8 +154,17 @@ INSIDE = at("front", (-0.27, -0.32, 0.05), (0.27, -0.3, 0.25))
 )
 def test_what_may_as_well_open_another_way_stays(score, label, question, least):
     completion, asset = guessed(case_with(INSIDE), "front", label)
-    found = static_guesses(with_score(completion, "front", question, score), asset)
-    assert [refusal.reason for refusal in found] == ([Reason.UNLIKELY] if score < least else [])
+    unsure = with_score(completion, "front", question, score)
+    assert reasons(unsure, asset) == ([Reason.UNLIKELY] if score < least else [])
+
+    handle = at("handle", (-0.1, -0.34, 0.14), (0.1, -0.32, 0.16), PartLabel.HANDLE)
+    edges = (*completion.completed.motions, Attached("front", "handle"))
+    held, asset = guessed(case_with(INSIDE, handle), "front", label, edges=edges)
+    assert reasons(with_score(held, "front", question, score), asset) == []
+
+    soap = at("handle", (-0.1, -0.32, 0.25), (0.1, -0.3, 0.3), PartLabel.HANDLE)  # it lies on it
+    laid, asset = guessed(case_with(INSIDE, soap), "front", label, edges=edges)
+    assert reasons(with_score(laid, "front", question, score), asset) == ([Reason.UNLIKELY] if score < least else [])
 
 
 def test_what_is_likelier_neither_door_nor_drawer_stays():

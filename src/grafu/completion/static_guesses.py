@@ -39,7 +39,7 @@ class StaticGuessConfig:
     """Least score of the side that a door opens to: below it both are alike, which they are of no front of a case. Of
     107 real doors whose names were hidden the least has 0.90."""
     label: float = 0.45
-    """Least score of being a door or a drawer, together, of a part without a handle."""
+    """Least score of being a door or a drawer, together."""
     alone: float = 0.5
     """A part carries what is above it where nothing else stands at as much of its height (fraction) ..."""
     covers: float = 0.5
@@ -95,12 +95,15 @@ def _as_static(guess: Decision) -> Decision:
 def static_guesses(
     completion: GraphCompletion, asset: Asset, config: StaticGuessConfig = StaticGuessConfig()
 ) -> Iterator[Refusal]:
-    """Yields a refusal for each part that is only guessed to be a door or drawer, and stays static."""
+    """Yields a refusal for each part that is only guessed to be a door or drawer, and stays static.
+
+    What the input has a handle on moves as it is predicted.
+    """
     graph = completion.completed
-    guesses = [d for d in completion.decisions if d.question == "label" and graph.node(d.part).label.is_movable]
+    labelled = ((d, graph.node(d.part)) for d in completion.decisions if d.question == "label")
+    guesses = [(d, node) for d, node in labelled if node.label.is_movable and not _is_held(node, completion)]
     bounds = {part.id: _Bounds.of(part) for part in asset.parts} if guesses else {}
-    for guess in guesses:
-        node = graph.node(guess.part)
+    for guess, node in guesses:
         taken = f"it is taken for a {node.label} ({guess.score:.0%})"
         if carried := _carried(node, completion, bounds, asset.box, config):
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but {carried} stands on it and on nothing else")
@@ -111,7 +114,7 @@ def static_guesses(
 def _unlikely(node: PartNode, guess: Decision, completion: GraphCompletion, config: StaticGuessConfig) -> str:
     """Returns why a guess is too weak, in words; empty where it is not."""
     sure = guess.score + (guess.runner_up_score if guess.runner_up in _MOVABLE else 0.0)
-    if sure < config.label and not _is_held(node, completion):
+    if sure < config.label:
         return "it is likelier neither door nor drawer"
     motion = next(iter(completion.completed.motions_of(node.id)), None)
     if isinstance(motion, Hinge):
@@ -126,9 +129,9 @@ def _unlikely(node: PartNode, guess: Decision, completion: GraphCompletion, conf
 
 
 def _uncased(node: PartNode, completion: GraphCompletion, asset: Asset) -> str:
-    """Returns in words that nothing could hold a drawer without a handle; empty where something could."""
+    """Returns in words that nothing could hold a drawer; empty where something could."""
     rail = next((rail for rail in completion.completed.rails if rail.child == node.id), None)
-    if rail is None or _is_held(node, completion):
+    if rail is None:
         return ""
     open_around = is_without_case(node, rail.axis, asset, completion.completed)
     return "nothing that could hold it is beside it, or above and below" if open_around else ""
@@ -144,7 +147,7 @@ def _carried(
     """
     touched = [completion.completed.node(name) for name in completion.input.neighbours[node.id]]
     supports = {other.id for other in touched if other.label.is_support}
-    if not supports or _is_held(node, completion):
+    if not supports:
         return ""
     touch = config.touch * float(whole.size.max())
     others = [name for name in bounds if name != node.id and not _rides(name, node, completion)]
@@ -165,7 +168,7 @@ def _is_held(node: PartNode, completion: GraphCompletion) -> bool:
     graph = completion.completed
     handles = [e.child for e in graph.attachments if e.parent == node.id and e.child not in completion.added]
     boxes = [graph.node(handle).box for handle in handles]
-    return any(box.low[2] < node.box.high[2] and node.box.low[2] < box.high[2] for box in boxes)
+    return any(node.box.low[2] <= box.center[2] <= node.box.high[2] for box in boxes)
 
 
 def _rides(name: str, node: PartNode, completion: GraphCompletion) -> bool:
