@@ -169,8 +169,8 @@ MEASURES = (
     ),
     Measure(
         "hidden labels of hard models",
-        "grafu evaluate --data {models}/pnm {models}/pnm2 --methods network --tables motion,masking --pictures --seeds 5 "
-        "--out {out} --jobs {jobs}",
+        "grafu evaluate --data {models}/pnm {models}/pnm2 --methods network --tables motion,masking --pictures "
+        "--seeds 5 --out {out} --jobs {jobs}",
         "grafu evaluate --data {models}/pnm/46408 --methods network --tables motion,masking --rates 50 --seeds 1 "
         "--out {out} --jobs {jobs}",
         "motions of hard models where labels are hidden",
