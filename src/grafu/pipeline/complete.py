@@ -8,6 +8,7 @@ from pathlib import Path
 
 from grafu.asset.part import Asset
 from grafu.completion.network import complete_by_network
+from grafu.completion.round_doors import with_round_doors
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, open_network
 from grafu.completion.static_guesses import with_static_guesses
@@ -37,7 +38,8 @@ def complete_by_annotation(asset: Asset, graph: FunctionalGraph, source: str = "
 def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | None = None) -> GraphCompletion:
     """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
 
-    Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`). What is only guessed to be
+    Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
+    left or right side (`with_round_doors`). What is only guessed to be
     a door or drawer stays static where it cannot be one (`with_static_guesses`).
 
     Raises:
@@ -48,7 +50,7 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
-    moved = with_ways_out(complete_by_network(seen, network, network.features), asset)
+    moved = with_round_doors(with_ways_out(complete_by_network(seen, network, network.features), asset), asset)
     found = with_static_guesses(moved, asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
@@ -58,5 +60,5 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
 
 
 def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
-    """Returns the graph as the rule completes it, its drawers turned to the side that they are seen from."""
-    return with_ways_out(complete_by_rule(graph), asset)
+    """Returns the graph as the rule completes it; see `complete_by_weights` for drawers and round doors."""
+    return with_round_doors(with_ways_out(complete_by_rule(graph), asset), asset)
