@@ -1,6 +1,6 @@
 """Round doors hang on their left or right side: that of a washing machine neither drops nor lifts.
 
-Their shape is told by their vertices. It builds nothing.
+Vertices tell their shape. It builds nothing.
 """
 
 from dataclasses import dataclass, replace
