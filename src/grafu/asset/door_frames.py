@@ -11,9 +11,9 @@ import numpy as np
 
 from grafu.asset.labels import is_opening, is_piece
 from grafu.asset.part import Part
-from grafu.geometry.box import Box
+from grafu.geometry.box import Box, overlap_across
 from grafu.geometry.config_checks import require_ratios
-from grafu.geometry.raycast import RayCaster, depths_below
+from grafu.geometry.raycast import RayCaster, covered_ratio
 from grafu.vocabulary import PartLabel
 
 _RAYS = 12  # along each side of a leaf
@@ -77,8 +77,7 @@ def _is_frame(door: Part, doors: Sequence[Part], config: FramedDoorsConfig) -> b
 
 
 def _is_open_before(rays: RayCaster, leaf: Box, thin: int, frame: Box, config: FramedDoorsConfig) -> bool:
-    depths = depths_below(rays, leaf, thin, _RAYS, frame.diagonal)
-    return float(np.isfinite(depths).mean()) <= config.open
+    return covered_ratio(rays, leaf, thin, _RAYS, frame.diagonal) <= config.open
 
 
 def _lies_in(leaf: Part, other: Part, thin: int) -> bool:
@@ -91,13 +90,9 @@ def _lies_in(leaf: Part, other: Part, thin: int) -> bool:
 def _fill(leaves: Sequence[Box], frame: Box, thin: int, config: FramedDoorsConfig) -> bool:
     """Whether leaves lie beside each other, and fill a frame."""
     across = np.delete(np.arange(3), thin)
-    areas = [float(np.prod(leaf.size[across])) for leaf in leaves]
-    for k, leaf in enumerate(leaves):
-        for i, other in enumerate(leaves[:k]):
-            shared = (np.minimum(leaf.high, other.high) - np.maximum(leaf.low, other.low))[across]
-            if float(np.prod(np.maximum(shared, 0.0))) > config.apart * min(areas[k], areas[i]):
-                return False
-    return sum(areas) >= config.filled * float(np.prod(frame.size[across]))
+    covered = sum(float(np.prod(leaf.size[across])) for leaf in leaves)
+    is_full = covered >= config.filled * float(np.prod(frame.size[across]))
+    return is_full and not overlap_across(leaves, across.tolist(), config.apart)
 
 
 def _ends_in(leaf: Box, frame: Box, config: FramedDoorsConfig) -> bool:

@@ -5,12 +5,11 @@ in its face, nor what is slim as a rod; what touches nothing but handles is a pi
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations
 
 import numpy as np
 
 from grafu.completion.decode_config import DecodeConfig, HeldFrontsConfig, OverlayConfig
-from grafu.geometry.box import Box
+from grafu.geometry.box import Box, overlap_across
 from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel
@@ -116,17 +115,8 @@ def _has_fronts(body: Box, fronts: Sequence[Box], whole: Box, config: HeldFronts
             in_face = [box for box, gap in zip(plates, gaps, strict=True) if gap <= config.face * depth]
             areas = [float(np.prod(box.size[across])) for box in in_face]
             covered = sum(areas) >= config.least * float(np.prod(body.size[across]))
-            if len(in_face) > 1 and covered and not _any_shared(in_face, across, config.shared):
+            if len(in_face) > 1 and covered and not overlap_across(in_face, across, config.shared):
                 return True
-    return False
-
-
-def _any_shared(boxes: Sequence[Box], across: list[int], most: float) -> bool:
-    """Whether two boxes share more of the smaller outline than the fraction `most`."""
-    for one, other in combinations(boxes, 2):
-        shared = np.maximum(np.minimum(one.high, other.high) - np.maximum(one.low, other.low), 0.0)[across]
-        if np.prod(shared) > most * min(np.prod(one.size[across]), np.prod(other.size[across])):
-            return True
     return False
 
 

@@ -12,8 +12,9 @@ from grafu.asset.part import Asset, Part
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, HingeBorder
+from grafu.graph.edit import rehung
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import border_to_face, face_to_border, opening_face, plane_axes, sign_for_opening, signed_axis
+from grafu.graph.motion import border_to_face, face_to_border, plane_axes, signed_axis
 
 _UP = 2
 
@@ -54,7 +55,9 @@ def with_round_doors(
     }
     if not new:
         return completion
-    edges = tuple(_hung(e, new[e.child], graph) if isinstance(e, Hinge) and e.child in new else e for e in graph.edges)
+    edges = tuple(
+        rehung(e, new[e.child][0], graph) if isinstance(e, Hinge) and e.child in new else e for e in graph.edges
+    )
     signs = {edge.child: str(edge.sign) for edge in edges if isinstance(edge, Hinge)}
     decisions = tuple(_decided(d, new[d.part], signs[d.part]) if d.part in new else d for d in completion.decisions)
     return replace(completion, completed=replace(graph, edges=edges), decisions=decisions)
@@ -84,12 +87,6 @@ def _on_a_side(hinge: Hinge, completion: GraphCompletion) -> tuple[HingeBorder, 
     decision = completion.decision(hinge.child, "border")
     scores = {} if decision is None else dict([*decision.others, (decision.runner_up, decision.runner_up_score)])
     return max(((side, scores.get(str(side), 0.0)) for side in sides), key=lambda found: found[1])
-
-
-def _hung(hinge: Hinge, side: tuple[HingeBorder, float], graph: FunctionalGraph) -> Hinge:
-    thin = graph.node(hinge.child).box.thin_axis
-    front = opening_face(thin, hinge.border, hinge.sign)
-    return replace(hinge, border=side[0], sign=sign_for_opening(thin, side[0], front))
 
 
 def _decided(decision: Decision, side: tuple[HingeBorder, float], sign: str) -> Decision:

@@ -1,7 +1,8 @@
 """Axis-aligned and oriented boxes: extents, gaps, faces, the thin axis."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from math import hypot, isfinite
 from typing import Final, final
 
@@ -167,6 +168,17 @@ class OrientedBox(ArrayValue):
         """Returns the smallest box around the points whose axes are the columns of `rotation`."""
         local = Box.around(points @ rotation)
         return cls(rotation @ local.center, local.half, rotation)
+
+
+def overlap_across(boxes: Sequence[Box], axes: Sequence[int], most: float) -> bool:
+    """Whether two boxes, seen across some axes, overlap by more than this fraction of the smaller outline."""
+    across = list(axes)
+    for one, other in combinations(boxes, 2):
+        sides = np.minimum(one.high, other.high)[across] - np.maximum(one.low, other.low)[across]
+        smaller = min(np.prod(one.size[across]), np.prod(other.size[across]))
+        if float(np.prod(np.maximum(sides, 0.0))) > most * float(smaller):
+            return True
+    return False
 
 
 def yaw_of(points: Points) -> float:

@@ -170,6 +170,11 @@ def depths_below(rays: RayCaster, face: Box, along: int, count: int, above: floa
     return rays.along(origins, direction) - above
 
 
+def covered_ratio(rays: RayCaster, face: Box, along: int, count: int, above: float) -> float:
+    """Returns which fraction of the rays of `depths_below` meets the mesh."""
+    return float(np.isfinite(depths_below(rays, face, along, count, above)).mean())
+
+
 def robust_median(distances: Scalars, reach: float, ratio: float = 0.3) -> float:
     """Returns the median of the distances within `reach`; infinity where less than `ratio` of the rays hit."""
     hits = distances[distances <= reach]

@@ -10,9 +10,9 @@ from grafu.articulation.articulated_object import Coupling
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud
-from grafu.graph.edges import Attached, Contact, Edge, Hinge, MotionEdge, Rail, Slide, Turn, ends_of
+from grafu.graph.edges import Attached, Contact, Edge, Hinge, HingeBorder, MotionEdge, Rail, Slide, Turn, ends_of
 from grafu.graph.functional_graph import FunctionalGraph, allowed_edges
-from grafu.graph.motion import mirror_face, mirror_hinge, mirror_rotation
+from grafu.graph.motion import mirror_face, mirror_hinge, mirror_rotation, opening_face, sign_for_opening
 from grafu.vocabulary import PartLabel
 
 
@@ -82,6 +82,13 @@ def with_edges(graph: FunctionalGraph, edges: Iterable[Edge]) -> FunctionalGraph
     kept = {frozenset(ends_of(e)): e for e in graph.edges}
     kept.update((frozenset(ends_of(e)), e) for e in edges)
     return replace(graph, edges=tuple(kept.values()))
+
+
+def rehung(hinge: Hinge, border: HingeBorder, graph: FunctionalGraph) -> Hinge:
+    """Returns a hinge at another border of its door, which opens to the same face."""
+    thin = graph.node(hinge.child).box.thin_axis
+    front = opening_face(thin, hinge.border, hinge.sign)
+    return replace(hinge, border=border, sign=sign_for_opening(thin, border, front))
 
 
 def scaled(graph: FunctionalGraph, factor: float) -> FunctionalGraph:

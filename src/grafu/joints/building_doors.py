@@ -15,7 +15,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
-from grafu.geometry.raycast import RayCaster, depths_below
+from grafu.geometry.raycast import RayCaster, covered_ratio
 from grafu.graph.edges import Slide
 from grafu.joints.framed_leaves import SOURCE, FramedLeaves, nearer_to_back, relabelled, turning_leaf
 from grafu.joints.motion_choice import Side
@@ -146,7 +146,7 @@ def _boards(frame: Part, asset: Asset, config: BuildingDoorConfig) -> Iterator[P
 
 
 def _is_open_before(frame: RayCaster, leaf: Part, above: float, config: BuildingDoorConfig) -> bool:
-    return float(np.isfinite(depths_below(frame, leaf.box, _DEPTH, _RAYS, above)).mean()) <= config.open
+    return covered_ratio(frame, leaf.box, _DEPTH, _RAYS, above) <= config.open
 
 
 def _is_around(board: Part, boards: Sequence[Part], whole: Box, config: BuildingDoorConfig) -> bool:

@@ -12,7 +12,7 @@ from jaxtyping import Float
 from grafu.asset.part import Asset, Part
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import merge_meshes
-from grafu.geometry.raycast import RayCaster, depths_below
+from grafu.geometry.raycast import RayCaster, covered_ratio
 from grafu.graph.edges import Slide
 from grafu.joints.building_doors import building_door
 from grafu.joints.framed_leaves import SOURCE, FramedLeaves, nearer_to_back, relabelled, turning_leaf
@@ -121,7 +121,7 @@ def _middle(box: Box, config: WindowConfig) -> Box:
 
 def _covered(rays: RayCaster, area: Box, whole: Box) -> float:
     """Returns what of an area is covered, seen from before it (fraction)."""
-    return float(np.isfinite(depths_below(rays, area, _DEPTH, _RAYS, whole.diagonal)).mean())
+    return covered_ratio(rays, area, _DEPTH, _RAYS, whole.diagonal)
 
 
 def _hit(rays: RayCaster, points: Float[np.ndarray, "n 3"], whole: Box) -> float:

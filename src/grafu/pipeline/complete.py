@@ -39,8 +39,8 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
 
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
-    left or right side (`with_round_doors`). What is only guessed to be
-    a door or drawer stays static where it cannot be one (`with_static_guesses`).
+    left or right side (`with_round_doors`). What is only guessed to be a door or drawer stays static where it cannot be
+    one (`with_static_guesses`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
@@ -50,7 +50,7 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
-    moved = with_round_doors(with_ways_out(complete_by_network(seen, network, network.features), asset), asset)
+    moved = _shaped(complete_by_network(seen, network, network.features), asset)
     found = with_static_guesses(moved, asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
@@ -61,4 +61,9 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
 
 def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
     """Returns the graph as the rule completes it; see `complete_by_weights` for drawers and round doors."""
-    return with_round_doors(with_ways_out(complete_by_rule(graph), asset), asset)
+    return _shaped(complete_by_rule(graph), asset)
+
+
+def _shaped(completion: GraphCompletion, asset: Asset) -> GraphCompletion:
+    """Returns the completion in which shape decides where drawers and lids open to, and where round doors hang."""
+    return with_round_doors(with_ways_out(completion, asset), asset)

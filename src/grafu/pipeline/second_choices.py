@@ -6,8 +6,8 @@ from typing import Final, cast
 
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Edge, Hinge, HingeBorder, Rail, SignedAxis, Slide
+from grafu.graph.edit import rehung
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import opening_face, sign_for_opening
 from grafu.joints.plan import PlanConfig
 from grafu.joints.report import Installed, RealizationReport
 from grafu.pipeline.certainty import named_choice
@@ -82,7 +82,5 @@ def _turned(edge: Edge, swapped: Mapping[str, Decision], graph: FunctionalGraph)
     if isinstance(edge, Rail | Slide) and decision is not None and decision.question == "slide":
         return replace(edge, axis=cast(SignedAxis, int(decision.choice)))
     if isinstance(edge, Hinge) and decision is not None and decision.question == "border":
-        thin, border = graph.node(edge.child).box.thin_axis, cast(HingeBorder, int(decision.choice))
-        front = opening_face(thin, edge.border, edge.sign)
-        return replace(edge, border=border, sign=sign_for_opening(thin, border, front))
+        return rehung(edge, cast(HingeBorder, int(decision.choice)), graph)
     return edge
