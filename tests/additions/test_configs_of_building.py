@@ -26,6 +26,7 @@ from grafu.additions.top.tap_config import TapConfig
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.rack_guide_config import RackGuideConfig
 from grafu.joints.rail_config import BehindConfig, BodyConfig, FlankConfig, RailConfig
 from grafu.joints.rail_footing_config import RailFootingConfig
 
@@ -35,7 +36,7 @@ CONFIGS = (
     DrawerBoxConfig,
     EvidenceConfig, FingerRoomConfig, FlankConfig, FootingConfig, GraspConfig, GripConfidences, GripConfig,
     GripSizes, GroundConfig, HandleConfig, HandleTrials, HingeConfig, InteriorConfig, OpeningConfig, OutlineConfig,
-    PinConfig, PivotConfig, RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig,
+    PinConfig, PivotConfig, RackGuideConfig, RailConfig, RailFootingConfig, RealizationConfig, ReliefConfig, RoomConfig,
     SlopeConfig, SolidBodyConfig, SupportConfig, SurveyConfig, TopConfig,
 )  # fmt: skip
 NUMBERS = [(made, field.name) for made in CONFIGS for field in fields(made) if field.type is float]
@@ -106,6 +107,7 @@ RATIOS = [
     (OpeningConfig, "least"),
     (OutlineConfig, "carries"),
     (RailConfig, "most_inset"),
+    (RackGuideConfig, "kept"),
     (RailFootingConfig, "wall"),
     (RealizationConfig, "least_opening"),
     (RealizationConfig, "max_carve"),

@@ -24,6 +24,7 @@ from grafu.joints.lift_arm_config import LiftArmConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.portholes import PortholeConfig
 from grafu.joints.pull_outs import PullOutConfig
+from grafu.joints.rack_guide_config import RackGuideConfig
 from grafu.joints.racks import RackConfig
 from grafu.joints.rail_config import (
     BehindConfig,
@@ -136,7 +137,8 @@ CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
-    PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RailConfig, RailFootingConfig, RealizationConfig,
+    PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RackGuideConfig, RailConfig, RailFootingConfig,
+    RealizationConfig,
     StayConfig, SurveyConfig, TiltConfig, TimeConfig, TrayConfig, WasteBinConfig, WideBarConfig, WindowConfig,
 )  # fmt: skip
 

@@ -2,10 +2,12 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import merge_meshes
 from grafu.graph.parse import parse_graph
 from grafu.joints.motion_choice import choice_in_words
@@ -17,7 +19,7 @@ from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.report import report_of
 from grafu.pipeline.settings import Settings
 from grafu.templates.gallery import builtin_gallery
-from grafu.vocabulary import JointType, PartLabel
+from grafu.vocabulary import JointType, MechanismClass, PartLabel
 from judging import swept_collisions
 from small_scenes import BASE_CASE, box, cylinder, scene
 
@@ -68,6 +70,46 @@ def test_baskets_slide_out_once_the_door_is_open():
     }
     assert [one.part for one in report.added if "basket" in (one.part or "")] == []
     assert report.verdict.colour != "red"
+
+
+def slid(*parts):
+    """The object of a dishwasher whose door drops, with these parts behind the door."""
+    asset = scene(DOOR, BAR, *POSTS, *BASE_CASE, *parts)
+    config = PipelineConfig(Settings(motions={"door": choice_in_words("drop")}))
+    return functionalize(asset, MotionSource.NETWORK, builtin_gallery(), config)
+
+
+def gap_of_guides(made, name):
+    """The widest gap between a rack and either of its guides, in metres, over its motion."""
+    joint = made.object.joint_of[name]
+    rack = MeshCollider(merge_meshes([visual.mesh for visual in made.object.link(joint.child).visuals]))
+    guides = [
+        MeshCollider(v.mesh) for v in made.object.link(made.object.root).visuals if v.name.startswith(f"rail_{name}")
+    ]
+    assert len(guides) == 2
+    assert all(any(guide.distance(MeshCollider(wall.mesh)) == 0 for wall in BASE_CASE) for guide in guides)
+    gaps = []
+    for travel in np.linspace(0.0, joint.limits.upper, 25):
+        rack.place(joint.axis.shift(float(travel)))
+        gaps += [rack.distance(guide) for guide in guides]
+    return max(gaps), min(gaps)
+
+
+def test_a_rack_that_nothing_holds_slides_between_guides_on_both_walls():
+    made = slid(basket("basket", 0.3, x=(0.04, 0.55)))
+    widest, least = gap_of_guides(made, "basket")
+    assert 0 < least <= widest < 0.001
+    (record,) = (one for one in report_of(made).joints if one.part == "basket")
+    assert (record.template, record.count, record.mechanism) == ("guide", 2, MechanismClass.CENTRE)
+    assert record.opening > 0.3
+
+
+def test_a_rack_that_runs_on_what_is_drawn_gets_no_guides():
+    runners = [box(f"runner_{k}", (x, 0.03, 0.3), (x + 0.02, 0.5, 0.304)) for k, x in enumerate((0.02, 0.56))]
+    made = slid(basket("basket", 0.305, x=(0.03, 0.57)), *runners)
+    (record,) = (one for one in report_of(made).joints if one.part == "basket")
+    assert (record.template, record.count) == ("drawn", 0)
+    assert not [visual for visual in made.object.link(made.object.root).visuals if "rail_basket" in visual.name]
 
 
 def test_the_wires_of_a_rack_in_several_parts_slide_as_one():

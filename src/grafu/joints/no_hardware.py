@@ -13,11 +13,13 @@ from grafu.joints.gaps import gap_growth
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
 from grafu.joints.plan import JointRequest, MotionRole
+from grafu.joints.rack_guides import GUIDE, rack_guides
 from grafu.joints.racks import SOURCE as SHOWN
 from grafu.joints.racks import is_grid
 from grafu.joints.rail.body_region import is_shallow
 from grafu.joints.rail.search import DrawerSearch, slides_in_its_plane
 from grafu.joints.report import Placement
+from grafu.joints.support_block import nearest_part
 from grafu.scene.border import part_axes
 from grafu.scene.scene import Scene
 from grafu.vocabulary import MechanismClass, PartLabel
@@ -105,14 +107,29 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
 
 
 def _rack(search: DrawerSearch) -> Placement | None:
-    """Returns the joint of a rack or a bin, which runs on its own wheels and guides; they are seldom drawn."""
-    wanted = min(search.request.reference or search.wanted, search.reach)
+    """Returns the joint of a rack or a bin, which runs on its own wheels and guides; they are seldom drawn.
+
+    What stands too far off all static parts to be held by them gets guides at both its sides, if these have a place.
+    """
+    scene, request, config = search.scene, search.request, search.config
+    wanted = min(request.reference or search.wanted, search.reach)
     upper = _guided_travel(search, search.travel(search.reach))
-    if upper < search.config.restricted * wanted or str(search.request.choice):
+    if upper < config.restricted * wanted or str(request.choice):
         return None
-    mount = _nearest(search.scene, search.request, search.config.rack_gap * search.scene.extent)
-    in_way = search.bodies_in_the_way(upper)
-    return _without(search.axis, upper, mount, in_way, DRAWN, ()) if mount else None
+    reach = config.rack_gap * scene.extent
+    mount = _nearest(scene, request, reach)
+    if not mount:
+        return None
+    joint = _without(search.axis, upper, mount, search.bodies_in_the_way(upper), DRAWN, ())
+    if _stays_near(scene, request, search.motion, upper, config.no_hardware_gap * scene.extent):
+        return joint
+    guides, held = rack_guides(search, upper, reach)
+    if not guides:
+        return joint
+    mount = nearest_part(guides[0], scene, request, config.block) or mount
+    return replace(
+        joint, upper=held, mechanism=MechanismClass.CENTRE, template=GUIDE, count=2, mount=mount, static=guides
+    )
 
 
 def _guided_travel(search: DrawerSearch, upper: float) -> float:

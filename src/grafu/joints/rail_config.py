@@ -5,6 +5,7 @@ from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.joints.rack_guide_config import RackGuideConfig
 from grafu.joints.rail_footing_config import RailFootingConfig
 from grafu.visible import ShortRepr
 
@@ -276,7 +277,9 @@ class RailConfig(ShortRepr):
     """Of the walls beside a drawer, and of places on its flanks."""
     behind: BehindConfig = BehindConfig()
     """Of the space behind a front without a container."""
+    guide: RackGuideConfig = RackGuideConfig()
+    """Of the guides of racks."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"footing", "flank", "behind"}))
+        require_positive(self, *(set(self.__dataclass_fields__) - {"footing", "flank", "behind", "guide"}))
         require_ratios(self, "dynamic_reach", "most_inset", "travel", "most_of_rail", "around")
