@@ -1,0 +1,84 @@
+"""Doors hang on the side away from their handle, where the input has one that is clearly off the middle.
+
+A handle beside the hinge would open nothing, and an upright bar at a side is pulled sideways. It builds nothing.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from grafu.asset.part import Asset
+from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border, upright_borders
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_positive
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.edges import Hinge, HingeBorder
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.motion import plane_axes
+from grafu.vocabulary import PartLabel
+
+_UP = 2
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class HandleSideConfig:
+    """When a handle states on which side a door hangs.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    off: float = 0.25
+    """How far the middle of the handles is from that of the door at least (fraction of the door's width)."""
+    within: float = 0.5
+    """How far at most: what is farther out is the handle of another door."""
+    upright: float = 1.5
+    """A handle this many times as high as it is wide turns a predicted flap into a door that hangs on a side."""
+    wide: float = 2.0
+    """No door that is wider than this (ratio of width to height) is turned so."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+def with_handle_sides(
+    completion: GraphCompletion, asset: Asset, config: HandleSideConfig = HandleSideConfig()
+) -> GraphCompletion:
+    """Returns the completion in which doors with a handle off the middle hang on the side away from it.
+
+    That are doors that would hang on the handle's side, and flaps with an upright handle. Lids, and leaves that fold,
+    stay as they are predicted.
+    """
+    given = {part.id for part in asset.parts}
+    graph = completion.completed
+    found: dict[str, tuple[HingeBorder, float]] = {}
+    for hinge in graph.hinges:
+        if hinge.child not in given or hinge.coupling is not None or graph.node(hinge.child).box.thin_axis == _UP:
+            continue
+        side = _stated_side(hinge, graph, given, config)
+        if side is not None and side != hinge.border:
+            found[hinge.child] = side, other_scores(completion, hinge.child).get(str(side), 0.0)
+    return hung_on(completion, found)
+
+
+def _stated_side(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: HandleSideConfig) -> HingeBorder | None:
+    """Returns the border that the handles of a door state; None where they state none."""
+    nodes = (graph.node(edge.child) for edge in graph.attachments if edge.parent == hinge.child and edge.child in given)
+    handles = [node.box for node in nodes if node.label is PartLabel.HANDLE]
+    if not handles:
+        return None
+    box = graph.node(hinge.child).box
+    level = next(axis for axis in plane_axes(box.thin_axis) if axis != _UP)
+    off = float(np.mean([handle.center[level] for handle in handles]) - box.center[level]) / float(box.size[level])
+    if not config.off <= abs(off) <= config.within:
+        return None
+    if stands_on_a_level_border(hinge, graph) and not _opens_sideways(handles, box, level, config):
+        return None
+    return upright_borders(box.thin_axis)[0 if off > 0 else 1]
+
+
+def _opens_sideways(handles: list[Box], door: Box, level: int, config: HandleSideConfig) -> bool:
+    are_upright = all(handle.size[_UP] >= config.upright * handle.size[level] for handle in handles)
+    return bool(are_upright and door.size[level] <= config.wide * door.size[_UP])

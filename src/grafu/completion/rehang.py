@@ -1,0 +1,61 @@
+"""Doors that shape hangs on another border than was predicted."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
+from grafu.graph.edges import Hinge, HingeBorder
+from grafu.graph.edit import rehung
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.motion import border_to_face, face_to_border, plane_axes, signed_axis
+
+_UP = 2
+
+
+def hung_on(completion: GraphCompletion, borders: Mapping[str, tuple[HingeBorder, float]]) -> GraphCompletion:
+    """Returns the completion in which doors hang on other borders, by id, with the score of each.
+
+    A door still opens to the same face; what was predicted is its next likely border.
+    """
+    if not borders:
+        return completion
+    graph = completion.completed
+    edges = tuple(
+        rehung(e, borders[e.child][0], graph) if isinstance(e, Hinge) and e.child in borders else e for e in graph.edges
+    )
+    signs = {edge.child: str(edge.sign) for edge in edges if isinstance(edge, Hinge)}
+    decisions = tuple(
+        _decided(d, borders[d.part], signs[d.part]) if d.part in borders else d for d in completion.decisions
+    )
+    return replace(completion, completed=replace(graph, edges=edges), decisions=decisions)
+
+
+def stands_on_a_level_border(hinge: Hinge, graph: FunctionalGraph) -> bool:
+    """Whether an upright door drops or lifts: its hinge is on its lower or upper border."""
+    thin = graph.node(hinge.child).box.thin_axis
+    return thin != _UP and border_to_face(thin, hinge.border) // 2 == _UP
+
+
+def upright_borders(thin: int) -> tuple[HingeBorder, HingeBorder]:
+    """Returns the two upright borders of an upright door, that to the negative side of its level axis first."""
+    level = next(axis for axis in plane_axes(thin) if axis != _UP)
+    negative, positive = (face_to_border(thin, signed_axis(level, to_positive)) for to_positive in (False, True))
+    return negative, positive
+
+
+def other_scores(completion: GraphCompletion, door: str) -> dict[str, float]:
+    """Returns the scores of the borders that were not chosen for a door; empty where none are known."""
+    decision = completion.decision(door, "border")
+    return {} if decision is None else dict([*decision.others, (decision.runner_up, decision.runner_up_score)])
+
+
+def _decided(decision: Decision, side: tuple[HingeBorder, float], sign: str) -> Decision:
+    """Returns a decision on a door that hangs on another border now; its sign is counted about that."""
+    if decision.question == "border":
+        others = tuple(other for other in decision.others if other[0] != str(side[0]))
+        return Decision(
+            decision.part, "border", str(side[0]), side[1], decision.choice, decision.score, BY_BOTH, others
+        )
+    if decision.question == "sign" and decision.choice != sign:
+        return replace(decision, choice=sign, runner_up=decision.choice)
+    return decision
