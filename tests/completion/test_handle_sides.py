@@ -1,4 +1,4 @@
-"""Doors hang on the side away from a handle that is clearly off the middle; other doors, and flaps, stay as predicted."""
+"""Doors hang on the side away from a handle that is clearly off the middle; others stay as they are predicted."""
 
 from dataclasses import replace
 
