@@ -33,7 +33,7 @@ from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
-from grafu.completion.decode_config import FactConfig, HeldFrontsConfig
+from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
 from grafu.completion.handle_sides import HandleSideConfig
 from grafu.completion.round_doors import RoundDoorConfig
@@ -216,7 +216,7 @@ CONFIGS = (
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
-    FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, LooseConfig,
+    FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
     ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig, UpEvidenceConfig, VerdictConfig,

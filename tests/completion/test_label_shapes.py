@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from grafu.completion.decode_config import DecodeConfig
-from grafu.completion.label_shapes import held_by_handles, without_cases, without_overlaid, without_slim
+from grafu.completion.label_shapes import held_by_handles, with_held, without_cases, without_overlaid, without_slim
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
@@ -68,6 +68,54 @@ def test_it_holds_on_every_side_of_the_object():
         weights[0, 0], weights[1:3, DOOR], weights[3, HANDLE] = 0.9, 0.8, 0.9
         made = without_overlaid(weights, FunctionalGraph("g", nodes, ()), DecodeConfig())
         assert made[1, DOOR] == 0.0 < made[2, DOOR]
+
+
+BAR, SIDE = LABELS.index(PartLabel.BAR), LABELS.index(PartLabel.SIDE_PANEL)
+GRIP = Box(vec3(0.9, -0.05, 0.3), vec3(0.92, -0.01, 0.7))  # it floats 10 mm before the panel
+
+
+def held(plate=PANEL, *, grip=0.9, door=0.2, label=PartLabel.UNKNOWN, others=()):
+    """Returns whether the plate before a body is surely a door or drawer; it was taken for a bar."""
+    boxes = (BODY, plate, GRIP, *others)
+    nodes = tuple(PartNode(str(k), label if k == 1 else PartLabel.UNKNOWN, box) for k, box in enumerate(boxes))
+    weights = np.full((len(nodes), len(LABELS)), 0.001)
+    weights[0, SIDE], weights[1, [BAR, DOOR]], weights[2, HANDLE], weights[3:, DOOR] = 0.9, [0.7, door], grip, 0.9
+    weights[2, BAR] = 0.9 - grip
+    made = with_held(weights, FunctionalGraph("g", nodes, ()), DecodeConfig())
+    assert np.array_equal(np.delete(made, 1, axis=0), np.delete(weights, 1, axis=0))
+    assert made[1, DOOR] == weights[1, DOOR]
+    return made[1, BAR] == 0.0
+
+
+def test_the_plate_that_a_handle_sits_on_is_a_front():
+    assert held()
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        {"grip": 0.5},
+        {"door": 0.01},
+        {"label": PartLabel.BAR},
+        {"plate": Box(vec3(0.0, 0.0, 0.0), vec3(0.8, 0.02, 1.0))},
+        {"plate": Box(vec3(0.0, 0.2, 0.0), vec3(1.0, 0.22, 1.0))},
+        {"plate": Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 0.4, 1.0))},
+        {"plate": Box(vec3(0.0, -0.1, 0.49), vec3(1.0, 0.5, 0.51))},
+        {"others": (Box(vec3(0.05, -0.01, 0.05), vec3(0.95, 0.0, 0.9)),)},
+    ],
+    ids=[
+        "an unsure handle",
+        "improbable",
+        "by its name",
+        "beside it",
+        "farther in",
+        "thick",
+        "lying",
+        "a front before it",
+    ],
+)
+def test_other_plates_stay_what_they_are(case):
+    assert not held(**case)
 
 
 @pytest.mark.parametrize(

@@ -89,6 +89,28 @@ class HeldFrontsConfig(ShortRepr):
 
 @final
 @dataclass(frozen=True, slots=True)
+class HeldPlateConfig(ShortRepr):
+    """When an unlabelled plate that a handle sits on is a door or drawer.
+
+    Raises:
+        ValueError: if a number is not above 0.
+    """
+
+    handle: float = 0.8
+    """Least probability of the handle."""
+    possible: float = 0.05
+    """Least probability of a door or drawer."""
+    thin: float = 0.35
+    """Greatest thickness of the plate (fraction of its shorter other side)."""
+    face: float = 0.2
+    """How far the plate lies behind a face of the whole at most, handles counted in (fraction of its depth)."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, *self.__dataclass_fields__)
+
+
+@final
+@dataclass(frozen=True, slots=True)
 class FactConfig(ShortRepr):
     """From which probability on something is stated of the whole piece.
 
@@ -221,6 +243,9 @@ class DecodeConfig:
 
     held_fronts: HeldFrontsConfig = HeldFrontsConfig()
     """Of bodies with fronts at their face."""
+
+    held: HeldPlateConfig = HeldPlateConfig()
+    """Of plates that handles sit on."""
 
     regular: RegularConfig = RegularConfig()
     """Of shelves that are missing from regular rows."""

@@ -1,18 +1,22 @@
 """What boxes and contacts state about the labels of unlabelled parts, whatever the network states.
 
 What a smaller front with a handle lies upon is no door or drawer, nor is what stands on the floor with several fronts
-in its face, nor what is slim as a rod; what touches nothing but handles is a piece of one.
+in its face, nor what is slim as a rod; the plate that a handle sits on is one; what touches nothing but handles is a
+piece of one.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from grafu.completion.decode_config import DecodeConfig, HeldFrontsConfig, OverlayConfig
+from grafu.completion.decode_config import DecodeConfig, HeldFrontsConfig, HeldPlateConfig, OverlayConfig
 from grafu.geometry.box import Box, overlap_across
 from grafu.graph.arrays import DOOR, DRAWER, HANDLE, LABELS
-from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import PartLabel
+
+_UP = 2
+_LEAST = 1e-9  # no weight is less, so that fractions are finite
 
 
 def without_slim(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
@@ -87,6 +91,52 @@ def without_cases(weights: np.ndarray, graph: FunctionalGraph, config: DecodeCon
     made = weights.copy()
     made[np.ix_(cases, [DOOR, DRAWER])] = 0.0
     return made
+
+
+def with_held(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
+    """Returns the weights of labels (nodes, labels) in which the unlabelled plate that a handle sits on is a front.
+
+    Such a plate stands upright at a face of the whole, nothing else behind the handle is a door or drawer, and the
+    network holds it for possible.
+    """
+    likely = _likely(weights, graph)
+    held: set[int] = set()
+    for k, node in enumerate(graph.nodes):
+        if likely[k] != HANDLE or weights[k, HANDLE] < config.held.handle * weights[k].sum():
+            continue
+        behind = [i for i, other in enumerate(graph.nodes) if i != k and _is_behind(other.box, node.box)]
+        if any(likely[i] in (DOOR, DRAWER) for i in behind):
+            continue
+        plates = [i for i in behind if _is_front_plate(graph.nodes[i], graph.box, config.held)]
+        moves = {i: float(weights[i, [DOOR, DRAWER]].sum() / max(weights[i].sum(), _LEAST)) for i in plates}
+        best = max(moves, key=lambda i: moves[i], default=None)
+        held |= {best} if best is not None and moves[best] >= config.held.possible else set()
+    if not held:
+        return weights
+    made, rows = weights.copy(), sorted(held)
+    made[rows] = 0.0
+    made[np.ix_(rows, [DOOR, DRAWER])] = weights[np.ix_(rows, [DOOR, DRAWER])]
+    return made
+
+
+def _is_behind(box: Box, handle: Box) -> bool:
+    """Whether the middle of a handle lies in the outline of what is no farther from it than the handle is deep."""
+    thin = box.thin_axis
+    gap = max(float(box.low[thin] - handle.high[thin]), float(handle.low[thin] - box.high[thin]))
+    inside = (box.low <= handle.center) & (handle.center <= box.high)
+    return bool(np.delete(inside, thin).all() and gap <= handle.size[thin])
+
+
+def _is_front_plate(node: PartNode, whole: Box, config: HeldPlateConfig) -> bool:
+    """Whether an unlabelled node is an upright plate at a face of the whole."""
+    box, thin = node.box, node.box.thin_axis
+    if node.label is not PartLabel.UNKNOWN or thin == _UP:
+        return False
+    others = np.delete(box.size, thin)
+    if box.size[thin] > config.thin * others.min():
+        return False
+    behind = min(float(box.low[thin] - whole.low[thin]), float(whole.high[thin] - box.high[thin]))
+    return behind <= config.face * float(whole.size[thin])
 
 
 def _likely(weights: np.ndarray, graph: FunctionalGraph) -> list[int]:

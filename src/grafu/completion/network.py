@@ -18,7 +18,7 @@ from grafu.completion.answers import decision_of
 from grafu.completion.decode import complete_decoded, decode_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
-from grafu.completion.label_shapes import held_by_handles, without_cases, without_overlaid, without_slim
+from grafu.completion.label_shapes import held_by_handles, with_held, without_cases, without_overlaid, without_slim
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, regular_parts, with_parts
@@ -48,7 +48,7 @@ def choose_labels(
     labels: dict[str, PartLabel] = {}
     decisions = []
     weights = without_slim(_weights(probabilities, len(graph.nodes), config), graph, config)
-    weights = without_cases(without_overlaid(weights, graph, config), graph, config)
+    weights = with_held(without_cases(without_overlaid(weights, graph, config), graph, config), graph, config)
     weights = _with_columns(weights, graph, config)
     for k, node in enumerate(graph.nodes):
         if node.label is not PartLabel.UNKNOWN:
