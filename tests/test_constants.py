@@ -25,6 +25,7 @@ from grafu.asset.grips import DrawnGripConfig
 from grafu.asset.lasso_cut import LassoConfig
 from grafu.asset.loose import LooseConfig
 from grafu.asset.named_fittings import NamedFittingConfig
+from grafu.asset.one_front import HeldTogetherConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
 from grafu.asset.plausibility import PlausibilityConfig
@@ -216,7 +217,7 @@ CONFIGS = (
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
-    FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, LooseConfig,
+    FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
     ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig, UpEvidenceConfig, VerdictConfig,

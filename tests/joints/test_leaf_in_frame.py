@@ -8,7 +8,12 @@ import pytest
 from grafu.asset.part import Asset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.joints.clearance.in_frame import leaf_in_frame
 from grafu.joints.config import RealizationConfig
+from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.nesting import bodies_of
+from grafu.scene.border import part_axes
+from grafu.scene.scene import Scene
 from judging import installed, realized, swept_collisions
 from small_scenes import box, hinged, scene
 
@@ -82,3 +87,13 @@ def test_other_leaves_keep_their_edges(asset, why):
     lost = asset.part("door").box.size[[0, 2]] - after["door"].mesh.box.size[[0, 2]]
     assert np.all(lost <= 0.02 * asset.part("door").box.size[[0, 2]]), why
     assert area(after["frame"]) <= area(asset.part("frame")) * 1.02
+
+
+def test_hardware_of_another_door_that_a_leaf_cuts_into_is_no_frame():
+    asset = door(0.008)
+    before = Scene({p.id: p for p in asset.parts}, bodies_of(plan_from_annotation(asset).joints), asset.extent)
+    config, axes = RealizationConfig(), part_axes(asset.part("door").mesh)
+    alone = [clearances for _, clearances in leaf_in_frame(before, "door", axes, ("frame",), config)]
+
+    assert [c for _, c in leaf_in_frame(before, "door", axes, ("hinge_other_0", "frame"), config)] == alone != []
+    assert list(leaf_in_frame(before, "door", axes, ("hinge_other_0",), config)) == []

@@ -15,7 +15,6 @@ from grafu.asset.labels import is_appliance, is_bed, is_chest, is_washer, sense_
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
 from grafu.asset.part import ROBOTS, Frame, Part
-from grafu.asset.pieces import in_words, with_pieces
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.asset.standing import spelled
@@ -26,7 +25,6 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.config import CreaseConfig
 from grafu.segmentation.creases import back_of, drawn_fronts, uv_islands
 from grafu.segmentation.division import FacePiece, divided
-from grafu.segmentation.joining import joined_objects
 from grafu.segmentation.lids import lid_of_chest, lid_of_washer
 from grafu.vocabulary import PartLabel
 
@@ -74,9 +72,9 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
         name: that of the model: the front of what is called an oven is a door, unless another part is named door.
         config: which parts may hide fronts.
     """
-    if not reading.parts or _is_divided(reading):
+    if not reading.parts or is_divided(reading):
         return reading
-    T = _turn(frame)
+    T = turn_of(frame)
     meshes = [part.mesh.transformed(T) for part in reading.parts]
     open_to = [_may_be_cut(part, config) and part.carried_by is None for part in reading.parts]
     whole = [part.label.is_movable for part in reading.parts]
@@ -109,29 +107,6 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     return replace(reading, parts=parts, notes=(*reading.notes, *notes), fronts_face=_side_of_fronts(cuts, T))
 
 
-def joined_where_nameless(reading: Reading, frame: Frame) -> Reading:
-    """Returns the reading with objects joined that no name tells and that are one door, drawer or handle; with notes.
-
-    Args:
-        reading: what was read.
-        frame: how it stands; its unit does not matter.
-    """
-    if not reading.parts or _is_divided(reading):
-        return reading
-    T = _turn(frame)
-    nameless = [part.label is PartLabel.UNKNOWN and part.carried_by is None for part in reading.parts]
-    if sum(nameless) < 2:
-        return reading
-    groups = joined_objects([part.mesh.transformed(T) for part in reading.parts], nameless)
-    joined = {k: group[0] for group in groups for k in group[1:]}
-    members = {group[0]: [reading.parts[k] for k in group[1:]] for group in groups}
-    ids = {reading.parts[k].id: reading.parts[host].id for k, host in joined.items()}
-    kept = [k for k in range(len(reading.parts)) if k not in joined]
-    parts = tuple(with_pieces(reading.parts[k], members.get(k, []), ids) for k in kept)
-    notes = (f"{in_words(found)} joined to {reading.parts[k].source.name}" for k, found in members.items())
-    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
-
-
 def _side_of_fronts(cuts: dict[int, list[FacePiece]], T: Mat4) -> str | None:
     """Returns the direction in the input that all fronts face which were cut out; `T` turns the input upright."""
     facing = [T[:3, :3].T @ p.towards for found in cuts.values() for p in found if p.towards is not None]
@@ -141,13 +116,19 @@ def _side_of_fronts(cuts: dict[int, list[FacePiece]], T: Mat4) -> str | None:
     return spelled(axis, bool(facing[0][axis] > 0))
 
 
-def _is_divided(reading: Reading) -> bool:
+def is_divided(reading: Reading) -> bool:
+    """Whether the maker of an input divided it by what moves."""
     by_hand = reading.grouped or reading.kind in ("partnet-mobility", "hssd")
     return by_hand or (reading.kind in ROBOTS and len({part.source.link for part in reading.parts}) > 1)
 
 
 def _may_be_cut(part: Part, config: CutConfig) -> bool:
-    """Whether a part may hide fronts: so may the body of a piece of furniture that is named after that."""
+    """Whether a part may hide fronts: so may the body of a piece of furniture that is named after that.
+
+    A front that was joined of objects hides none: its handles were objects, too.
+    """
+    if part.label.is_movable and part.labelled_by == "shape":
+        return False
     sides = np.sort(part.box.size)
     is_case = part.label is BODY and sense_of(part.source.name).is_container and sides[0] > config.case * sides[1]
     is_bookcase = part.label is PartLabel.SHELF and sides[0] > config.thick * sides[1]  # no board, but shelves
@@ -202,7 +183,7 @@ def _islands(part: Part) -> Indices:
     return np.concatenate(found)
 
 
-def _turn(frame: Frame) -> Mat4:
+def turn_of(frame: Frame) -> Mat4:
     """Returns the rotation and reflection of a frame alone."""
     T = np.eye(4)
     T[:3, :3] = np.asarray(frame.input_to_output)[:3, :3] / frame.scale

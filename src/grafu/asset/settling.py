@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from grafu.asset.cutting import cut_where_fronts_appear, joined_where_nameless
+from grafu.asset.cutting import cut_where_fronts_appear
 from grafu.asset.door_frames import with_door_frames
 from grafu.asset.either_kind import with_either_kind
 from grafu.asset.folder import divide, looked_for_fronts
@@ -17,6 +17,7 @@ from grafu.asset.frame import settle_frame, straightened, turned_before, whole_b
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
 from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.named_fittings import with_named_fittings
+from grafu.asset.one_front import has_copies, joined_where_nameless, joined_where_one_name
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
 from grafu.asset.pieces import with_joined_pieces
@@ -53,11 +54,14 @@ def settled(
         reading = _taken_apart(reading, path, options)
     elif not reading.grouped and reading.parts:
         reading = _joined(reading)
+    if options.parts == "auto" and has_copies(reading):
+        reading = joined_where_one_name(reading, settle_frame(reading, options, file))
     if reading.parts:
         reading = _plausible(reading)
     if options.parts == "auto" and reading.parts:
         stands = settle_frame(reading, options, file)
-        reading = joined_where_nameless(cut_where_fronts_appear(reading, stands, name), stands)
+        reading = cut_where_fronts_appear(reading, stands, name)
+        reading = joined_where_nameless(reading, stands)
         reading = _with_split_handles(reading)
     reading = replace(reading, parts=with_bodies(with_control_panels(reading.parts)))
     _check_parts(reading, path, options)

@@ -28,16 +28,21 @@ Group = tuple[int, ...]
 
 
 def joined_objects(
-    meshes: Sequence[TriangleMesh], open_to: Sequence[bool], config: SegmentationConfig = SegmentationConfig()
+    meshes: Sequence[TriangleMesh],
+    open_to: Sequence[bool],
+    config: SegmentationConfig = SegmentationConfig(),
+    has_name: bool = False,
 ) -> list[Group]:
     """Returns the objects that are one front with what belongs to it, or one handle; two at least each.
 
     The plate comes first. Only objects that belong to it whole are joined, and never all that `open_to` names.
+    Where their names tell that they are doors or drawers, all may be one, and the pieces of handles stay apart.
 
     Args:
         meshes: the objects of an input, Z up, their front at -Y; any unit.
         open_to: which of them may be joined.
         config: the thresholds.
+        has_name: whether the names of the objects that may be joined tell that they are doors or drawers.
     """
     may = np.asarray(open_to, dtype=bool)
     owner = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
@@ -52,11 +57,12 @@ def joined_objects(
     taken: set[int] = set()
     found: list[Group] = []
     for front in single:
-        for group in (contacts.hanging_together(front, may), *(contacts.handle_of(h, front) for h in front.handles)):
+        handles = () if has_name else front.handles
+        for group in (contacts.hanging_together(front, may), *(contacts.handle_of(h, front) for h in handles)):
             if len(group) > 1 and not taken & {*group}:
                 found.append(group)
                 taken |= {*group}
-    return [group for group in found if len(group) < int(may.sum())]
+    return [group for group in found if has_name or len(group) < int(may.sum())]
 
 
 @final

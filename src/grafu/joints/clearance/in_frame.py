@@ -81,8 +81,8 @@ def leaf_in_frame(
 def _frames(
     scene: Scene, box: Box, axes: Mat3, ids: Sequence[str], config: RealizationConfig
 ) -> Iterator[tuple[Part, _Edges]]:
-    """Yields static parts with how far a leaf's edges reach into each, largest first."""
-    for part in sorted((scene.parts[name] for name in ids), key=lambda part: -part.box.diagonal):
+    """Yields static parts with how far a leaf's edges reach into each, largest first; hardware is no frame."""
+    for part in sorted((scene.parts[name] for name in ids if name in scene.parts), key=lambda part: -part.box.diagonal):
         mesh = TriangleMesh(part.mesh.vertices @ axes, part.mesh.faces)
         edges = _edges(box, mesh, config.depth * scene.extent, config)
         if edges is not None:
