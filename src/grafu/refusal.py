@@ -40,7 +40,7 @@ class Reason(StrEnum):
     REJECTED = "rejected", "The user fixed the part."
     UNSUPPORTED = "unsupported motion", "Motions of this kind are not built."
     CARRIES = "carries others", "A guess states that the part moves, but other parts stand on it alone."
-    UNLIKELY = "unlikely", "A guess states that the part moves, but not which way it would."
+    UNLIKELY = "unlikely", "A guess states that the part moves, but it is weak, or the part has another shape."
     # of anything
     TOO_COMPLEX = "too complex", "The work would take more time or memory than its part of the budget."
     NO_ROOM = "no room", "There is too little room for it between other parts."
