@@ -5,7 +5,7 @@ docs/report.md is drawn from the two lists.
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import final
+from typing import Final, final
 
 
 class Asked(StrEnum):
@@ -64,6 +64,10 @@ class Reason(StrEnum):
     NO_COMPARTMENT = "no compartment", "There is no such space between walls."
     UNSUITABLE = "unsuitable", "Furniture of this kind takes no such part."
     FEWER = "fewer", "There is room for fewer than were asked for."
+
+
+OF_GUESSES: Final = (Reason.CARRIES, Reason.UNLIKELY)
+"""Why parts that were only guessed to move stay static: no joint of theirs is missing."""
 
 
 @final
