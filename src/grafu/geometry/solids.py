@@ -182,7 +182,7 @@ def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     return from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
 
 
-def _touched(triangles: np.ndarray, bounds: tuple[Points, Points], solid: ConvexSolid) -> Indices:
+def _touched(triangles: np.ndarray, bounds: tuple[np.ndarray, np.ndarray], solid: ConvexSolid) -> Indices:
     """Returns the numbers of the triangles, in these bounds, that a solid may take something of."""
     require_time()
     number = np.flatnonzero(_meet(bounds, solid.box))
@@ -195,7 +195,7 @@ def _beyond_a_plane(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
     return np.all(side >= -NOTHING, axis=1).any(axis=1)
 
 
-def _meet(bounds: tuple[Points, Points], box: Box) -> np.ndarray:
+def _meet(bounds: tuple[np.ndarray, np.ndarray], box: Box) -> np.ndarray:
     """Returns which of some boxes, given by their lowest and highest corners, share a point with a box."""
     low, high = bounds
     return np.all((low <= box.high) & (high >= box.low), axis=1)
