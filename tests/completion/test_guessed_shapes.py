@@ -13,7 +13,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Edge, Hinge, Rail, Slide
-from grafu.graph.edit import relabelled, with_edges
+from grafu.graph.edit import relabelled, with_edges, without_edges
 from grafu.graph.parse import parse_graph
 from grafu.vocabulary import PartLabel
 from small_scenes import BASE_CASE, box
@@ -86,6 +86,7 @@ def test_the_base_under_a_mattress_is_no_drawer_and_one_under_a_table_top_is():
 
 def test_the_frame_of_a_table_is_no_drawer():
     assert "no bottom" in why([TOP, *LEGS, ring("guess", (-0.06, -0.08, 0.7), (0.66, 0.6, 0.82))])
+    assert "no bottom" in why([TOP, *LEGS, ring("guess", (-0.06, -0.08, 0.7), (0.66, 0.6, 0.82))], is_held=True)
     floor = box("floor_of_it", (-0.05, -0.07, 0.7), (0.65, 0.59, 0.71))
     assert why([TOP, *LEGS, ring("guess", (-0.06, -0.08, 0.7), (0.66, 0.6, 0.82)), floor]) == "", "another part is it"
 
@@ -157,3 +158,10 @@ def test_what_stays_static_slides_no_more():
     found = with_static_guesses(completion, asset)
     assert [refusal.part for refusal in found.refused] == ["guess"]
     assert found.completed.motions == ()
+
+
+def test_what_no_rail_carries_is_judged_as_a_drawer_that_opens_to_the_front():
+    trestle = ring("guess", (-0.06, -0.08, 0.0), (0.66, 0.6, 0.82), 0.03)
+    asset, completion = made([TOP, *LEGS, trestle], "guess", Rail("board", "guess", FRONT))
+    graph = without_edges(completion.completed, completion.completed.rails)
+    assert "no bottom" in shape_against(graph.node("guess"), asset, graph)

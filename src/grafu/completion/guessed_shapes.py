@@ -23,6 +23,7 @@ from grafu.graph.motion import code_to_direction, signed_axis
 from grafu.vocabulary import PartLabel
 
 _UP: SignedAxis = 5
+_FRONT: SignedAxis = 2
 
 
 @final
@@ -80,21 +81,35 @@ def shape_against(
         return "it is round, which fronts are not"
     rest = rest_of(asset, node.id, graph)
     rail = next((rail for rail in graph.rails if rail.child == node.id), None)
-    if rail is None:
-        across = signed_axis(box.thin_axis, positive=False)
-        is_open = node.label is PartLabel.DOOR and _closed(mesh, rest, box, across) < config.leaf
+    if rail is None and node.label is PartLabel.DOOR:
+        is_open = _closed(mesh, rest, box, signed_axis(box.thin_axis, positive=False)) < config.leaf
         return "hardly anything is within its outline" if is_open else ""
-    if rail.axis // 2 == 2:
-        return ""
-    if not is_held and is_without_case(box, rail.axis, rest, asset.box):
+    slide = _FRONT if rail is None else rail.axis
+    return "" if slide // 2 == 2 else _no_drawer(box, slide, mesh, rest, asset.box, is_held, config)
+
+
+def _no_drawer(
+    box: Box,
+    slide: SignedAxis,
+    mesh: TriangleMesh,
+    rest: RayCaster,
+    whole: Box,
+    is_held: bool,
+    config: GuessedShapeConfig,
+) -> str:
+    """Returns in words why a part that slides level is no drawer; empty where it may be one."""
+    if not is_held and is_without_case(box, slide, rest, whole):
         return "nothing that could hold it is beside it, or above and below"
-    if is_front_only(box, rail.axis // 2):
-        is_open = _closed(mesh, rest, box, rail.axis) < config.front
+    if is_front_only(box, slide // 2):
+        is_open = _closed(mesh, rest, box, slide) < config.front
         return "it is open, and a front is closed" if is_open else ""
-    seen = _Seen.of(rest, box, rail.axis)
+    seen = _Seen.of(rest, box, slide)
     if min(seen.back, seen.above) > config.seen and seen.aside >= config.aside:
         return "it is seen from behind, from above and from both sides: it is in no case"
-    return "" if is_held else _no_container(box, mesh, rest, seen, config)
+    if _closed(mesh, rest, box, _UP) < config.bottom:
+        return "it has no bottom"
+    is_block = not is_held and _is_open_block(box, mesh, seen, config)
+    return "it is a solid block, and open to see: nothing could be put into it" if is_block else ""
 
 
 def _frames(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
@@ -137,16 +152,12 @@ class _Seen(NamedTuple):
         return cls(back, min(open_ratios(rest, box, 1 - axis)), *open_ratios(rest, box, 2))
 
 
-def _no_container(box: Box, mesh: TriangleMesh, rest: RayCaster, seen: _Seen, config: GuessedShapeConfig) -> str:
-    """Returns in words why nothing could be put into a drawer; empty where something could."""
-    if _closed(mesh, rest, box, _UP) < config.bottom:
-        return "it has no bottom"
+def _is_open_block(box: Box, mesh: TriangleMesh, seen: _Seen, config: GuessedShapeConfig) -> bool:
+    """Whether nothing could be put into a drawer from above, and no case covers it: it was not drawn simply."""
     is_board = box.size[2] <= config.board * box.size[:2].min()
     is_open = seen.above > config.seen or (max(seen.back, seen.below) > config.seen and not is_board)
     deep = _depths(RayCaster(mesh), box, _UP, outside=True) > config.deep * box.size[2]
-    if is_open and deep.mean() < config.inside:
-        return "it is a solid block, and open to see: nothing could be put into it"
-    return ""
+    return bool(is_open and deep.mean() < config.inside)
 
 
 _STEPS = np.linspace(0.1, 0.9, 9)  # where rays go through a box, from side to side
