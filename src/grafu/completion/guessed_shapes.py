@@ -4,7 +4,9 @@ A front is flat or nearly so, and thin. A drawer holds things: it is open from a
 Rays are cast on the meshes.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple, final
 
 import numpy as np
@@ -79,13 +81,13 @@ def shape_against(
         return "it is too thick for a door"
     if not is_held and _straight(mesh, config) < config.rounded:
         return "it is round, which fronts are not"
-    rest = rest_of(asset, node.id, graph)
+    rest = partial(rest_of, asset, node.id, graph)  # of a large model it takes long, and most doors need none
     rail = next((rail for rail in graph.rails if rail.child == node.id), None)
     if rail is None and node.label is PartLabel.DOOR:
-        is_open = _closed(mesh, rest, box, signed_axis(box.thin_axis, positive=False)) < config.leaf
+        is_open = _is_open(mesh, rest, box, signed_axis(box.thin_axis, positive=False), config.leaf)
         return "hardly anything is within its outline" if is_open else ""
     slide = _FRONT if rail is None else rail.axis
-    return "" if slide // 2 == 2 else _no_drawer(box, slide, mesh, rest, asset.box, is_held, config)
+    return "" if slide // 2 == 2 else _no_drawer(box, slide, mesh, rest(), asset.box, is_held, config)
 
 
 def _no_drawer(
@@ -101,12 +103,12 @@ def _no_drawer(
     if not is_held and is_without_case(box, slide, rest, whole):
         return "nothing that could hold it is beside it, or above and below"
     if is_front_only(box, slide // 2):
-        is_open = _closed(mesh, rest, box, slide) < config.front
+        is_open = _is_open(mesh, lambda: rest, box, slide, config.front)
         return "it is open, and a front is closed" if is_open else ""
     seen = _Seen.of(rest, box, slide)
     if min(seen.back, seen.above) > config.seen and seen.aside >= config.aside:
         return "it is seen from behind, from above and from both sides: it is in no case"
-    if _closed(mesh, rest, box, _UP) < config.bottom:
+    if _is_open(mesh, lambda: rest, box, _UP, config.bottom):
         return "it has no bottom"
     is_block = not is_held and _is_open_block(box, mesh, seen, config)
     return "it is a solid block, and open to see: nothing could be put into it" if is_block else ""
@@ -164,11 +166,14 @@ _STEPS = np.linspace(0.1, 0.9, 9)  # where rays go through a box, from side to s
 _OFF = 0.01  # of a box's largest side: from where rays start outside it
 
 
-def _closed(mesh: TriangleMesh, rest: RayCaster, box: Box, face: SignedAxis) -> float:
-    """Returns how much of a part is closed, seen from one side: by itself, or by what is in its box (fraction)."""
-    own, others = _depths(RayCaster(mesh), box, face, outside=True), _depths(rest, box, face, outside=False)
+def _is_open(mesh: TriangleMesh, rest: Callable[[], RayCaster], box: Box, face: SignedAxis, least: float) -> bool:
+    """Whether less than a fraction of a part is closed, seen from one side: by itself, or by what is in its box."""
     within = float(box.size[face // 2]) + _OFF * float(box.size.max())  # a bottom may be just below
-    return float(np.mean(np.minimum(own, others) <= within))
+    own = _depths(RayCaster(mesh), box, face, outside=True)
+    if np.mean(own <= within) >= least:
+        return False
+    others = _depths(rest(), box, face, outside=False)
+    return bool(np.mean(np.minimum(own, others) <= within) < least)
 
 
 def _depths(caster: RayCaster, box: Box, face: SignedAxis, outside: bool) -> Scalars:
