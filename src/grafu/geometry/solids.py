@@ -160,14 +160,16 @@ def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     """Returns an open surface without the parts of its triangles inside the solids."""
     mesh = surface.mesh
     triangles = mesh.triangles
-    near = _meet(triangles, Box.around(np.vstack([solid.vertices for solid in solids])))
+    near = _meet(triangle_bounds(triangles), Box.around(np.vstack([solid.vertices for solid in solids])))
     if not near.any():
         return surface
     rows = attribute_rows(surface)
     # Faces without area go too: they would stay behind as needles in the cut.
     owner = np.flatnonzero(near)
     owner = owner[~_is_sliver(triangles[owner])]
-    near_each = [_touched(triangles[owner], solid) for solid in solids]
+    corners = triangles[owner]
+    bounds = triangle_bounds(corners)
+    near_each = [_touched(corners, bounds, solid) for solid in solids]
     pieces, gone = left_over(rows[mesh.faces[owner]], near_each, [solid.planes for solid in solids])
     cut = np.zeros(len(mesh.faces), dtype=bool)
     cut[owner[gone]] = True
@@ -180,10 +182,10 @@ def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
     return from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
 
 
-def _touched(triangles: np.ndarray, solid: ConvexSolid) -> Indices:
-    """Returns the numbers of the triangles that a solid may take something of."""
+def _touched(triangles: np.ndarray, bounds: tuple[np.ndarray, np.ndarray], solid: ConvexSolid) -> Indices:
+    """Returns the numbers of the triangles, in these bounds, that a solid may take something of."""
     require_time()
-    number = np.flatnonzero(_meet(triangles, solid.box))
+    number = np.flatnonzero(_meet(bounds, solid.box))
     return number[~_beyond_a_plane(triangles[number], solid.planes)]
 
 
@@ -193,9 +195,9 @@ def _beyond_a_plane(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
     return np.all(side >= -NOTHING, axis=1).any(axis=1)
 
 
-def _meet(triangles: np.ndarray, box: Box) -> np.ndarray:
-    """Returns which triangles' boxes share a point with a box."""
-    low, high = triangle_bounds(triangles)
+def _meet(bounds: tuple[np.ndarray, np.ndarray], box: Box) -> np.ndarray:
+    """Returns which of some boxes, given by their lowest and highest corners, share a point with a box."""
+    low, high = bounds
     return np.all((low <= box.high) & (high >= box.low), axis=1)
 
 

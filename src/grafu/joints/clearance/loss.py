@@ -68,6 +68,7 @@ def lost_volume(part: Part, solids: Sequence[ConvexSolid], limits: Sequence[floa
 def _lost_volume(part: Part, solids: Sequence[ConvexSolid], points: int, most_exact: int) -> float:
     """Returns the fraction that is lost, counted on points in pieces that more than `most_exact` solids meet."""
     whole = lost = 0.0
+    low, high = (np.array([getattr(solid.box, end) for solid in solids]) for end in ("low", "high"))
     for piece in connected_parts(part.mesh):
         require_time()
         hull = ConvexSolid.around(piece.vertices)
@@ -75,7 +76,8 @@ def _lost_volume(part: Part, solids: Sequence[ConvexSolid], points: int, most_ex
             continue
         body = _manifold(hull)
         whole += body.volume()
-        near = [solid for solid in solids if hull.box.overlaps(solid.box)]
+        meets = np.all((low <= hull.box.high) & (high >= hull.box.low), axis=1)
+        near = [solids[k] for k in np.flatnonzero(meets).tolist()]
         many = len(near) > most_exact
         lost += _counted_volume(hull, near, points) * body.volume() if many else _cut_volume(body, near)
     return min(lost / whole, 1.0) if whole > 0 else 1.0
