@@ -39,6 +39,7 @@ from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
 from grafu.completion.round_doors import RoundDoorConfig
 from grafu.completion.static_guesses import StaticGuessConfig
+from grafu.completion.thick_doors import ThickDoorConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
 from grafu.export.gltf_packing import DracoConfig
@@ -221,7 +222,8 @@ CONFIGS = (
     FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
-    ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig, UpEvidenceConfig, VerdictConfig,
+    ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig,
+    ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
     WayOutConfig,
 )  # fmt: skip
 NUMBERS = [

@@ -77,7 +77,7 @@ def shape_against(
     With a handle on it a front may be round, and a drawer drawn as a block.
     """
     mesh, box = asset.part(node.id).mesh, node.box
-    if node.label is PartLabel.DOOR and _thickness(mesh) >= config.thick:
+    if node.label is PartLabel.DOOR and is_thick(mesh, config):
         return "it is too thick for a door"
     if not is_held and _straight(mesh, config) < config.rounded:
         return "it is round, which fronts are not"
@@ -88,6 +88,12 @@ def shape_against(
         return "hardly anything is within its outline" if is_open else ""
     slide = _FRONT if rail is None else rail.axis
     return "" if slide // 2 == 2 else _no_drawer(box, slide, mesh, rest(), asset.box, is_held, config)
+
+
+def is_thick(mesh: TriangleMesh, config: GuessedShapeConfig = GuessedShapeConfig()) -> bool:
+    """Whether no door is as thick, along the axes or along its own main directions."""
+    sides = (np.sort(np.ptp(mesh.vertices @ frame, axis=0)) for frame in _frames(mesh))
+    return min(float(least / max(middle, 1e-9)) for least, middle, _ in sides) >= config.thick
 
 
 def _no_drawer(
@@ -130,12 +136,6 @@ def _straight(mesh: TriangleMesh, config: GuessedShapeConfig) -> float:
         return 1.0
     turned = (np.abs(mesh.face_normals @ frame).max(axis=1) >= config.straight for frame in _frames(mesh))
     return max(float(mesh.face_areas[along].sum()) / total for along in turned)
-
-
-def _thickness(mesh: TriangleMesh) -> float:
-    """Returns the least side of a part as a fraction of the middle one, along the axes or its own main directions."""
-    sides = (np.sort(np.ptp(mesh.vertices @ frame, axis=0)) for frame in _frames(mesh))
-    return min(float(least / max(middle, 1e-9)) for least, middle, _ in sides)
 
 
 class _Seen(NamedTuple):
