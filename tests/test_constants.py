@@ -36,9 +36,11 @@ from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceC
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
+from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
 from grafu.completion.round_doors import RoundDoorConfig
 from grafu.completion.static_guesses import StaticGuessConfig
+from grafu.completion.thick_doors import ThickDoorConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
 from grafu.export.gltf_packing import DracoConfig
@@ -216,11 +218,13 @@ CONFIGS = (
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
-    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, HeadingConfig, LassoConfig,
+    FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
+    LassoConfig,
     FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
-    ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig, UpEvidenceConfig, VerdictConfig,
+    ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig,
+    ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
     WayOutConfig,
 )  # fmt: skip
 NUMBERS = [

@@ -5,7 +5,7 @@ docs/report.md is drawn from the two lists.
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import final
+from typing import Final, final
 
 
 class Asked(StrEnum):
@@ -40,7 +40,7 @@ class Reason(StrEnum):
     REJECTED = "rejected", "The user fixed the part."
     UNSUPPORTED = "unsupported motion", "Motions of this kind are not built."
     CARRIES = "carries others", "A guess states that the part moves, but other parts stand on it alone."
-    UNLIKELY = "unlikely", "A guess states that the part moves, but not which way it would."
+    UNLIKELY = "unlikely", "A guess states that the part moves, but it is weak, or the part has another shape."
     # of anything
     TOO_COMPLEX = "too complex", "The work would take more time or memory than its part of the budget."
     NO_ROOM = "no room", "There is too little room for it between other parts."
@@ -64,6 +64,10 @@ class Reason(StrEnum):
     NO_COMPARTMENT = "no compartment", "There is no such space between walls."
     UNSUITABLE = "unsuitable", "Furniture of this kind takes no such part."
     FEWER = "fewer", "There is room for fewer than were asked for."
+
+
+OF_GUESSES: Final = (Reason.CARRIES, Reason.UNLIKELY)
+"""Why parts that were only guessed to move stay static: no joint of theirs is missing."""
 
 
 @final

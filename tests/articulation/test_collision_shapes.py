@@ -18,7 +18,7 @@ from grafu.articulation.convex_pieces import (
     ConvexPieceConfig,
     _depths,
     _grid,
-    _inside_hull,
+    _is_inside_hull,
     _looks,
     convex_pieces,
     hull_of,
@@ -297,7 +297,8 @@ def test_a_pit_is_as_deep_as_if_all_points_looked_along_all_axes(seed, least):
     seen = _looks(caster, points)
     depth = np.where(np.isinf(seen).any(axis=1), np.minimum(seen.min(axis=1), 0.9), 0.0)
 
-    assert _depths(caster, points, 0.9, least).tolist() == np.where(depth > least, depth, 0.0).tolist()
+    box = Box(np.zeros(3), rng.permutation([0.9, 0.5, 0.2]))  # looks across its thinnest side come first
+    assert _depths(caster, points, box, least).tolist() == np.where(depth > least, depth, 0.0).tolist()
 
 
 @pytest.mark.parametrize("size", [(1.0, 0.5, 0.3), (0.6, 0.4, 0.003), (0.6, 0.4, 1e-7)])
@@ -306,15 +307,23 @@ def test_of_a_mesh_with_all_corners_of_its_box_no_hull_is_needed(size, monkeypat
     mesh = TriangleMesh.box_mesh(box)
     points = _grid(box, 0.02)
     monkeypatch.setattr("scipy.spatial.ConvexHull", None)
-    np.testing.assert_array_equal(_inside_hull(mesh, points, 0.004), points)
+    assert _is_inside_hull(mesh, points, 0.004).all()
     monkeypatch.undo()
     monkeypatch.setattr("grafu.articulation.convex_pieces.has_all_corners", lambda _: False)
-    np.testing.assert_array_equal(_inside_hull(mesh, points, 0.004), points)
+    assert _is_inside_hull(mesh, points, 0.004).all()
+
+
+def test_a_board_without_pits_needs_no_hull_to_see_it(monkeypatch):
+    outline = np.array([[0.01, 0], [0.6, 0], [0.6, 0.4], [0, 0.4], [0, 0.01]])  # a corner is cut off
+    solid = ConvexSolid.around(np.vstack([np.c_[outline, np.full(5, z)] for z in (0.0, 0.018)]))
+    assert solid is not None
+    monkeypatch.setattr("scipy.spatial.ConvexHull", None)
+    assert convex_pieces(solid.mesh) == [solid.mesh]
 
 
 def test_a_mesh_that_lacks_a_corner_of_its_box_has_a_hull():
     mesh = TriangleMesh(np.vstack([np.eye(3), np.zeros((1, 3))]), np.array([[0, 1, 2], [0, 1, 3]]))
     points = _grid(mesh.box, 0.1)
-    inside = _inside_hull(mesh, points, 0.004)
+    inside = points[_is_inside_hull(mesh, points, 0.004)]
     assert 0.1 * len(points) < len(inside) < 0.3 * len(points)
     assert (inside.sum(axis=1) < 1).all()

@@ -31,6 +31,8 @@ REASONS = {
             "SLIM": TOLERANCE,
             "SMALL": TOLERANCE,
             "FREE": TOLERANCE,
+            "_FEW": EFFORT,
+            "_NEAR": TOLERANCE,
         },
         "build_material.py": dict.fromkeys(("_BY_WORD", "_GLASS", "_STEEL", "_TEXTILE"), PHYSICS),
         "collision_clearance.py": {"_REST": UNIT},

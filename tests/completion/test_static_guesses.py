@@ -36,9 +36,22 @@ def legs(height: float, aside: float = 0.45) -> list[Part]:
     ]
 
 
+def drawer(name: str, low, high) -> Part:
+    """A drawer as one part: a bottom and four sides, open from above."""
+    (x0, y0, z0), (x1, y1, z1), t = low, high, 0.01
+    boards = [
+        at("bottom", low, (x1, y1, z0 + t)),
+        at("left", low, (x0 + t, y1, z1)),
+        at("right", (x1 - t, y0, z0), high),
+        at("front", low, (x1, y0 + t, z1)),
+        at("back", (x0, y1 - t, z0), high),
+    ]
+    return replace(boards[0], id=name, surfaces=tuple(surface for board in boards for surface in board.surfaces))
+
+
 TOP = at("board", (-0.55, -0.55, 0.7), (0.55, 0.55, 0.72), PartLabel.TOP_PANEL)
 APRON = at("frame", (-0.48, -0.48, 0.6), (0.48, 0.48, 0.7))
-BETWEEN = at("frame", (-0.4, -0.42, 0.58), (0.4, 0.42, 0.7))
+BETWEEN = drawer("frame", (-0.4, -0.42, 0.58), (0.4, 0.42, 0.7))
 SIDES = [
     at(f"side_{k}", (x, -0.3, 0.0), (x + 0.02, 0.3, 0.5), PartLabel.SIDE_PANEL) for k, x in enumerate((-0.3, 0.28))
 ]
@@ -105,7 +118,7 @@ LOOK_ALIKES = {
         [
             *SIDES,
             at("top", (-0.3, -0.3, 0.5), (0.3, 0.3, 0.52), PartLabel.TOP_PANEL),
-            at("front", (-0.3, -0.32, 0.2), (0.3, 0.28, 0.5)),
+            drawer("front", (-0.3, -0.32, 0.2), (0.3, 0.28, 0.5)),
         ],
         "front",
     ),
@@ -113,7 +126,7 @@ LOOK_ALIKES = {
         [
             *SIDES,
             at("lamp", (-0.05, -0.05, 0.4), (0.05, 0.05, 0.7)),
-            at("tray", (-0.27, -0.28, 0.2), (0.27, 0.28, 0.4)),
+            drawer("tray", (-0.27, -0.28, 0.2), (0.27, 0.28, 0.4)),
         ],
         "tray",
     ),
@@ -184,7 +197,7 @@ PLATE = at("glass", (-0.5, -0.2, 0.4), (0.5, 0.2, 0.41), PartLabel.MISC)
     ("parts", "taken", "is_static"),
     [
         ([PLATE, at("bracket", (-0.2, -0.2, 0.3), (0.2, -0.17, 0.4))], "bracket", True),
-        ([PLATE, at("tray", (-0.2, -0.2, 0.3), (0.2, 0.15, 0.4))], "tray", False),
+        ([PLATE, drawer("tray", (-0.2, -0.2, 0.3), (0.2, 0.15, 0.4))], "tray", False),
         ([PLATE, at("bottle", (-0.1, -0.1, 0.41), (0.1, 0.1, 0.8))], "bottle", True),
         ([PLATE, *SIDES, at("bracket", (-0.2, -0.2, 0.3), (0.2, -0.17, 0.4))], "bracket", False),
     ],

@@ -7,7 +7,7 @@ from typing import final
 import numpy as np
 import pytest
 
-from grafu.geometry.arrays import ArrayValue, cross, extremes, freeze_arrays, median
+from grafu.geometry.arrays import ArrayValue, cross, extremes, first_of_each, freeze_arrays, median, renumbered
 
 
 @final
@@ -79,3 +79,22 @@ def test_cross_products_are_those_of_numpy_to_the_last_digit() -> None:
     np.testing.assert_array_equal(cross(first, second), np.cross(first, second))
     np.testing.assert_array_equal(cross(first, second[0]), np.cross(first, second[0]))
     assert cross(first[:0], second[:0]).shape == (0, 3)
+
+
+@pytest.mark.parametrize(("faces", "count"), [(0, 5), (1, 1), (40, 30), (40, 2000), (3000, 900)])
+def test_rows_that_are_named_are_numbered_as_numpy_does_by_sorting(faces: int, count: int) -> None:
+    named = np.random.default_rng(faces).integers(0, count, (faces, 3))
+    rows, number = renumbered(named, count)
+    expected, inverse = np.unique(named, return_inverse=True)
+    np.testing.assert_array_equal(rows, expected)
+    np.testing.assert_array_equal(number, inverse.reshape(faces, 3))
+
+
+@pytest.mark.parametrize("dtype", [np.int64, np.uint64])
+@pytest.mark.parametrize("count", [0, 1, 7, 5000])
+def test_the_first_of_each_key_is_that_of_numpy(count: int, dtype: type) -> None:
+    keys = np.random.default_rng(count).integers(0, 2**62, 50)[np.random.default_rng(1).integers(0, 50, count)]
+    _, first, number = np.unique(keys.astype(dtype), return_index=True, return_inverse=True)
+    found = first_of_each(keys.astype(dtype))
+    np.testing.assert_array_equal(found[0], first)
+    np.testing.assert_array_equal(found[1], number)

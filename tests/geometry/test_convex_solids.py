@@ -11,7 +11,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
-from grafu.geometry.solids import ConvexSolid, clip, in_any, subtract
+from grafu.geometry.solids import ConvexSolid, clip, clip_by_faces, in_any, subtract
 
 OAK = Material("oak")
 UNIT = Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, 1.0))
@@ -168,6 +168,23 @@ def test_what_overlapping_solids_take_of_a_sheet_goes_once(seed, count):
         assert np.all((middles @ one.planes[:, :3].T > one.planes[:, 3] - 1e-7).any(axis=1))
     assert np.all(left.mesh.face_normals[:, 2] > 0.99)  # turned as they were
     np.testing.assert_allclose(left.uv, left.mesh.vertices[:, :2] * [2.0, 3.0], atol=1e-6)
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 12))
+@settings(max_examples=20)
+def test_what_each_face_loses_is_what_it_loses_alone(seed, count):
+    surface, (solids, _) = cube(Box(vec3(0.0, 0.0, -0.5), vec3(1.0, 1.0, 0.5))), _boxes_over_the_sheet(seed, count)
+    left, lost = clip_by_faces(surface, solids)
+    assert lost.sum() == pytest.approx(surface.mesh.area - left.mesh.area, abs=1e-9)
+    for k, own in enumerate(lost):
+        alone = Surface(surface.mesh.with_faces(np.array([k])))
+        assert own == pytest.approx(alone.mesh.area - clip(alone, solids).mesh.area, abs=1e-9)
+
+
+def test_what_is_not_clipped_loses_nothing():
+    left, lost = clip_by_faces(sheet(), [solid((2.0, 2.0, -1.0), (3.0, 3.0, 1.0))])
+    assert left == sheet()
+    assert lost.tolist() == [0.0, 0.0]
 
 
 def test_a_closed_surface_is_clipped_open_and_cut_closed():

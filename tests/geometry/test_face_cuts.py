@@ -13,7 +13,8 @@ from grafu.geometry import face_cuts
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.budget import Budget
-from grafu.geometry.face_cuts import half_of, halves_of, remainder
+from grafu.geometry.face_cuts import remainder
+from grafu.geometry.halves import half_of, halves_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid, clip
 from grafu.geometry.transform import rotation_matrix

@@ -309,3 +309,56 @@ def test_meshes_that_cross_are_no_distance_apart(offset, angle):
         assert collider.distance(other) <= 1e-12
     else:
         assert collider.distance(other) > 0
+
+
+def test_what_merely_lies_flush_is_known_by_boxes_alone(monkeypatch):
+    """The core of a body, shrunk by the depth, is apart from what the body only touches."""
+    body = cube_body(0.0)
+    monkeypatch.setattr(MeshCollider, "hits", None)
+    assert body.penetrated([WALL]) == []
+
+
+def test_once_the_core_is_prepared_it_is_asked_first(monkeypatch):
+    body = cube_body(3 * DEPTH)
+    post = MeshCollider(box_mesh((0.0, 0.0, 1.0 - 1.5 * DEPTH), (1.0, 1.0, 2.0)).transformed(rotation_about_x(0.2)))
+    assert body.penetrated([WALL]) == [0]
+    asked = []
+    hits = MeshCollider.hits
+    monkeypatch.setattr(MeshCollider, "hits", lambda own, other: asked.append(own) or hits(own, other))
+    body.place(translation(vec3(0.0, 0.0, -2.2 * DEPTH)))
+    assert body.penetrated([post]) == []
+    assert asked == [body._shrunk]
+
+
+def rotation_about_x(angle: float) -> np.ndarray:
+    return from_rotation(rotation_matrix(vec3(1.0, 0.0, 0.0), angle))
+
+
+@given(st.integers(0, 10_000))
+def test_a_body_answers_alike_whatever_was_asked_before(seed):
+    """Which of its meshes is asked first, and what is known of a pose, changes no answer."""
+    rng = np.random.default_rng(seed)
+    obstacles = [
+        MeshCollider(box_mesh(tuple(low), tuple(low + rng.uniform(0.1, 0.8, 3)))) for low in rng.uniform(-1, 1, (4, 3))
+    ]
+    mesh = CUBE.transformed(from_rotation(0.5 * np.eye(3)))
+    poses = [translation(offset) for offset in rng.uniform(-0.6, 0.6, (4, 3))]
+    used, found = SweptBody(mesh, DEPTH), []
+    for k in rng.integers(0, len(poses), 8):
+        chosen = [obstacles[j] for j in rng.permutation(4)[: rng.integers(1, 5)]]
+        fresh = SweptBody(mesh, DEPTH)
+        for body in (used, fresh):
+            body.place(poses[k])
+        found.append((used.penetrated(chosen), fresh.penetrated(chosen)))
+    assert [one for one, _ in found] == [other for _, other in found]
+
+
+def test_a_body_that_slides_is_placed_where_it_is():
+    """FCL gets its place alone while its rotation stays."""
+    turned, other = MeshCollider(CUBE), MeshCollider(box_mesh((3.0, 0.0, 0.0), (4.0, 1.0, 1.0)))
+    R = rotation_matrix(vec3(0.0, 0.0, 1.0), 0.4)
+    for offset, angle in ((0.5, 0.4), (1.0, 0.4), (1.5, 0.0), (0.0, 0.4)):
+        rotation = R if angle else np.eye(3)
+        turned.place(from_rotation(rotation, vec3(offset, 0.0, 0.0)))
+        alone = MeshCollider(CUBE.transformed(from_rotation(rotation, vec3(offset, 0.0, 0.0))))
+        assert turned.distance(other) == pytest.approx(alone.distance(other), abs=1e-9)

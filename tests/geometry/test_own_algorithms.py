@@ -15,7 +15,7 @@ from trimesh.intersections import slice_faces_plane
 from grafu.additions.top.height_map import grown, islands, without_narrow
 from grafu.geometry.box import convex_outline
 from grafu.geometry.components import linked
-from grafu.geometry.face_cuts import half_of
+from grafu.geometry.halves import half_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.transform import (
     euler_matrix,

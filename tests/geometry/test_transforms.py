@@ -7,7 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grafu.geometry.transform import quaternion_matrix, roll_pitch_yaw, rotation_matrix
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.transform import quaternion_matrix, reflection, roll_pitch_yaw, rotation_about, rotation_matrix
 
 X, Y, Z = np.eye(3)
 PERMUTED = [np.diag(signs)[list(order)] for order in permutations(range(3)) for signs in product((1.0, -1.0), repeat=3)]
@@ -31,3 +34,26 @@ def test_every_rotation_comes_back(quaternion: tuple[float, float, float, float]
     R = quaternion_matrix(*quaternion)
 
     np.testing.assert_allclose(of_angles(roll_pitch_yaw(R)), R, atol=1e-6)
+
+
+@given(st.floats(-7.0, 7.0))
+def test_a_rotation_about_an_axis_is_remembered_as_it_is(angle):
+    axis = Axis(vec3(0.3, -0.2, 1.0), vec3(0.0, 0.6, 0.8))
+    expected = rotation_about(axis.point, axis.direction, angle)
+    assert axis.rotation(angle) is axis.rotation(angle)
+    np.testing.assert_array_equal(axis.rotation(angle), expected)
+    with pytest.raises(ValueError, match="read-only"):
+        axis.rotation(angle)[0, 3] = 1.0
+
+
+def test_a_mesh_that_is_moved_keeps_its_faces_and_copies_nothing_else():
+    mesh = TriangleMesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    moved = mesh.transformed(rotation_about(vec3(0.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), np.pi / 2))
+    np.testing.assert_allclose(moved.vertices, [[0.0, 0, 0], [0, 1, 0], [-1, 0, 0]], atol=1e-12)
+    assert moved.faces is mesh.faces
+    assert not moved.vertices.flags.writeable
+    assert moved == TriangleMesh(moved.vertices, moved.faces)
+    mirrored = mesh.transformed(reflection(vec3(0.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)))
+    assert mirrored.faces.tolist() == [[2, 1, 0]]
+    with pytest.raises(ValueError, match="finite"):
+        mesh.translated(vec3(np.inf, 0.0, 0.0))

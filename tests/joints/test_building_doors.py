@@ -3,10 +3,13 @@
 from dataclasses import replace
 
 import pytest
+import trimesh
 
 from building_scenes import frame, knob, leaf
 from grafu.asset.edit import mirrored
 from grafu.asset.part import Asset
+from grafu.geometry.appearance import Surface
+from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.building_doors import building_door, with_door_labels
 from grafu.joints.motion_choice import FIXED
 from grafu.pipeline.functionalize import functionalize
@@ -139,3 +142,15 @@ def test_the_user_may_fix_a_leaf():
     asset = scene(frame(), leaf(), knob())
     config = PipelineConfig(Settings(motions={"panel": FIXED}))
     assert functionalize(asset, MotionSource.NETWORK, builtin_gallery(), config).object.joints == ()
+
+
+def test_a_leaf_that_is_drawn_open_across_its_frame_stays_and_the_report_states_why():
+    """Its name states a door; which of its edges it turns about cannot be seen from its box."""
+    ajar = leaf(y=(-0.02, 0.02), x=(0.0, 0.8), name="door")
+    turn = trimesh.transformations.rotation_matrix(-0.82, (0, 0, 1), (0.0, 0.0, 0.0))
+    mesh = ajar.mesh.vertices @ turn[:3, :3].T + (0.06, -0.02, 0.0)
+    ajar = replace(ajar, surfaces=(Surface(TriangleMesh(mesh, ajar.mesh.faces)),))
+    made = built(frame(), ajar)
+    assert made.object.joints == ()
+    (line,) = [line for line in report_of(made).verdict.lines if line.part == "door"]
+    assert "drawn open" in line.why

@@ -10,7 +10,6 @@ from grafu.errors import TooComplex
 from grafu.geometry.budget import UNLIMITED
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail
-from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.motion import opening_face
 from grafu.graph.parse import parse_graph
 from grafu.joints.plan import PlanConfig
@@ -28,7 +27,6 @@ from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
-from grafu.vocabulary import JointType, PartLabel
 
 LEFT, RIGHT, FRONT, BACK = "0", "1", "2", "3"
 BACKWARDS = ((FRONT, 0.3), (LEFT, 0.05), (RIGHT, 0.005))
@@ -108,44 +106,6 @@ def test_a_door_on_another_border_opens_to_the_same_face(asset: Asset) -> None:
         assert opening_face(thin, turned.border, turned.sign) == opening_face(thin, hinge.border, hinge.sign)
         words = " ".join(certainty_words(other, hinge.child))
         assert "opens to the front" in words
-
-
-def as_door(asset: Asset, *, guessed: bool = True) -> GraphCompletion:
-    """The rule's completion in which the drawer is a door that hangs on one border; no other is likely."""
-    right = complete_by_rule(parse_graph(asset))
-    rail = right.completed.rails[0]
-    door = rail.child
-    graph = with_edges(relabelled(right.completed, {door: PartLabel.DOOR}), [Hinge(rail.parent, door, 0, 1)])
-    label = (Decision(door, "label", "door", 0.7, "drawer", 0.3),) if guessed else ()
-    border = Decision(door, "border", "0", 1.0, "1", 0.0, others=(("1", 0.0),))
-    others = (d for d in right.decisions if d.part != door)
-    return replace(
-        right, completed=graph, decisions=(*label, border, Decision(door, "sign", "1", 0.9, "0", 0.1), *others)
-    )
-
-
-def test_what_is_guessed_to_be_a_door_and_as_deep_as_a_drawer_slides_where_it_cannot_turn(asset: Asset) -> None:
-    first = as_door(asset)
-    made = built(asset, first)
-    (door,) = (d.part for d in first.decisions if d.question == "label")
-    joint = made.realized.object.joint_of[door]
-    assert (joint.type, joint.axis.direction.tolist()) == (JointType.PRISMATIC, [0.0, -1.0, 0.0])
-    assert joint.limits.upper > 0.2
-    assert made.completion.completed.node(door).label is PartLabel.DRAWER
-    label, slide = (made.completion.decision(door, question) for question in ("label", "slide"))
-    assert label == Decision(door, "label", "drawer", 0.3, "door", 0.7, BY_BOTH)
-    assert slide == Decision(door, "slide", FRONT, 0.9, by=BY_BOTH)
-    assert made.completion.decision(door, "border") is None
-    assert not made.realized.report.skipped
-
-
-def test_a_door_that_is_stated_or_shallow_is_no_drawer(asset: Asset) -> None:
-    stated, guessed = as_door(asset, guessed=False), as_door(asset)
-    (door,) = (d.part for d in guessed.decisions if d.question == "label")
-    blocked = [Refusal(door, Reason.BLOCKED)]
-    assert second_choices(stated, blocked) is None
-    assert second_choices(guessed, blocked) is not None
-    assert second_choices(guessed, blocked, config=PlanConfig(deep=0.99)) is None
 
 
 def test_other_refusals_change_nothing(asset: Asset) -> None:

@@ -13,7 +13,7 @@ from grafu.errors import UnsegmentedAsset
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.config import CreaseConfig
-from grafu.segmentation.creases import back_of, drawn_fronts, front_patches
+from grafu.segmentation.creases import CreasedSurface, back_of, drawn_fronts
 
 FRONT = np.array([0.0, -1.0, 0.0])
 SIZE = (0.6, 0.4, 0.8)
@@ -79,7 +79,8 @@ def test_they_are_found_from_whichever_side_they_look(turn):
 def test_a_surface_that_is_inside_out_is_read_as_it_is_meant():
     mesh = cabinet("groove")
     turned, one = TriangleMesh(mesh.vertices, mesh.faces[:, ::-1]), np.zeros(len(mesh.faces), np.int64)
-    found = [len(np.unique(front_patches(m, one, d, CreaseConfig()))) for m, d in ((mesh, FRONT), (turned, -FRONT))]
+    config, views = CreaseConfig(), ((mesh, FRONT), (turned, -FRONT))
+    found = [len(np.unique(CreasedSurface.of(m, one, config).patches(d, config))) for m, d in views]
     assert found[0] == found[1]
 
 

@@ -10,6 +10,7 @@ import shapely
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import line_crossings
 
 MOST_FACES = 4000
 """Faces of a board that is looked at: finer ones take long."""
@@ -21,6 +22,8 @@ SLIM = 0.5
 """Fraction of its shorter side up to which a board is thick."""
 FREE = 0.6
 """Fraction of a hole's radius that stays free: cuts along the axes leave the corners around a round hole."""
+_FEW = 24  # faces: of no more the union takes no longer than the quick answer
+_NEAR = 0.99 / 2**0.5  # of a circle's diameter: a square grid of this step has a point well within the circle
 
 
 @final
@@ -67,7 +70,10 @@ def holes_through(mesh: TriangleMesh, least: float, widest: float, thickest: flo
     A mesh that is no board (see `is_board`) has none, nor has a grating.
     """
     across = _across(mesh)
-    if not is_board(mesh, thickest) or len(mesh.faces) > MOST_FACES:
+    widest = min(widest, SMALL * float(mesh.box.size[across].min()))
+    if widest <= least or len(mesh.faces) > MOST_FACES or not is_board(mesh, thickest):
+        return ()
+    if len(mesh.faces) > _FEW and _is_covered(mesh, across, least):
         return ()
     flat = shapely.polygons(mesh.triangles[:, :, across])
     covered = shapely.union_all(flat[shapely.area(flat) > 0])
@@ -75,13 +81,28 @@ def holes_through(mesh: TriangleMesh, least: float, widest: float, thickest: flo
     found = []
     for ring in rings:
         circle = shapely.maximum_inscribed_circle(shapely.Polygon(ring))
-        if least <= 2 * circle.length < min(widest, SMALL * float(mesh.box.size[across].min())):
+        if least <= 2 * circle.length < widest:
             middle = mesh.box.center.copy()
             middle[across] = shapely.get_coordinates(circle)[0]
             low, high = middle.copy(), middle.copy()
             low[across], high[across] = np.reshape(ring.bounds, (2, 2))
             found.append(BoardHole(middle, float(circle.length), Box(low, high)))
     return tuple(found) if len(found) <= MOST_HOLES else ()
+
+
+def _is_covered(mesh: TriangleMesh, across: list[int], least: float) -> bool:
+    """Whether the faces of one side lie below every point of a grid that has one in each circle of diameter `least`.
+
+    Then there is no hole: a quick answer, that of most boards.
+    """
+    box = mesh.box
+    seen = mesh.triangles[:, :, [*across, box.thin_axis]]
+    side = np.take(mesh.face_normals, box.thin_axis, axis=1) > 0
+    counts = np.ceil(box.size[across] / (_NEAR * least)).astype(int)
+    first, second = (box.low[k] + (np.arange(n) + 0.5) / n * box.size[k] for k, n in zip(across, counts, strict=True))
+    is_met = np.zeros(len(first) * len(second), dtype=bool)
+    is_met[line_crossings(seen[side], first, second).line] = True
+    return bool(is_met.all())
 
 
 def _across(mesh: TriangleMesh) -> list[int]:

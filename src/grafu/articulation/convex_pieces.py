@@ -13,7 +13,7 @@ from typing import Any, final
 
 import manifold3d
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool
 
 from grafu.articulation.board_holes import BoardHole, holes_through, is_board
 from grafu.articulation.plain_boxes import has_all_corners, is_plain_box
@@ -22,7 +22,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import tidy_parts, welded
 from grafu.geometry.config_checks import require_positive
-from grafu.geometry.face_cuts import halves_of
+from grafu.geometry.halves import halves_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.solids import ConvexSolid, few_corners
@@ -109,11 +109,11 @@ class _Piece:
         mesh, side, tolerance = self.mesh, float(self.mesh.box.size.max()), self.config.tolerance
         if side < 2 * tolerance:
             return None
-        points = _inside_hull(mesh, _grid(mesh.box, tolerance), self.config.speck)
-        depth = _depths(self.caster, points, side, tolerance)
-        if not len(depth) or depth.max() <= tolerance:
-            return None
-        return points[int(np.argmax(depth))]
+        points = _grid(mesh.box, tolerance)
+        depth = _depths(self.caster, points, mesh.box, tolerance)
+        left = np.flatnonzero(depth)
+        left = left[_is_inside_hull(mesh, points[left], self.config.speck)] if len(left) else left
+        return points[left[int(np.argmax(depth[left]))]] if len(left) else None
 
     @cached_property
     def holes(self) -> tuple[BoardHole, ...]:
@@ -209,20 +209,20 @@ def _grid(box: Box, spacing: float) -> Points:
     return grid.reshape(-1, 3)
 
 
-def _inside_hull(mesh: TriangleMesh, points: Points, thickness: float) -> Float[np.ndarray, "k 3"]:
-    """Returns the points inside the hull of a mesh, flat ones thickened (metres); none where it has no hull.
+def _is_inside_hull(mesh: TriangleMesh, points: Points, thickness: float) -> Bool[np.ndarray, " n"]:
+    """Returns which points lie inside the hull of a mesh, flat ones thickened (metres); none where it has no hull.
 
     The points lie well within the mesh's box: of a mesh with a vertex at each corner of its box all are inside.
     """
     if has_all_corners(mesh):
-        return points
+        return np.ones(len(points), dtype=np.bool_)
     from scipy.spatial import ConvexHull, QhullError  # local: it takes 0.3 s to import, and not all need a hull
 
     try:
         planes = ConvexHull(_thickened(few_corners(mesh.vertices, _HULL_CORNERS), thickness)).equations
     except (QhullError, ValueError):
-        return points[:0]
-    return points[np.all(points @ planes[:, :3].T <= -planes[:, 3] - 1e-6, axis=1)]
+        return np.zeros(len(points), dtype=np.bool_)
+    return np.asarray((points @ planes[:, :3].T <= -planes[:, 3] - 1e-6).all(axis=1))
 
 
 def _looks(caster: RayCaster, points: Points) -> np.ndarray:
@@ -231,14 +231,15 @@ def _looks(caster: RayCaster, points: Points) -> np.ndarray:
     return caster.distances(origins, directions).reshape(-1, 6)
 
 
-def _depths(caster: RayCaster, points: Points, most: float, least: float) -> Scalars:
-    """Returns how far each point is from any face, at most `most`; 0 where no direction leads out.
+def _depths(caster: RayCaster, points: Points, box: Box, least: float) -> Scalars:
+    """Returns how far each point is from any face, at most a box's largest side; 0 where no direction leads out.
 
-    Of what is no farther than `least` it is enough to find one face: it may be given 0, too.
+    Of what is no farther than `least` it is enough to find one face: it is given 0, too. Most is found across the
+    thinnest side of the box.
     """
-    depth, leads_out = np.full(len(points), most), np.zeros(len(points), dtype=bool)
+    depth, leads_out = np.full(len(points), float(box.size.max())), np.zeros(len(points), dtype=bool)
     left = np.arange(len(points))
-    for direction in _DIRECTIONS:
+    for direction in _DIRECTIONS[np.argsort(np.repeat(box.size, 2), kind="stable")]:
         seen = caster.along(points[left], direction)
         depth[left] = np.minimum(depth[left], seen)
         leads_out[left] |= np.isinf(seen)

@@ -14,7 +14,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Link
 from grafu.articulation.build_material import DEFAULT_MASS_CONFIG, MassConfig, builds_of
-from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, cross, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, cross, freeze_arrays, renumbered
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.components import Patches, patches_of
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
@@ -63,7 +63,9 @@ def moments_of(
     if not len(patches.faces):
         return NO_MOMENTS
     triangles = mesh.vertices[patches.faces]
-    R = rotation_matrix(np.array([0.0, 0.0, 1.0]), yaw_of(mesh.vertices[np.unique(patches.faces)]))
+    R = rotation_matrix(
+        np.array([0.0, 0.0, 1.0]), yaw_of(mesh.vertices[renumbered(patches.faces, len(mesh.vertices))[0]])
+    )
     sides = _sides(triangles @ R, patches)
     boxes, shell = _box_volumes(sides, thickness, flat), _shell_thickness(sides, thickness, flat)
     sums, spreads = triangles.sum(axis=1), _spreads(triangles)

@@ -16,7 +16,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import read_with_trimesh
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
-from grafu.geometry.arrays import Points
+from grafu.geometry.arrays import Points, first_of_each
 from grafu.geometry.mesh import TriangleMesh
 
 
@@ -187,7 +187,7 @@ def surface_of_corners(
         keys = keys * len(uv) + corners[:, 1]
     if has_normals:
         keys = keys * len(normals) + corners[:, 2]
-    _, first, index = np.unique(keys, return_index=True, return_inverse=True)
+    first, index = first_of_each(keys)
     used = corners[first]
     units = _unit(normals[used[:, 2]]) if has_normals else None
     mesh = TriangleMesh(vertices[used[:, 0]], index.reshape(-1, 3))

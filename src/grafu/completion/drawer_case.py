@@ -8,13 +8,11 @@ from typing import final
 
 import numpy as np
 
-from grafu.asset.part import Asset
-from grafu.completion.ways_out import rest_of
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.raycast import RayCaster
 from grafu.graph.edges import SignedAxis
-from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import code_to_direction, signed_axis
 
 
@@ -44,34 +42,35 @@ _UP = np.linspace(0.25, 0.75, 3)  # and from below to above
 
 
 def is_without_case(
-    drawer: PartNode, slide: SignedAxis, asset: Asset, graph: FunctionalGraph, config: CaseConfig = CaseConfig()
+    drawer: Box, slide: SignedAxis, rest: RayCaster, whole: Box, config: CaseConfig = CaseConfig()
 ) -> bool:
     """Whether a drawer that slides level along `slide` has both its sides open, and what is above it.
 
-    A drawer that is only a front needs something below it, too: a box may hang from what is above.
+    `rest` is all but the drawer. One that is only a front needs something below it, too: a box may hang from what is
+    above.
     """
-    axis, starts = slide // 2, _starts(drawer.box, slide, asset.box, config)
+    axis, starts = slide // 2, _starts(drawer, slide, whole, config)
     if axis == 2:
         return False
-    caster = rest_of(asset, drawer.id, graph)
 
     def is_open(side: int, positive: bool) -> bool:
-        clear = caster.is_clear(starts, code_to_direction(signed_axis(side, positive)))
+        clear = rest.is_clear(starts, code_to_direction(signed_axis(side, positive)))
         return bool(1.0 - clear.mean() < config.open)
 
     if not (is_open(1 - axis, positive=False) and is_open(1 - axis, positive=True)):
         return False
-    return is_open(2, positive=True) or (_is_plate(drawer.box, axis, config) and is_open(2, positive=False))
+    return is_open(2, positive=True) or (is_front_only(drawer, axis, config) and is_open(2, positive=False))
 
 
-def _is_plate(box: Box, axis: int, config: CaseConfig) -> bool:
+def is_front_only(box: Box, axis: int, config: CaseConfig = CaseConfig()) -> bool:
+    """Whether a drawer that slides along a level axis is only a front: nothing is behind it that could hold things."""
     return bool(box.size[axis] < config.plate * box.size[1 - axis])
 
 
 def _starts(box: Box, slide: SignedAxis, whole: Box, config: CaseConfig) -> Points:
     """Returns where rays start: inside a drawer, or in the room that its box would take behind a front."""
     axis, low, size = slide // 2, box.low.copy(), box.size.copy()
-    if axis != 2 and _is_plate(box, axis, config):
+    if axis != 2 and is_front_only(box, axis, config):
         size[axis] = config.behind * whole.size[axis]
         low[axis] = box.high[axis] - size[axis] if slide % 2 else box.low[axis]
     along = 1.0 - _ALONG if slide % 2 else _ALONG

@@ -1,4 +1,4 @@
-"""Which parts that are only guessed to be doors or drawers stay static: what carries others, and weak guesses.
+"""Which parts that are only guessed to be doors or drawers stay static: by shape, by what they carry, or as too weak.
 
 A label that the input states is no guess.
 """
@@ -10,14 +10,14 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.completion.drawer_case import is_without_case
+from grafu.completion.guessed_shapes import shape_against
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import triangle_bounds
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail
-from grafu.graph.edit import relabelled, without_nodes
+from grafu.graph.edit import relabelled, without_edges, without_nodes
 from grafu.graph.functional_graph import PartNode
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
@@ -71,6 +71,7 @@ def _with_static(completion: GraphCompletion, doubtful: Sequence[Refusal]) -> Gr
     """Returns the completion in which the parts that are refused stay static."""
     still, graph = {refusal.part for refusal in doubtful}, completion.completed
     gone = {e.child for e in graph.attachments if e.parent in still and e.child in completion.added}
+    rest = without_edges(graph, [edge for edge in graph.motions if edge.child in still])
 
     def is_kept(decision: Decision) -> bool:
         is_moot = decision.part in gone or (decision.question == "parent" and decision.choice in still)
@@ -78,7 +79,7 @@ def _with_static(completion: GraphCompletion, doubtful: Sequence[Refusal]) -> Gr
 
     return replace(
         completion,
-        completed=relabelled(without_nodes(graph, gone), dict.fromkeys(still, PartLabel.MISC)),
+        completed=relabelled(without_nodes(rest, gone), dict.fromkeys(still, PartLabel.MISC)),
         added=tuple(name for name in completion.added if name not in gone),
         decisions=tuple(_as_static(d) if d.part in still else d for d in completion.decisions if is_kept(d)),
         refused=(*(refusal for refusal in completion.refused if refusal.part not in still | gone), *doubtful),
@@ -97,17 +98,19 @@ def static_guesses(
 ) -> Iterator[Refusal]:
     """Yields a refusal for each part that is only guessed to be a door or drawer, and stays static.
 
-    What the input has a handle on moves as it is predicted.
+    What the input has a handle on moves as it is predicted, unless no door or drawer has its shape.
     """
     graph = completion.completed
     labelled = ((d, graph.node(d.part)) for d in completion.decisions if d.question == "label")
-    guesses = [(d, node) for d, node in labelled if node.label.is_movable and not _is_held(node, completion)]
+    guesses = [(d, node) for d, node in labelled if node.label.is_movable]
     bounds = {part.id: _Bounds.of(part) for part in asset.parts} if guesses else {}
     for guess, node in guesses:
-        taken = f"it is taken for a {node.label} ({guess.score:.0%})"
-        if carried := _carried(node, completion, bounds, asset.box, config):
+        taken, is_held = f"it is taken for a {node.label} ({guess.score:.0%})", _is_held(node, completion)
+        if not is_held and (carried := _carried(node, completion, bounds, asset.box, config)):
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but {carried} stands on it and on nothing else")
-        elif why := _unlikely(node, guess, completion, config) or _uncased(node, completion, asset):
+        elif (not is_held and (why := _unlikely(node, guess, completion, config))) or (
+            why := shape_against(node, asset, graph, is_held)
+        ):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but {why}")
 
 
@@ -126,15 +129,6 @@ def _unlikely(node: PartNode, guess: Decision, completion: GraphCompletion, conf
     if decision is None or decision.score >= least:
         return ""
     return f"which way it would open is not clear ({decision.score:.0%})"
-
-
-def _uncased(node: PartNode, completion: GraphCompletion, asset: Asset) -> str:
-    """Returns in words that nothing could hold a drawer; empty where something could."""
-    rail = next((rail for rail in completion.completed.rails if rail.child == node.id), None)
-    if rail is None:
-        return ""
-    open_around = is_without_case(node, rail.axis, asset, completion.completed)
-    return "nothing that could hold it is beside it, or above and below" if open_around else ""
 
 
 def _carried(

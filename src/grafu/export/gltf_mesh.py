@@ -14,7 +14,7 @@ from grafu.export.gltf_buffer import VERTEX_DATA, GltfBuffer
 from grafu.export.gltf_packing import DracoConfig, add_packed
 from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Material, Surface, Texture
-from grafu.geometry.arrays import Points, Vec3
+from grafu.geometry.arrays import Points, Vec3, first_of_each
 
 _REPEATING = {"wrapS": 10497, "wrapT": 10497}
 
@@ -146,7 +146,9 @@ def _split(surface: Surface, corners: np.ndarray, normals: int) -> tuple[np.ndar
     faces = surface.mesh.faces
     whole = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
     faces, corners = (faces, corners) if whole.all() or not whole.any() else (faces[whole], corners[whole])
-    keys, index = np.unique(faces.ravel() * normals + corners.ravel(), return_inverse=True)
+    each = faces.ravel() * normals + corners.ravel()
+    first, index = first_of_each(each)
+    keys = each[first]
     return keys // normals, keys % normals, index.reshape(faces.shape)
 
 

@@ -16,7 +16,7 @@ from grafu.export.names import NameBook
 from grafu.export.output_names import file_safe
 from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Material, Surface, Texture
-from grafu.geometry.arrays import Indices, Vec3
+from grafu.geometry.arrays import Indices, Vec3, first_of_each
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 
@@ -128,8 +128,7 @@ def _distinct(rows: np.ndarray) -> tuple[np.ndarray, Indices]:
     """Returns the rows without repetition, and the number of each row's like: files become shorter by far."""
     bits = np.ascontiguousarray(rows, dtype=np.float64).view(np.uint64)
     keys = (bits ^ (bits >> np.uint64(32))) @ _MULTIPLIERS[: bits.shape[1]]
-    _, first, number = np.unique(keys, return_index=True, return_inverse=True)
-    number = number.reshape(-1)
+    first, number = first_of_each(keys)
     if not np.array_equal(rows[first][number], rows):  # two rows of one key: it never was seen, but must not be wrong
         return rows, np.arange(len(rows))
     return rows[first], number

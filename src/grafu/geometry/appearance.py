@@ -5,13 +5,13 @@ Some faces of a surface, and several surfaces of one material as one, keep their
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Literal, final
 
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat4, Points, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Mat4, Points, frozen_array, renumbered
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 
 
@@ -85,9 +85,15 @@ class Surface(ArrayValue):
         """Returns the surface mapped by T, normals turned with it."""
         normals = self.normals
         if normals is not None:
-            mapped = normals @ np.linalg.inv(T[:3, :3])
-            normals = mapped / np.maximum(np.linalg.norm(mapped, axis=1, keepdims=True), 1e-300)
+            mapped = normals @ _inverse(T[:3, :3].tobytes())
+            normals = mapped / np.maximum(np.sqrt(np.add.reduce(mapped * mapped, axis=1, keepdims=True)), 1e-300)
+            normals.setflags(write=False)  # they need not be copied
         return Surface(self.mesh.transformed(T), self.material, self.uv, normals, self.colors, self.name)
+
+
+@lru_cache(maxsize=64)  # the surfaces of one thing are mapped one after another
+def _inverse(linear: bytes) -> Mat3:
+    return frozen_array(np.linalg.inv(np.frombuffer(linear).reshape(3, 3)))
 
 
 _WIDTHS = {"uv": 2, "normals": 3, "colors": 4}
@@ -96,8 +102,8 @@ _WIDTHS = {"uv": 2, "normals": 3, "colors": 4}
 def selected(surface: Surface, faces: Indices) -> Surface:
     """Returns the surface of some faces, given by number; vertices that none of them uses are dropped."""
     kept = surface.mesh.faces[faces]
-    used, index = np.unique(kept, return_inverse=True)
-    mesh = TriangleMesh(surface.mesh.vertices[used], index.reshape(kept.shape))
+    used, index = renumbered(kept, len(surface.mesh.vertices))
+    mesh = TriangleMesh(surface.mesh.vertices[used], index)
     uv, normals, colors = (None if a is None else a[used] for a in (surface.uv, surface.normals, surface.colors))
     return replace(surface, mesh=mesh, uv=uv, normals=normals, colors=colors)
 
@@ -110,7 +116,7 @@ def attribute_rows(surface: Surface) -> Float[np.ndarray, "n k"]:
 
 def from_attributes(like: Surface, rows: Float[np.ndarray, "n k"], faces: Faces) -> Surface:
     """Returns a surface like the given one from rows as `attribute_rows` makes them; those that no face uses go."""
-    used, index = np.unique(faces, return_inverse=True)
+    used, index = renumbered(faces, len(rows))
     rows, at = rows[used], 3
     found: dict[str, Any] = {}
     for name, width in _WIDTHS.items():
@@ -122,7 +128,7 @@ def from_attributes(like: Surface, rows: Float[np.ndarray, "n k"], faces: Faces)
         )
     if "colors" in found:
         found["colors"] = np.clip(np.round(found["colors"]), 0, 255).astype(np.uint8)
-    return replace(like, mesh=TriangleMesh(rows[:, :3], index.reshape(faces.shape)), **found)
+    return replace(like, mesh=TriangleMesh(rows[:, :3], index), **found)
 
 
 def joined(like: Surface, pieces: Sequence[Surface]) -> Surface:

@@ -8,7 +8,7 @@ from hashlib import blake2b
 from typing import Any, ClassVar
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float, Int, Integer
 
 Vec3 = Float[np.ndarray, "3"]
 Vec2 = Float[np.ndarray, "2"]
@@ -78,6 +78,35 @@ def row_keys(triples: np.ndarray) -> Indices:
     """Returns one 64-bit key for each row of three integers."""
     # odd multipliers of no pattern make two rows of one key practically impossible
     return triples @ np.array([0x1E3779B97F4A7C15, 0x42B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.int64)
+
+
+_SPARSE = 8  # times as many rows as are named: then to sort the names is quicker
+
+
+def renumbered(named: Int[np.ndarray, "*_"], count: int) -> tuple[Indices, Int[np.ndarray, "*_"]]:
+    """Returns which of `count` rows are named, rising, and the number of each named one among them, shaped as `named`.
+
+    It is `numpy.unique` of whole numbers without sorting.
+    """
+    if _SPARSE * named.size < count:
+        rows, number = np.unique(named, return_inverse=True)
+        return rows, number.reshape(named.shape)
+    is_named = np.zeros(count, dtype=bool)
+    is_named[named] = True
+    return np.flatnonzero(is_named), (np.cumsum(is_named) - 1)[named]
+
+
+def first_of_each(keys: Integer[np.ndarray, " n"]) -> tuple[Int[np.ndarray, " m"], Indices]:
+    """Returns where each distinct key comes first, by rising keys, and for each key the number of its like.
+
+    It is what `numpy.unique` gives; of many keys in a third of the time.
+    """
+    order = np.argsort(keys)
+    rising = keys[order]
+    is_new = np.append(np.ones(min(1, len(keys)), dtype=bool), rising[1:] != rising[:-1])
+    starts, number = np.flatnonzero(is_new), np.empty(len(keys), np.int64)
+    number[order] = np.cumsum(is_new) - 1
+    return (np.minimum.reduceat(order, starts) if len(starts) else starts), number
 
 
 class ArrayValue:

@@ -1,12 +1,15 @@
 """A line in space with a sense: the axis of a joint."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import final
 
 import numpy as np
 
 from grafu.geometry.arrays import ArrayValue, Mat4, Points, Scalars, Vec3, frozen_array
 from grafu.geometry.transform import is_mirror, rotation_about, transform_direction, transform_points, translation
+
+_REMEMBERED = 4096  # rotations: those of a few doors
 
 
 @final
@@ -33,8 +36,8 @@ class Axis(ArrayValue):
         object.__setattr__(self, "direction", frozen_array(unit))
 
     def rotation(self, angle: float) -> Mat4:
-        """Returns the rotation by `angle` radians about this axis."""
-        return rotation_about(self.point, self.direction, angle)
+        """Returns the rotation by `angle` radians about this axis, read-only: sweep after sweep asks for the same."""
+        return _rotation(self.point.tobytes(), self.direction.tobytes(), float(angle))
 
     def shift(self, distance: float) -> Mat4:
         """Returns the translation by `distance` metres along this axis."""
@@ -77,3 +80,8 @@ class Axis(ArrayValue):
     def closest_point(self, point: Vec3) -> Vec3:
         """Returns the point of the line nearest to `point`."""
         return self.point + self.direction * float((point - self.point) @ self.direction)
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _rotation(point: bytes, direction: bytes, angle: float) -> Mat4:
+    return frozen_array(rotation_about(np.frombuffer(point), np.frombuffer(direction), angle))

@@ -221,7 +221,8 @@ def _outer(flat: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "m 2"]:
     """Returns the points without what lies within those that are outermost in 16 directions."""
     corners = flat[np.argmax(flat @ _AHEAD, axis=0)]
     sides, outside = np.roll(corners, -1, axis=0) - corners, np.zeros(len(flat), dtype=bool)
-    for (x, y), (u, v) in zip(corners, sides, strict=True):
+    is_side = sides.any(axis=1)  # of a board four of the sixteen
+    for (x, y), (u, v) in zip(corners[is_side].tolist(), sides[is_side].tolist(), strict=True):
         outside |= u * (flat[:, 1] - y) < v * (flat[:, 0] - x)
     return np.concatenate([corners, flat[outside]])
 

@@ -93,7 +93,7 @@ def share_shape(copy: TriangleMesh, original: TriangleMesh, T: Mat4) -> None:
 def _built(mesh: TriangleMesh) -> MeshTree:
     faces = len(mesh.faces)
     stand_in = repeated_faces(mesh) if faces > _MANY else None
-    kept = np.arange(faces) if stand_in is None else np.unique(stand_in)
+    kept = np.arange(faces) if stand_in is None else np.flatnonzero(stand_in == np.arange(faces))
     corners, is_used = mesh.faces[kept], np.zeros(len(mesh.vertices), dtype=bool)
     is_used[corners] = True  # FCL takes one vertex after the other: only those that it needs
     number = np.cumsum(is_used) - 1

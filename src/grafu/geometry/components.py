@@ -12,7 +12,19 @@ from typing import final
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, Scalars, cross, freeze_arrays, row_keys
+from grafu.geometry.arrays import (
+    ArrayValue,
+    Faces,
+    Indices,
+    Mat3,
+    Points,
+    Scalars,
+    cross,
+    first_of_each,
+    freeze_arrays,
+    renumbered,
+    row_keys,
+)
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 
 _OF_PIECE = 0x7F4A7C159E3779B9  # an odd multiplier of no pattern, as in `row_keys`
@@ -90,8 +102,8 @@ def part_numbers(mesh: TriangleMesh) -> Indices:
     count = int(position.max()) + 1
     ends = (np.concatenate([position[:, 0], position[:, 1]]), np.concatenate([position[:, 1], position[:, 2]]))
     label = linked(count, *ends)[position[:, 0]]
-    _, first, number = np.unique(label, return_index=True, return_inverse=True)
-    return np.argsort(np.argsort(first))[number.reshape(-1)].astype(np.int64)
+    first, number = first_of_each(label)
+    return np.argsort(np.argsort(first))[number].astype(np.int64)
 
 
 def faces_of_parts(numbers: Indices) -> list[Int[np.ndarray, " _"]]:
@@ -109,8 +121,8 @@ def repeated_faces(mesh: TriangleMesh) -> Indices:
 
 def _first_alike(position: Faces) -> Indices:
     corners = np.sort(position, axis=1)
-    _, first, number = np.unique(row_keys(corners), return_index=True, return_inverse=True)
-    return first[number.reshape(-1)]
+    first, number = first_of_each(row_keys(corners))
+    return first[number]
 
 
 def connected_parts(mesh: TriangleMesh) -> list[TriangleMesh]:
@@ -147,16 +159,15 @@ def clustered(mesh: TriangleMesh, cell: float) -> TriangleMesh:
     """
     if not len(mesh.faces):
         return mesh
-    used, faces = np.unique(mesh.faces, return_inverse=True)
-    faces = faces.reshape(-1, 3)
+    used, faces = renumbered(mesh.faces, len(mesh.vertices))
     points, piece = mesh.vertices[used], np.empty(len(used), np.int64)
     piece[faces] = part_numbers(mesh)[:, None]
     outwards = (np.abs(points - mesh.box.center) / np.maximum(mesh.box.half, 1e-12)).max(axis=1)
     order = np.argsort(-outwards, kind="stable")
     keys = _cells(points, cell) + piece * _OF_PIECE
-    _, first, number = np.unique(keys[order], return_index=True, return_inverse=True)
+    first, number = first_of_each(keys[order])
     position = np.empty(len(used), np.int64)
-    position[order] = number.reshape(-1)
+    position[order] = number
     corners = position[faces]
     return TriangleMesh(points[order[first]], corners[_distinct(corners)])
 
@@ -170,7 +181,7 @@ def _distinct(position: Faces) -> Indices:
     """Returns the indices of faces with three different corners, one for each set of corners, in order."""
     corners = np.sort(position, axis=1)
     whole = np.flatnonzero((corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]))
-    first = np.unique(row_keys(corners[whole]), return_index=True)[1]
+    first = first_of_each(row_keys(corners[whole]))[0]
     return whole[np.sort(first)]
 
 

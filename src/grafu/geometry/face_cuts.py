@@ -17,9 +17,8 @@ import manifold3d
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from grafu.geometry.arrays import Points, Vec3, vec3
+from grafu.geometry.arrays import Indices, Points, vec3
 from grafu.geometry.budget import require_room, require_time
-from grafu.geometry.mesh import TriangleMesh
 
 _ROUNDED = 1e-7  # outlines come with corners rounded to 1e-8: triangles thinner than that may be turned over
 
@@ -100,54 +99,6 @@ def _cut_corner(triangles: np.ndarray, side: np.ndarray, lone: np.ndarray) -> tu
     return single, pair
 
 
-_ON_PLANE = 1e-8  # metres
-
-
-def half_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> TriangleMesh:
-    """Returns what lies beyond a plane, on the side of its `normal`; of faces on it, those that look back across it."""
-    return _half(mesh, _sides(mesh, normal, origin), normal, origin)
-
-
-def halves_of(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> tuple[TriangleMesh, TriangleMesh]:
-    """Returns what `half_of` does, and the rest: the same of the opposite normal."""
-    side = _sides(mesh, normal, origin)
-    return _half(mesh, side, normal, origin), _half(mesh, -side, -normal, origin)
-
-
-def _sides(mesh: TriangleMesh, normal: Vec3, origin: Vec3) -> Int[np.ndarray, "m 3"]:
-    """Returns for each face's corners whether they lie beyond a plane (1), before it (-1) or on it (0)."""
-    height = (mesh.vertices - origin) @ normal
-    return ((height > _ON_PLANE).astype(np.int8) - (height < -_ON_PLANE).astype(np.int8))[mesh.faces]
-
-
-def _half(mesh: TriangleMesh, side: Int[np.ndarray, "m 3"], normal: Vec3, origin: Vec3) -> TriangleMesh:
-    is_beyond, is_before = side > 0, side < 0
-    beyond, before = (each[:, 0].astype(np.int8) + each[:, 1] + each[:, 2] for each in (is_beyond, is_before))
-    whole = (before == 0) & ((beyond > 0) | (mesh.face_normals @ normal < 0))
-    lone_before, lone_beyond = (before == 1) & (beyond == 2), (beyond == 1) & (before > 0)
-    quads, quad_ends = _cut_around(mesh, lone_before, is_before, normal, origin)
-    tips, tip_ends = _cut_around(mesh, lone_beyond, is_beyond, normal, origin)
-    ends = len(mesh.vertices) + np.arange(2 * (len(quads) + len(tips))).reshape(-1, 2)
-    (into, out), (a, b) = ends[: len(quads)].T, ends[len(quads) :].T
-    corners = ((quads[:, 1], quads[:, 2], into), (into, out, quads[:, 1]), (tips[:, 0], a, b))
-    faces = np.concatenate([mesh.faces[whole], *(np.stack(three, axis=1) for three in corners)])
-    used, index = np.unique(faces, return_inverse=True)
-    points = np.concatenate([mesh.vertices, quad_ends[:, ::-1].reshape(-1, 3), tip_ends.reshape(-1, 3)])
-    return TriangleMesh(points[used], index.reshape(-1, 3))
-
-
-def _cut_around(
-    mesh: TriangleMesh, cut: np.ndarray, is_lone: np.ndarray, normal: Vec3, origin: Vec3
-) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the corners of the cut faces, the lone one first, and where a plane cuts the edges from and to it."""
-    order = (np.argmax(is_lone[cut], axis=1)[:, None] + np.arange(3)) % 3
-    corners = np.take_along_axis(mesh.faces[cut], order, axis=1)
-    start, end = mesh.vertices[corners[:, [0, 2]]], mesh.vertices[corners[:, [1, 0]]]
-    along = end - start
-    ratio = ((origin - start) @ normal) / (along @ normal)
-    return corners, ratio[..., None] * along + start
-
-
 _MOST_PAIRS = 5_000  # of a face and a solid at once
 _MOST_PIECES = 64  # of what is clipped of one face by one solid, before it is made a polygon again
 _PAIR_BYTES = 16
@@ -155,8 +106,8 @@ _PAIR_BYTES = 16
 
 def left_over(
     triangles: Float[np.ndarray, "n 3 k"], near: Sequence[np.ndarray], planes: Sequence[np.ndarray]
-) -> tuple[Float[np.ndarray, "m 3 k"], Bool[np.ndarray, " n"]]:
-    """Returns what is left of the triangles that lose something, and which those are.
+) -> tuple[Float[np.ndarray, "m 3 k"], Int[np.ndarray, " m"], Bool[np.ndarray, " n"]]:
+    """Returns what is left of the triangles that lose something, each with the number of its own, and which those are.
 
     Args:
         triangles: rows of corner attributes, of which the first three are the position.
@@ -171,13 +122,16 @@ def left_over(
     solid = np.repeat(np.arange(len(near)), [len(n) for n in near])
     padded = _padded(planes)
     by_one, by_several, is_cut = [triangles[:0]], [triangles[:0]], np.zeros(len(triangles), dtype=bool)
+    of_one, of_several = [face[:0]], [face[:0]]
     for first, last in _batches(np.bincount(face, minlength=len(triangles))):
         pairs = (face >= first) & (face < last)
-        one, several, cut = _left_of_batch(triangles[first:last], face[pairs] - first, padded, solid[pairs])
-        by_one.append(one)
-        by_several += several
-        is_cut[first:last] = cut
-    return np.concatenate([*by_one, *by_several]), is_cut
+        left = _left_of_batch(triangles[first:last], face[pairs] - first, padded, solid[pairs])
+        by_one.append(left.by_one)
+        of_one.append(first + left.of_one)
+        by_several += left.by_several
+        of_several += [np.full(len(rest), first + k) for k, rest in zip(left.of_several, left.by_several, strict=True)]
+        is_cut[first:last] = left.is_cut
+    return np.concatenate([*by_one, *by_several]), np.concatenate([*of_one, *of_several]), is_cut
 
 
 def _batches(counts: np.ndarray) -> Iterator[tuple[int, int]]:
@@ -191,19 +145,29 @@ def _batches(counts: np.ndarray) -> Iterator[tuple[int, int]]:
         first = last
 
 
-def _left_of_batch(
-    triangles: np.ndarray, face: np.ndarray, planes: np.ndarray, solid: np.ndarray
-) -> tuple[np.ndarray, list[np.ndarray], np.ndarray]:
-    """Returns what one solid each leaves of triangles, what several do, and which triangles lose something."""
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class _Left:
+    """What one solid each leaves of triangles, and what several do, with their numbers; which lose something."""
+
+    by_one: Float[np.ndarray, "m 3 k"]
+    of_one: Int[np.ndarray, " m"]
+    by_several: list[np.ndarray]
+    of_several: list[int]
+    is_cut: Bool[np.ndarray, " n"]
+
+
+def _left_of_batch(triangles: np.ndarray, face: np.ndarray, planes: np.ndarray, solid: np.ndarray) -> _Left:
     taken = _taken(triangles[face], planes, solid)
     times = np.bincount(face[taken.hit], minlength=len(triangles))
     gone = np.zeros(len(triangles), dtype=bool)  # of which one solid leaves nothing
     gone[face[taken.hit & taken.is_whole]] = True
     alone = taken.hit & (times[face] == 1)
-    by_one = _outside(triangles[face[alone]], planes, solid[alone])
+    by_one, of_one = _outside(triangles[face[alone]], planes, solid[alone])
     holes = _holes(face, taken, times > 1)
     several = np.flatnonzero((times > 1) & ~gone).tolist()
-    return by_one, [remainder(triangles[k, :, :3], holes[k]) @ triangles[k] for k in several], times > 0
+    rests = [remainder(triangles[k, :, :3], holes[k]) @ triangles[k] for k in several]
+    return _Left(by_one, face[alone][of_one], rests, several, times > 0)
 
 
 @final
@@ -233,16 +197,17 @@ def _taken(inside: np.ndarray, planes: np.ndarray, solid: np.ndarray) -> _Taken:
     return _Taken(inside, owner, hit, is_whole)
 
 
-def _outside(inside: np.ndarray, planes: np.ndarray, solid: np.ndarray) -> np.ndarray:
-    """Returns what is left of triangles when each is cut by one solid."""
+def _outside(inside: np.ndarray, planes: np.ndarray, solid: np.ndarray) -> tuple[np.ndarray, Indices]:
+    """Returns what is left of triangles when each is cut by one solid, and the number of each one's triangle."""
     count, owner = len(inside), np.arange(len(inside))
-    kept = [inside[:0]]
+    kept, whose = [inside[:0]], [owner[:0]]
     for k in range(planes.shape[1]):
         require_time()
-        inside, owner, outside, _ = split_by_planes(inside, owner, planes[solid[owner], k])
+        inside, owner, outside, outside_owner = split_by_planes(inside, owner, planes[solid[owner], k])
         kept.append(outside)
+        whose.append(outside_owner)
         inside, owner = _merged(inside, owner, count)
-    return np.concatenate(kept)
+    return np.concatenate(kept), np.concatenate(whose)
 
 
 def _merged(inside: np.ndarray, owner: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:

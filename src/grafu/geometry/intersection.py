@@ -5,12 +5,13 @@ pass through one another cut surfaces, which is what is asked here.
 """
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import final
 
 import fcl
 import numpy as np
 
-from grafu.geometry.arrays import Mat3, Mat4, Vec3
+from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.bvh import model_of
@@ -36,10 +37,15 @@ class MeshCollider:
         self._low, self._high = mesh.box.low.tolist(), mesh.box.high.tolist()
         self._turned: tuple[bytes, tuple[float, ...], tuple[float, ...]] | None = None
         self._pose: tuple[Mat3, Vec3] | None = None
+        self._set: bytes = b""  # the rotation that the FCL object has
         self._made: fcl.CollisionObject | None = None
         self._start: Mat4 | None = None
         self._number: int | None = None
         self._is_at_rest = True
+
+    @cached_property
+    def _corners(self) -> Points:
+        return self.box.corners()
 
     @property
     def number(self) -> int | None:
@@ -60,9 +66,18 @@ class MeshCollider:
             R, t = self._pose
             if self._start is not None:
                 R, t = R @ self._start[:3, :3], R @ self._start[:3, 3] + t
-            self._made.setTransform(fcl.Transform(R, t))
+            if (rotation := R.tobytes()) == self._set:
+                self._made.setTranslation(t)  # a tenth of the time
+            else:
+                self._made.setTransform(fcl.Transform(R, t))
+                self._set = rotation
             self._pose = None
         return self._made
+
+    @property
+    def is_prepared(self) -> bool:
+        """Whether the BVH is there."""
+        return self._made is not None
 
     def place(self, T: Mat4, shift: Vec3 | None = None) -> None:
         """Poses the mesh at T, then moved by `shift` metres."""
@@ -70,7 +85,7 @@ class MeshCollider:
         self._pose, self._is_at_rest = (T[:3, :3], offset), False
         key = T[:3, :3].tobytes()  # what slides is not turned anew at each pose
         if self._turned is None or self._turned[0] != key:
-            x, y, z = zip(*(self.box.corners() @ T[:3, :3].T).tolist(), strict=True)
+            x, y, z = zip(*(self._corners @ T[:3, :3].T).tolist(), strict=True)
             self._turned = key, (min(x), min(y), min(z)), (max(x), max(y), max(z))
         (_, low, high), (x, y, z) = self._turned, offset.tolist()  # plain numbers, as in `is_apart`
         self._low, self._high = [low[0] + x, low[1] + y, low[2] + z], [high[0] + x, high[1] + y, high[2] + z]
@@ -158,13 +173,19 @@ class SweptBody:
     ) -> None:
         axes = np.eye(3) if rotation is None else rotation
         self._plain = [MeshCollider(piece) for piece in pieces or (mesh,)]
-        self._shrunk = MeshCollider(shrunk(mesh, depth, axes))
+        self._whole = mesh, depth, axes
         self._T: Mat4 = np.eye(4)
         self._pose = 0
         self._poses: dict[bytes, int] = {np.eye(4).tobytes(): 0}
         self._known: dict[tuple[int, int, int], bool] = {}
+        self._is_core_first: dict[int, bool] = {}  # by pose: once it is prepared the core, which meets less, is first
         self._shifts = [sign * depth * axes[:, k] for k in range(3) for sign in (-1.0, 1.0)]
         self._latest = 0
+
+    @cached_property
+    def _shrunk(self) -> MeshCollider:
+        """What counts as penetrating; most bodies come near nothing."""
+        return MeshCollider(shrunk(*self._whole))
 
     def place(self, T: Mat4) -> None:
         """Poses the body at T for the queries that follow."""
@@ -206,11 +227,16 @@ class SweptBody:
 
         They count together: a body wedged between two obstacles comes free of each in some direction, of both in none.
         """
-        if not self._touches_any(obstacles):
+        if all(piece.is_apart(obstacle) for obstacle in obstacles for piece in self._plain):
             return []
         self._shrunk.place(self._T)
+        if all(self._shrunk.is_apart(obstacle) for obstacle in obstacles):
+            return []
+        core_first = self._is_core_first.setdefault(self._pose, len(self._plain) == 1 and self._shrunk.is_prepared)
+        if not core_first and not self._touches_any(obstacles):
+            return []
         met = [k for k, obstacle in enumerate(obstacles) if self._core_meets(0, obstacle)]
-        if not met:
+        if not met or (core_first and not self._touches_any(obstacles)):
             return []
         order = (*met, *(k for k in range(len(obstacles)) if k not in met))  # what was met is likely met again
         for step, shift in enumerate(self._shifts, 1):
@@ -232,6 +258,8 @@ class SweptBody:
     def cutting_faces(self, obstacles: Sequence[MeshCollider]) -> set[int]:
         """Returns the numbers of the body's faces that, as posed, cut into the obstacles."""
         met = self.penetrated(obstacles)
+        if not met:
+            return set()
         self._shrunk.place(self._T)
         return set().union(*(self._shrunk.faces_in_contact(obstacles[k]) for k in met))
 

@@ -10,7 +10,19 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 
-from grafu.geometry.arrays import ArrayValue, Faces, Mat3, Mat4, Points, Scalars, Vec3, cross, frozen_array, row_keys
+from grafu.geometry.arrays import (
+    ArrayValue,
+    Faces,
+    Mat3,
+    Mat4,
+    Points,
+    Scalars,
+    Vec3,
+    cross,
+    frozen_array,
+    renumbered,
+    row_keys,
+)
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.transform import is_mirror, transform_points
 
@@ -110,18 +122,29 @@ class TriangleMesh(ArrayValue):
 
     def transformed(self, T: Mat4) -> "TriangleMesh":
         """Returns the mesh mapped by T; a mirror image keeps its faces' outward sides outward."""
-        faces = self.faces[:, ::-1] if is_mirror(T) else self.faces
-        return TriangleMesh(transform_points(T, self.vertices), faces)
+        vertices = transform_points(T, self.vertices)
+        if is_mirror(T):
+            return TriangleMesh(vertices, self.faces[:, ::-1])
+        return self._with_vertices(vertices)
 
     def translated(self, offset: Vec3) -> "TriangleMesh":
         """Returns the mesh shifted by `offset`."""
-        return TriangleMesh(self.vertices + offset, self.faces)
+        return self._with_vertices(self.vertices + offset)
+
+    def _with_vertices(self, vertices: Points) -> "TriangleMesh":
+        """Returns the mesh with as many other vertices, a new array that is not copied; its faces are known to fit."""
+        if vertices.dtype != np.float64 or not vertices.flags.c_contiguous or not np.isfinite(vertices).all():
+            return TriangleMesh(vertices, self.faces)  # which states what is wrong
+        vertices.setflags(write=False)
+        made = object.__new__(TriangleMesh)
+        made.__dict__.update(vertices=vertices, faces=self.faces)
+        return made
 
     def with_faces(self, keep: np.ndarray) -> "TriangleMesh":
         """Returns the mesh of the selected faces (mask or indices), unused vertices dropped."""
         faces = self.faces[keep]
-        used, index = np.unique(faces, return_inverse=True)
-        return TriangleMesh(self.vertices[used], index.reshape(faces.shape))
+        used, index = renumbered(faces, len(self.vertices))
+        return TriangleMesh(self.vertices[used], index)
 
     def to_trimesh(self) -> "trimesh.Trimesh":
         """Returns a new, unprocessed trimesh copy."""

@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from grafu.geometry.appearance import Surface, attribute_rows, from_attributes
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, cross, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, Scalars, cross, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.directions import directions_around
@@ -110,8 +110,13 @@ def clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
 
     What is less of its area is what lies inside the solids, also where the surface is closed.
     """
+    return clip_by_faces(surface, solids)[0]
+
+
+def clip_by_faces(surface: Surface, solids: Sequence[ConvexSolid]) -> tuple[Surface, Scalars]:
+    """Returns what `clip` does, and what goes of the area of each face of the surface."""
     near = _near(surface, solids)
-    return _clip(surface, near) if near else surface
+    return _clip(surface, near) if near else (surface, np.zeros(len(surface.mesh.faces)))
 
 
 def _near(surface: Surface, solids: Sequence[ConvexSolid]) -> list[ConvexSolid]:
@@ -156,34 +161,39 @@ def _padded(rows: np.ndarray, width: int) -> np.ndarray:
     return rows if rows.shape[1] >= width else np.pad(rows, ((0, 0), (0, width - rows.shape[1])))
 
 
-def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> Surface:
-    """Returns an open surface without the parts of its triangles inside the solids."""
-    mesh = surface.mesh
+def _clip(surface: Surface, solids: Sequence[ConvexSolid]) -> tuple[Surface, Scalars]:
+    """Returns an open surface without the parts of its triangles inside the solids, and the area of these."""
+    mesh, lost = surface.mesh, np.zeros(len(surface.mesh.faces))
     triangles = mesh.triangles
-    near = _meet(triangles, Box.around(np.vstack([solid.vertices for solid in solids])))
+    near = _meet(triangle_bounds(triangles), Box.around(np.vstack([solid.vertices for solid in solids])))
     if not near.any():
-        return surface
+        return surface, lost
     rows = attribute_rows(surface)
     # Faces without area go too: they would stay behind as needles in the cut.
     owner = np.flatnonzero(near)
     owner = owner[~_is_sliver(triangles[owner])]
-    near_each = [_touched(triangles[owner], solid) for solid in solids]
-    pieces, gone = left_over(rows[mesh.faces[owner]], near_each, [solid.planes for solid in solids])
+    corners = triangles[owner]
+    bounds = triangle_bounds(corners)
+    near_each = [_touched(corners, bounds, solid) for solid in solids]
+    pieces, whose, gone = left_over(rows[mesh.faces[owner]], near_each, [solid.planes for solid in solids])
     cut = np.zeros(len(mesh.faces), dtype=bool)
     cut[owner[gone]] = True
     if not cut.any():
-        return surface
+        return surface, lost
     flat = near & _is_sliver(triangles)
-    pieces = pieces[~_is_sliver(pieces)]
+    is_whole = ~_is_sliver(pieces)
+    pieces, whose = pieces[is_whole], whose[is_whole]
+    left = np.bincount(owner[whose], _areas(pieces), len(lost))
+    lost = np.where(cut | flat, mesh.face_areas - left, 0.0)
     new_faces = len(rows) + np.arange(3 * len(pieces)).reshape(-1, 3)
     faces = np.vstack([mesh.faces[~cut & ~flat], new_faces])
-    return from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces)
+    return from_attributes(surface, np.vstack([rows, pieces.reshape(-1, rows.shape[1])]), faces), lost
 
 
-def _touched(triangles: np.ndarray, solid: ConvexSolid) -> Indices:
-    """Returns the numbers of the triangles that a solid may take something of."""
+def _touched(triangles: np.ndarray, bounds: tuple[np.ndarray, np.ndarray], solid: ConvexSolid) -> Indices:
+    """Returns the numbers of the triangles, in these bounds, that a solid may take something of."""
     require_time()
-    number = np.flatnonzero(_meet(triangles, solid.box))
+    number = np.flatnonzero(_meet(bounds, solid.box))
     return number[~_beyond_a_plane(triangles[number], solid.planes)]
 
 
@@ -193,9 +203,9 @@ def _beyond_a_plane(triangles: np.ndarray, planes: np.ndarray) -> np.ndarray:
     return np.all(side >= -NOTHING, axis=1).any(axis=1)
 
 
-def _meet(triangles: np.ndarray, box: Box) -> np.ndarray:
-    """Returns which triangles' boxes share a point with a box."""
-    low, high = triangle_bounds(triangles)
+def _meet(bounds: tuple[np.ndarray, np.ndarray], box: Box) -> np.ndarray:
+    """Returns which of some boxes, given by their lowest and highest corners, share a point with a box."""
+    low, high = bounds
     return np.all((low <= box.high) & (high >= box.low), axis=1)
 
 

@@ -15,7 +15,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Coupling, J
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.face_cuts import half_of
+from grafu.geometry.halves import half_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.edges import Hinge, Slide
 from grafu.joints.lever_config import LeverConfig

@@ -11,11 +11,13 @@ from grafu.geometry.axis import Axis
 from grafu.graph.edges import Hinge
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"
 """`JointRequest.source` of a leaf in a frame: its shape tells."""
 _DEPTH = 1
+_ACROSS = "it is drawn open, across its frame: close it in the model"
 
 LeafRequest = Callable[[Part, Sequence[Part]], JointRequest | None]
 """Returns the joint of a leaf with what is on it; None where it stays."""
@@ -32,11 +34,15 @@ class FramedLeaves:
     inner_frames: tuple[Part, ...] = ()
 
     def with_joints(self, plan: RealizationPlan, asset: Asset, request: LeafRequest) -> RealizationPlan:
-        """Returns the plan whose joints are those of the leaves alone."""
-        pairs = zip(self.leaves, self.on_leaf, strict=True)
+        """Returns the plan whose joints are those of the leaves alone.
+
+        A leaf that is drawn open, across its frame, is refused: which of its edges it turns about is not known.
+        """
+        pairs = [(a, b) for a, b in zip(self.leaves, self.on_leaf, strict=True) if a.box.thin_axis == _DEPTH]
         joints = tuple(made for leaf, on_it in pairs if (made := request(leaf, on_it)) is not None)
         parts = {part.id for part in asset.parts}
-        return replace(plan, joints=joints, refused=tuple(r for r in plan.refused if r.part not in parts))
+        across = tuple(Refusal(a.id, Reason.NO_MOTION, _ACROSS) for a in self.leaves if a.box.thin_axis != _DEPTH)
+        return replace(plan, joints=joints, refused=(*(r for r in plan.refused if r.part not in parts), *across))
 
 
 def relabelled(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:

@@ -69,11 +69,6 @@ class PlanConfig:
     """Least probability of another direction for which it is tried where the likeliest one is blocked ..."""
     other_directions: int = 2
     """... and how many of them are tried."""
-    deep: float = 0.5
-    """What is guessed to be a door, is blocked as one and reaches as far back as this may be a drawer (fraction of the
-    depth of the whole) ..."""
-    before: float = 0.15
-    """... if its front is no farther than this behind that of the whole (the same fraction)."""
     short_turn: float = radians(1.0)
     """A note states that a door opens by more than this less than was chosen (radians) ..."""
     short_slide: float = 0.002
@@ -82,9 +77,7 @@ class PlanConfig:
     def __post_init__(self) -> None:
         require_positive(self, "short_turn", "short_slide")
         require_not_negative(self, "other_directions")
-        require_ratios(
-            self, "play", "beyond", "carried_area", "nearer_border", "rack", "other_direction", "deep", "before"
-        )
+        require_ratios(self, "play", "beyond", "carried_area", "nearer_border", "rack", "other_direction")
 
 
 @final

@@ -131,5 +131,10 @@ def nearest_part(hardware: Visual, scene: Scene, request: JointRequest, config: 
     collider = MeshCollider(hardware.mesh)
     held_by = scene.static_obstacles_of(request.holders)
     near = held_by.near(collider.box, config.near)
-    ranked = sorted((round(collider.distance(o.collider), 4), o.id not in request.mounts, o.id) for o in near)
-    return ranked[0][2] if ranked else ""
+    best = (float("inf"), True, "")
+    for least, other in sorted((collider.box_gap(o.collider), k) for k, o in enumerate(near)):
+        if round(least, 4) > best[0]:  # no nearer than its box
+            break
+        found = near[other]
+        best = min(best, (round(collider.distance(found.collider), 4), found.id not in request.mounts, found.id))
+    return best[2]

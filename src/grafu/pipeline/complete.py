@@ -13,6 +13,7 @@ from grafu.completion.round_doors import with_round_doors
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, open_network
 from grafu.completion.static_guesses import with_static_guesses
+from grafu.completion.thick_doors import with_thick_doors
 from grafu.completion.ways_out import with_ways_out
 from grafu.geometry.sampling import sample_surfaces
 from grafu.graph.annotated import annotated_edges
@@ -41,7 +42,8 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
 
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
     left or right side (`with_round_doors`), and doors on the side away from their handle (`with_handle_sides`). What is
-    only guessed to be a door or drawer stays static where it cannot be one (`with_static_guesses`).
+    only guessed to be a door, and is too thick, is a drawer (`with_thick_doors`); what is only guessed to be a door or
+    drawer stays static where it cannot be one (`with_static_guesses`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
@@ -51,7 +53,8 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
-    moved = _shaped(complete_by_network(seen, network, network.features), asset)
+    predicted = with_thick_doors(complete_by_network(seen, network, network.features), asset)
+    moved = _shaped(predicted, asset)
     found = with_static_guesses(moved, asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(

@@ -6,16 +6,12 @@ from typing import Final, cast
 
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Edge, Hinge, HingeBorder, Rail, SignedAxis, Slide
-from grafu.graph.edit import rehung, relabelled, with_edges
+from grafu.graph.edit import rehung
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.plan import PlanConfig
 from grafu.joints.report import Installed, RealizationReport
 from grafu.pipeline.certainty import named_choice
 from grafu.refusal import Reason, Refusal
-from grafu.vocabulary import PartLabel
-
-_DEPTH: Final = 1
-_FRONT: Final = 2  # the face that looks to -Y
 
 _DIRECTIONS: Final = ("slide", "border")
 """The questions that decide where a part moves to; the face that a door opens to stays."""
@@ -26,15 +22,12 @@ def second_choices(
 ) -> GraphCompletion | None:
     """Returns the completion with another direction for what is blocked: in each `turn` (0, 1, ...) the next likely.
 
-    What is only guessed to be a door, and is as deep as a drawer, is one where no other border is likely. None where
-    nothing is blocked that has another choice. What the user or the input stated has none.
+    None where nothing is blocked that has one. What the user or the input stated has none.
     """
     blocked = {refusal.part for refusal in skipped if refusal.reason is Reason.BLOCKED}
     swapped = {d.part: _swapped(d, turn) for d in completion.decisions if d.part in blocked and _has(d, turn, config)}
-    deep = {hinge for hinge in _deep_doors(completion, config) if hinge.child in blocked and hinge.child not in swapped}
-    if not swapped and not deep:
+    if not swapped:
         return None
-    completion = _as_drawers(completion, deep)
     graph = completion.completed
     edges = tuple(_turned(edge, swapped, graph) for edge in graph.edges)
     signs = {edge.child: str(edge.sign) for edge in edges if isinstance(edge, Hinge)}
@@ -62,49 +55,6 @@ def noted(report: RealizationReport, first: GraphCompletion, second: GraphComple
 def _has(decision: Decision, turn: int, config: PlanConfig) -> bool:
     is_one = decision.question in _DIRECTIONS and turn < len(decision.others)
     return is_one and decision.others[turn][1] >= config.other_direction
-
-
-def _deep_doors(completion: GraphCompletion, config: PlanConfig) -> tuple[Hinge, ...]:
-    """Returns the hinges of what is only guessed to be a door, stands in front and reaches as far back as a drawer."""
-    graph = completion.completed
-    guessed = {d.part for d in completion.decisions if d.question == "label" and d.choice == PartLabel.DOOR}
-
-    def is_deep(hinge: Hinge) -> bool:
-        box, depth = graph.node(hinge.child).box, float(graph.box.size[_DEPTH])
-        is_in_front = box.low[_DEPTH] - graph.box.low[_DEPTH] <= config.before * depth
-        return bool(is_in_front and box.size[_DEPTH] >= config.deep * depth)
-
-    return tuple(h for h in graph.hinges if h.child in guessed and h.coupling is None and is_deep(h))
-
-
-def _as_drawers(completion: GraphCompletion, doors: Iterable[Hinge]) -> GraphCompletion:
-    """Returns the completion in which doors are drawers that slide out to the front."""
-    rails = [Rail(hinge.parent, hinge.child, _FRONT) for hinge in doors]
-    if not rails:
-        return completion
-    graph = relabelled(completion.completed, {rail.child: PartLabel.DRAWER for rail in rails})
-    drawers = {rail.child for rail in rails}
-    decisions = (_of_drawer(d) if d.part in drawers else d for d in completion.decisions)
-    kept = tuple(decision for decision in decisions if decision is not None)
-    return replace(completion, completed=with_edges(graph, rails), decisions=kept)
-
-
-def _of_drawer(decision: Decision) -> Decision | None:
-    """Returns a decision on a door as it is on a drawer, which slides to the front; None: a drawer has no such."""
-    if decision.question == "label":
-        scores = dict([*decision.others, (decision.runner_up, decision.runner_up_score)])
-        score = scores.get(PartLabel.DRAWER.value, 0.0)
-        return replace(
-            decision,
-            choice=PartLabel.DRAWER.value,
-            score=score,
-            runner_up=decision.choice,
-            runner_up_score=decision.score,
-            by=BY_BOTH,
-        )
-    if decision.question == "sign":
-        return Decision(decision.part, "slide", str(_FRONT), decision.score, by=BY_BOTH)
-    return None if decision.question == "border" else decision
 
 
 def _swapped(decision: Decision, turn: int) -> Decision:

@@ -23,11 +23,10 @@ from grafu.pipeline.report_schema import (
     VerdictRecord,
 )
 from grafu.pipeline.words import Colour, FaultKind, counted, listed, percent
-from grafu.refusal import Reason
+from grafu.refusal import OF_GUESSES, Reason
 from grafu.vocabulary import PartLabel
 
 _NAMED = 4  # parts that a sentence names
-_LEFT_STATIC = (Reason.CARRIES, Reason.UNLIKELY)  # a guess that is not built is no joint that is missing
 _FRONTS = ("door", "sliding door", "drawer", "small part")
 
 
@@ -108,7 +107,7 @@ def parts_without_joint(report: Report) -> dict[str, str]:
         skip.request: f"{skip.reason}: {skip.detail}" if skip.detail else str(skip.reason)
         for skip in reversed(not_built(report))
         if _is_motion(skip) and category.get(skip.request, PartLabel.HANDLE) is not PartLabel.HANDLE
-        if skip.reason not in _LEFT_STATIC
+        if skip.reason not in OF_GUESSES
     }
     without = dict.fromkeys(fronts, "it has no joint") | wanted
     answered = moving | carried | set(fixed_by_user(report))
@@ -120,7 +119,7 @@ def _faults(report: Report, config: VerdictConfig) -> Iterator[FaultRecord]:
     yield from (_fault(report, part, FaultKind.NO_JOINT, why) for part, why in without.items())
     for joint in report.joints:
         yield from _faults_of(joint, report, config)
-    told = {*without, *(skip.request for skip in report.skipped if skip.reason in _LEFT_STATIC)}
+    told = {*without, *(skip.request for skip in report.skipped if skip.reason in OF_GUESSES)}
     yield from (_guessed(guess, report, config) for guess in _unsure(report, config) if guess.part not in told)
     yield from _carved(report, config)
     for skip in not_built(report):

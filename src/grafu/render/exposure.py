@@ -184,7 +184,7 @@ class Exposure:
         first = np.arange(width * height).reshape(height, width)[::2, ::2]
         rays, points = self._floor_points(first[open_blocks])
         lifted = points + np.array([0, 0, 1e-4 * self.reach], np.float32)
-        up = np.tile(np.array([0, 0, 1], np.float32), (len(rays), 1))
+        up = np.broadcast_to(np.array([0, 0, 1], np.float32), (len(rays), 3))
         rows, columns = np.divmod(rays, width)
         pattern = (rows // 2 % 4) * 4 + columns // 2 % 4
         sky = sky_ratio(self.scene, lifted, up, pattern, 1.6 * self.reach)
@@ -197,10 +197,11 @@ class Exposure:
 
     def _floor_points(self, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns those of the rays that meet the floor near the object, and where they do."""
-        down = self.directions[rays, 2]
-        rays, down = rays[down < -1e-6], down[down < -1e-6]
-        distance = (self.low[2] - self.eye[2]) / down
-        points = self.eye + self.directions[rays] * distance[:, None]
+        ahead = self.directions[rays]
+        below = ahead[:, 2] < -1e-6
+        rays, ahead = (rays, ahead) if below.all() else (rays[below], ahead[below])
+        distance = (self.low[2] - self.eye[2]) / ahead[:, 2]
+        points = self.eye + ahead * distance[:, None]
         margin = 1.2 * (self.high[2] - self.low[2]) + self.reach
         (x, y), (left, front), (right, back) = points.T[:2], self.low[:2] - margin, self.high[:2] + margin
         near = (x > left) & (x < right) & (y > front) & (y < back)

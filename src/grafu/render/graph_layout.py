@@ -30,7 +30,7 @@ def node_places(graph: FunctionalGraph, size: tuple[int, int], margin: float, ap
     places = home + rng.uniform(-0.5, 0.5, home.shape)
     apart = min(apart, 0.95 * float(np.sqrt(room.prod() / len(home))))
     for _ in range(_STEPS):
-        places = np.clip(places + _PULL * (home - places) + _pushes(places, apart), low, low + room)
+        places = _within(places + _PULL * (home - places) + _pushes(places, apart), low, low + room)
     return places
 
 
@@ -46,10 +46,13 @@ def _projected(graph: FunctionalGraph) -> Places:
 def _pushes(places: Places, apart: float) -> Places:
     x, y = (column[:, None] - column for column in places.T)
     distance = np.maximum(np.sqrt(x * x + y * y), 1e-6)
-    lacking = np.maximum(apart - distance, 0.0)
-    np.fill_diagonal(lacking, 0.0)
-    push = 0.4 * lacking / distance
+    push = 0.4 * np.maximum(apart - distance, 0.0) / distance  # of a place from itself: along no way
     return np.stack([(x * push).sum(axis=1), (y * push).sum(axis=1)], axis=1)
+
+
+def _within(places: Places, low: np.ndarray, high: np.ndarray) -> Places:
+    """Returns the places clipped: `numpy.clip` takes three times as long."""
+    return np.minimum(np.maximum(places, low), high)
 
 
 def with_room(places: Places, halves: Places, size: tuple[int, int]) -> Places:
@@ -66,7 +69,7 @@ def with_room(places: Places, halves: Places, size: tuple[int, int]) -> Places:
         push = _box_pushes(found, halves, aside=1.0 + step % _ASIDE)
         if not push.any():
             break
-        found = np.clip(found + push, low, high)
+        found = _within(found + push, low, high)
     return found
 
 
@@ -75,15 +78,17 @@ def _box_pushes(places: Places, halves: Places, aside: float) -> Places:
 
     Names are wide, so that this is mostly up or down; by the factor `aside` more may be lacking to the side.
     """
-    away = places[:, None] - places[None]
-    lacking = halves[:, None] + halves[None] - np.abs(away)
-    lacking[np.arange(len(places)), np.arange(len(places))] = 0.0
-    meets = (lacking > 0).all(axis=2)
-    order = np.arange(len(places))
-    side = np.where(away != 0, np.sign(away), np.sign(order[:, None] - order[None])[..., None])  # two in one place part
-    along_x = lacking[..., 0] <= aside * lacking[..., 1]
-    push = 0.5 * side * lacking * np.stack([along_x, ~along_x], axis=2) * meets[..., None]
-    return push.sum(axis=1) / np.maximum(meets.sum(axis=1), 1)[:, None]
+    away = places.T[:, None] - places.T[:, :, None]  # of the second number from the first, x and y apart: quicker
+    lacking = halves.T[:, None] + halves.T[:, :, None] - np.abs(away)
+    first, second = np.nonzero((lacking > 0).all(axis=0))
+    first, second = first[first != second], second[first != second]  # only few boxes meet
+    away, lacking = away[:, first, second], lacking[:, first, second]
+    side = np.where(away != 0, np.sign(away), np.sign(second - first))  # two in one place part
+    along_x = lacking[0] <= aside * lacking[1]
+    push = 0.5 * side * lacking * np.stack([along_x, ~along_x])
+    count = np.bincount(second, minlength=len(places))
+    total = np.stack([np.bincount(second, one, len(places)) for one in push], axis=1)
+    return np.asarray(total / np.maximum(count, 1)[:, None])
 
 
 def in_the_way(places: Places, halves: Places, stays: Bool[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:

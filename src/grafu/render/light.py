@@ -24,7 +24,7 @@ _SKY_RAYS = 3  # per pixel; what is smoothed over 4x4 pixels has 48
 
 _ROW, _COLUMN = np.divmod(np.arange(16), 4)
 _SPREAD = (_ROW + _COLUMN) % 4 * 4 + _ROW  # each row and each column of the 4x4 pattern has all heights
-_SKY_POINTS = directions_around(16 * _SKY_RAYS).astype(np.float32).reshape(_SKY_RAYS, 16, 3)[:, _SPREAD]
+_SKY_POINTS = 0.98 * directions_around(16 * _SKY_RAYS).astype(np.float32).reshape(_SKY_RAYS, 16, 3)[:, _SPREAD]
 _KEY_POINTS = directions_around(16).astype(np.float32)[_SPREAD]
 
 
@@ -38,15 +38,15 @@ def sky_ratio(scene: RayScene, points: Rays, normals: Rays, pattern: Pattern, re
     """Returns how much of the sky each point sees, 0..1, looking as far as `reach` metres."""
     seen = np.zeros(len(points), np.float32)
     for around in _SKY_POINTS:
-        directions = normals + 0.98 * around[pattern]  # a point on a unit sphere upon the surface: cosine-weighted
+        directions = normals + around[pattern]  # a point on a unit sphere upon the surface: cosine-weighted
         seen += ~scene.blocked(points, directions, reach)
     return seen / _SKY_RAYS
 
 
 def key_ratio(scene: RayScene, points: Rays, pattern: Pattern, toward: np.ndarray) -> Values:
     """Returns how much of the key light each point sees: 0 or 1, soft once neighbours are averaged."""
-    directions = toward + _KEY_SPREAD * _KEY_POINTS[pattern]
-    return (~scene.blocked(points, directions.astype(np.float32), 1e3)).astype(np.float32)
+    directions = (toward + _KEY_SPREAD * _KEY_POINTS).astype(np.float32)[pattern]
+    return (~scene.blocked(points, directions, 1e3)).astype(np.float32)
 
 
 def shade(hits: Hits, directions: Rays, sky: Values, key: Values, toward: np.ndarray) -> Rgb:

@@ -173,7 +173,8 @@ def _in_category_color(visual: Visual) -> Visual:
 def _developed(samples: Samples, style: PictureStyle) -> Picture:
     """Returns 8-bit sRGB of premultiplied linear samples."""
     alpha = samples[..., 3:]
-    rgb = displayed(samples[..., :3] / np.maximum(alpha, 1e-6))
+    rgb, is_lit = np.zeros((*samples.shape[:2], 3), np.uint8), samples[..., :3].any(axis=-1)  # a shadow is black
+    rgb[is_lit] = displayed(samples[is_lit, :3] / np.maximum(alpha[is_lit], 1e-6))
     if style.background == "white":  # white paper: composed after the tone curve, which never reaches white
         paper = np.round(rgb * alpha + 255 * (1 - alpha)).astype(np.uint8)
         return np.concatenate([paper, np.full_like(paper[..., :1], 255)], axis=-1)

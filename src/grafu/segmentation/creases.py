@@ -8,7 +8,8 @@ changes, has each front as a patch, with the edges that it has.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import final
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -49,12 +50,12 @@ def drawn_fronts(
     """
     if not any(len(mesh.faces) and is_open for mesh, is_open in zip(meshes, open_to, strict=True)):
         return {}
+    surfaces = [CreasedSurface.of(mesh, m, config.creases) for mesh, m in zip(meshes, materials, strict=True)]
     most = 0.0
     pieces: dict[int, list[FacePiece]] = {}
     for turn in range(4):
         axes = axes_from(turn)
-        pairs = zip(meshes, materials, strict=True)
-        patches = [front_patches(mesh, material, axes[2], config.creases) for mesh, material in pairs]
+        patches = [surface.patches(axes[2], config.creases) for surface in surfaces]
         shells = MeshShells.of(meshes, patches)
         view = view_of(shells.mesh, shells.shell, shells.owner, axes)
         found = fronts_by_object(view, np.asarray(open_to)[shells.owner], [False] * len(meshes), config)
@@ -83,25 +84,49 @@ def _trimmed(
     }
 
 
-def front_patches(mesh: TriangleMesh, material: OfFaces, towards: Vec3, config: CreaseConfig) -> OfFaces:
-    """Returns for each face the number of its patch, as a viewer sees them from the unit direction `towards`.
+@final
+@dataclass(frozen=True, eq=False, slots=True)
+class CreasedSurface:
+    """A mesh, the pairs of faces that meet within a patch, and for each face the number of its patch.
 
-    Patches end at inner corners of the surface, and where the number of the material changes. One that shows several
-    faces to the viewer is parted between them: each takes what lies behind its own outline.
+    Patches end at inner corners of the surface, and where the number of the material changes.
     """
-    if not len(mesh.faces):
-        return np.zeros(0, np.int64)
-    first, second, is_corner = _edges(mesh, config)
-    is_corner |= material[first] != material[second]
-    patch = _numbers(len(mesh.faces), first, second, ~is_corner)
-    ahead = mesh.face_normals @ towards > config.facing
-    facet = _numbers(len(mesh.faces), first, second, ~is_corner & ahead[first] & ahead[second])
-    shown = np.unique(np.column_stack([patch[ahead], facet[ahead]]), axis=0)
-    counts = np.bincount(shown[:, 0], minlength=int(patch.max()) + 1)
-    number = patch.copy()
-    for one in np.flatnonzero(counts > 1).tolist():
-        _part(number, np.flatnonzero(patch == one), facet, ahead, mesh, towards, config)
-    return np.unique(number, return_inverse=True)[1].reshape(-1).astype(np.int64)
+
+    mesh: TriangleMesh
+    first: Edges
+    second: Edges
+    patch: OfFaces
+
+    @classmethod
+    def of(cls, mesh: TriangleMesh, material: OfFaces, config: CreaseConfig) -> "CreasedSurface":
+        """Returns a mesh with its patches; `material` is the number of each face's material."""
+        if not len(mesh.faces):
+            none = np.zeros(0, np.int64)
+            return cls(mesh, none, none, none)
+        first, second, is_corner = _edges(mesh, config)
+        inside = ~is_corner & (material[first] == material[second])
+        first, second = first[inside], second[inside]
+        return cls(mesh, first, second, linked(len(mesh.faces), first, second))
+
+    def patches(self, towards: Vec3, config: CreaseConfig) -> OfFaces:
+        """Returns for each face the number of its patch, as a viewer sees them from the unit direction `towards`.
+
+        One that shows several faces to the viewer is parted between them: each takes what lies behind its own outline.
+        """
+        mesh, patch = self.mesh, self.patch
+        if not len(mesh.faces):
+            return patch
+        ahead = mesh.face_normals @ towards > config.facing
+        both = ahead[self.first] & ahead[self.second]
+        facet = linked(len(mesh.faces), self.first[both], self.second[both])
+        shown = np.unique(np.column_stack([patch[ahead], facet[ahead]]), axis=0)
+        counts = np.bincount(shown[:, 0], minlength=int(patch.max()) + 1)
+        number, order = patch.copy(), np.argsort(patch, kind="stable")
+        ends = np.searchsorted(patch[order], np.flatnonzero(counts > 1), "right")
+        starts = np.searchsorted(patch[order], np.flatnonzero(counts > 1), "left")
+        for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+            _part(number, order[start:end], facet, ahead, mesh, towards, config)
+        return np.unique(number, return_inverse=True)[1].reshape(-1).astype(np.int64)
 
 
 def uv_islands(mesh: TriangleMesh, uv: Float[np.ndarray, "n 2"]) -> OfFaces:
@@ -111,7 +136,7 @@ def uv_islands(mesh: TriangleMesh, uv: Float[np.ndarray, "n 2"]) -> OfFaces:
     corners = np.column_stack([welded(mesh.vertices), np.round(uv / _SAME_UV).astype(np.int64)])
     position = np.unique(corners, axis=0, return_inverse=True)[1].reshape(-1)[mesh.faces]
     first, second, _ = _shared_edges(position)
-    return _numbers(len(mesh.faces), first, second, np.ones(len(first), dtype=bool))
+    return linked(len(mesh.faces), first, second)
 
 
 def _part(
@@ -124,7 +149,7 @@ def _part(
     config: CreaseConfig,
 ) -> None:
     """Gives new numbers to the faces of a patch that shows several faces; what is behind none of them keeps its own."""
-    across = mesh.triangles[members] @ np.stack([np.cross((0.0, 0.0, 1.0), towards), (0.0, 0.0, 1.0)]).T
+    across = mesh.vertices[mesh.faces[members]] @ np.stack([np.cross((0.0, 0.0, 1.0), towards), (0.0, 0.0, 1.0)]).T
     low, high = across.min(axis=1), across.max(axis=1)
     near = config.near * float(mesh.box.size.max())
     own = facet[members]
@@ -133,10 +158,6 @@ def _part(
         left, right = low[inside].min(axis=0) - near, high[inside].max(axis=0) + near
         behind = (low >= left).all(axis=1) & (high <= right).all(axis=1) & ~ahead[members]
         number[members[inside | behind]] = len(mesh.faces) + one
-
-
-def _numbers(count: int, first: Edges, second: Edges, kept: MaskOfEdges) -> OfFaces:
-    return linked(count, first[kept], second[kept])
 
 
 def _edges(mesh: TriangleMesh, config: CreaseConfig) -> tuple[Edges, Edges, MaskOfEdges]:
@@ -166,7 +187,8 @@ def _shared_edges(position: Faces) -> tuple[Edges, Edges, MaskOfEdges]:
 
 
 def _volume(mesh: TriangleMesh) -> float:
-    a, b, c = (mesh.triangles[:, k] - mesh.box.center for k in range(3))
+    corners = mesh.triangles - mesh.box.center
+    a, b, c = (corners[:, k] for k in range(3))
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum())
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Points, extremes
+from grafu.geometry.arrays import Points, extremes, first_of_each
 
 _STEPS = 65535  # of 16 bits
 _NORMAL_STEPS = 127  # of a signed byte
@@ -105,7 +105,7 @@ def _distinct(keys: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
         _, left = np.unique(combined, return_inverse=True)
         values, right = np.unique(key, return_inverse=True)
         combined = left * len(values) + right
-    _, first, index = np.unique(combined, return_index=True, return_inverse=True)
+    first, index = first_of_each(combined)
     order = np.argsort(first)  # neighbours in use are neighbours in memory: it packs better
     number = np.empty_like(order)
     number[order] = np.arange(len(order))

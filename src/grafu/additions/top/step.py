@@ -17,7 +17,7 @@ from grafu.asset.names import singular, spoken
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
 from grafu.joints.plan import JointRequest, MotionRole
-from grafu.refusal import Asked, Reason, Refusal
+from grafu.refusal import OF_GUESSES, Asked, Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -72,10 +72,9 @@ def _chosen(scene: Scene, request: StepRequest, choice: TopChoice) -> ReplacedTo
     joints = tuple(joint for joint in request.plan.joints if joint.role is not MotionRole.EXTENSION)  # leaves are a top
     if choice.config is not None and choice.replaces:
         return replace_top(parts, joints, request.tops, choice.config, request.top)
+    if unwanted := _unwanted(request):
+        return ReplacedTop(TopVerdict(True, 1.0, unwanted))
     top = missing_tops(parts, joints, choice.config or TopConfig(), request.top)
-    unwanted = _unwanted(request) if top.additions else ""
-    if unwanted:
-        return ReplacedTop(replace(top, covered=True, why=unwanted, addition=None, others=()))
     if choice.config is None or (request.only_expected and request.top is None):
         return ReplacedTop(replace(top, addition=None, others=()))
     if request.only_expected:
@@ -88,7 +87,8 @@ def _unwanted(request: StepRequest) -> str:
     if request.top is not None:  # stronger than a name: washstands, bases of stoves and cases of fridges have tops
         return why_no_top(request.names, OPEN_ABOVE)
     named = why_no_top(request.names)
-    if named or request.plan.joints or request.plan.refused:
+    moves = request.plan.joints or any(refused.reason not in OF_GUESSES for refused in request.plan.refused)
+    if named or moves:
         return named
     return "nothing in it moves and no top was predicted: a crate or an open shelf stays open"
 

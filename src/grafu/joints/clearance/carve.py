@@ -13,14 +13,14 @@ from jaxtyping import Float
 from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Mat3, Points, Vec3
+from grafu.geometry.arrays import Mat3, Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.components import part_numbers
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster, outer_points
 from grafu.geometry.sampling import sample_surface
-from grafu.geometry.solids import ConvexSolid, clip, in_any, subtract
+from grafu.geometry.solids import ConvexSolid, clip_by_faces, in_any, subtract
 from grafu.geometry.transform import transform_points
 from grafu.joints.clearance.loss import lost_volume, measured_loss
 from grafu.joints.config import RealizationConfig
@@ -54,16 +54,20 @@ class Path:
 @final
 @dataclass(frozen=True, eq=False)
 class Carving:
-    """Solids cut out of a static part, by `area` square metres of its surface; the loss is yet to be measured."""
+    """Solids cut out of a static part, by `area` square metres of its surface; the loss is yet to be measured.
+
+    `lost` is the area that goes of each face of the part.
+    """
 
     part: Part
     solids: tuple[ConvexSolid, ...]
     area: float
+    lost: Scalars
     moving: str
 
     def recorded(self) -> Clearance:
         """Returns what goes of the part; measuring it takes longer than cutting."""
-        loss = measured_loss(self.part, self.solids)
+        loss = measured_loss(self.part, self.solids, self.lost)
         why, amount = f"stood in the way of {self.moving}", float(np.sqrt(self.area))
         return Clearance(self.part.id, "carved", amount, loss.ratio, why, loss.surface, loss.volume)
 
@@ -119,27 +123,28 @@ def carve(
             continue
         surfaces = (subtract(s, cut.solids, left) for s, left in zip(cut.part.surfaces, cut.clipped, strict=True))
         carved.append(replace(cut.part, surfaces=tuple(s for s in surfaces if not s.is_empty)))
-        done.append(Carving(cut.part, cut.solids, cut.area, path.moving))
+        done.append(Carving(cut.part, cut.solids, cut.area, cut.lost, path.moving))
     return scene.replaced(carved), done
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class _Cut:
-    """What solids would take of a part: its surfaces without that, square metres, and the fraction that goes."""
+    """What solids would take of a part: its surfaces without that, square metres in all and of each face, the ratio."""
 
     part: Part
     solids: tuple[ConvexSolid, ...]
     clipped: tuple[Surface, ...]
     area: float
+    lost: Scalars
     ratio: float
 
 
 def _cut(part: Part, solids: Sequence[ConvexSolid], config: RealizationConfig) -> _Cut:
     near = tuple(solid for solid in solids if solid.box.overlaps(part.box))
-    clipped = tuple(clip(surface, near) for surface in part.surfaces)
+    clipped, lost = zip(*(clip_by_faces(surface, near) for surface in part.surfaces), strict=True)
     area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
-    return _Cut(part, near, clipped, area, _lost_ratio(part, near, area, config))
+    return _Cut(part, near, clipped, area, np.concatenate(lost), _lost_ratio(part, near, area, config))
 
 
 def _loses_too_much(cut: _Cut, scene: Scene, config: RealizationConfig, sure: float = _SURE) -> bool:

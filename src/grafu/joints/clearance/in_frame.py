@@ -13,7 +13,7 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import Box
-from grafu.geometry.face_cuts import half_of
+from grafu.geometry.halves import half_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid, clip, subtract
 from grafu.joints.clearance.carve import box_in

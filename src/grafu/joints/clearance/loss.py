@@ -8,11 +8,11 @@ import manifold3d
 import numpy as np
 
 from grafu.asset.part import Part
-from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import Scalars
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import connected_parts
 from grafu.geometry.raycast import outer_faces
-from grafu.geometry.solids import ConvexSolid, clip, in_any
+from grafu.geometry.solids import ConvexSolid, in_any
 
 
 @final
@@ -29,24 +29,21 @@ class Loss:
         return max(self.surface, self.volume)
 
 
-def measured_loss(part: Part, solids: Sequence[ConvexSolid]) -> Loss:
-    """Returns what of a part lies in the solids."""
-    return Loss(lost_surface(part, solids), lost_volume(part, solids))
+def measured_loss(part: Part, solids: Sequence[ConvexSolid], lost: Scalars) -> Loss:
+    """Returns what of a part lies in the solids; `lost` is the area of it of each face, surface after surface."""
+    return Loss(_lost_surface(part, lost), lost_volume(part, solids))
 
 
-def lost_surface(part: Part, solids: Sequence[ConvexSolid]) -> float:
-    """Returns the fraction of the part's outer surface that lies in the solids, 0..1.
+def _lost_surface(part: Part, lost: Scalars) -> float:
+    """Returns the fraction of the part's outer surface that goes, 0..1, from what goes of the area of each face.
 
     Outer is what can be seen from outside the part, so cut faces and hidden walls do not count.
     """
+    if not lost.any():
+        return 0.0
     seen = outer_faces(part.mesh)
     whole = float(part.mesh.face_areas[seen].sum())
-    if whole == 0 or not solids:
-        return 0.0
-    ends = np.cumsum([len(surface.mesh.faces) for surface in part.surfaces])
-    shown = [s.mesh.with_faces(keep) for s, keep in zip(part.surfaces, np.split(seen, ends[:-1]), strict=True)]
-    left = sum(clip(Surface(mesh), solids).mesh.area for mesh in shown if len(mesh.faces))
-    return min(max(1.0 - left / whole, 0.0), 1.0)
+    return min(max(float(lost[seen].sum()) / whole, 0.0), 1.0) if whole > 0 else 0.0
 
 
 def lost_volume(part: Part, solids: Sequence[ConvexSolid], limits: Sequence[float] = ()) -> float:
@@ -68,6 +65,7 @@ def lost_volume(part: Part, solids: Sequence[ConvexSolid], limits: Sequence[floa
 def _lost_volume(part: Part, solids: Sequence[ConvexSolid], points: int, most_exact: int) -> float:
     """Returns the fraction that is lost, counted on points in pieces that more than `most_exact` solids meet."""
     whole = lost = 0.0
+    low, high = (np.array([getattr(solid.box, end) for solid in solids]) for end in ("low", "high"))
     for piece in connected_parts(part.mesh):
         require_time()
         hull = ConvexSolid.around(piece.vertices)
@@ -75,7 +73,8 @@ def _lost_volume(part: Part, solids: Sequence[ConvexSolid], points: int, most_ex
             continue
         body = _manifold(hull)
         whole += body.volume()
-        near = [solid for solid in solids if hull.box.overlaps(solid.box)]
+        meets = np.all((low <= hull.box.high) & (high >= hull.box.low), axis=1)
+        near = [solids[k] for k in np.flatnonzero(meets).tolist()]
         many = len(near) > most_exact
         lost += _counted_volume(hull, near, points) * body.volume() if many else _cut_volume(body, near)
     return min(lost / whole, 1.0) if whole > 0 else 1.0

@@ -99,8 +99,7 @@ def _meets_divider(end: TemplateEnd, search: DrawerSearch) -> bool:
 def _carried(name: str, end: TemplateEnd, T: Mat4, search: DrawerSearch) -> tuple[Visual, ...] | None:
     """Returns a rail's dynamic end fixed to the drawer; None where it is out of reach."""
     rail = _visual(f"rail_{name}", end)
-    gap = MeshCollider(end.mesh).distance(MeshCollider(search.mesh))
-    if gap <= search.config.anchor:
+    if MeshCollider(end.mesh).is_within(search.config.anchor, MeshCollider(search.mesh)):
         return (rail,)
     if search.request.choice.supports is Supports.NONE:
         return None
