@@ -144,6 +144,7 @@ def learning() -> Iterator[Sentence]:
     yield "dataset.md", "a grid of {} steps", (STEPS,)
     yield "dataset.md", "lie within {} units", (folder.SAME_PLACE,)
     yield "graph.md", "of the edge ({} more)", (DecodeConfig().some_parent,)
+    yield "graph.md", "where both together have at least {}", (DecodeConfig().held.possible,)
 
 
 def others() -> Iterator[Sentence]:
