@@ -129,7 +129,7 @@ REASONS = {
     "small_parts.py": {"_UP": NUMBERING},
     "windows.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "tilting_fronts.py": {"(_UP, _DEPTH)": NUMBERING},
-    "behind_fronts.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING},
+    "behind_fronts.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING, "_AS_DEEP": "as deep as another"},
     "waste_bins.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_STEPS": SAMPLES, "_ON_LEAF": SAMPLES},
 }

@@ -114,9 +114,10 @@ def test_a_rack_that_runs_on_what_is_drawn_gets_no_guides():
 
 def test_the_wires_of_a_rack_in_several_parts_slide_as_one():
     wires = [box(f"wire_{k}", (x, 0.03, 0.3), (x + 0.004, 0.5, 0.304)) for k, x in enumerate((0.03, 0.3, 0.566))]
-    rails = [box(f"rail_{k}", (0.03, y, 0.3), (0.57, y + 0.004, 0.304)) for k, y in enumerate((0.03, 0.496))]
+    rails = [box(f"rail_{k}", (0.03, y, 0.3), (0.57, y + 0.004, 0.304)) for k, y in enumerate((0.496, 0.03))]
     ((name, found),) = racks(*wires, *rails).items()
     assert {name, *found.attached} == {part.id for part in (*wires, *rails)}
+    assert slid(*wires, *rails).object.joint_of[name].limits.upper > 0.3
 
 
 def supports(*heights):

@@ -17,6 +17,7 @@ from grafu.joints.plan import JointRequest
 
 _DEPTH = 1
 _ACROSS = [0, 2]
+_AS_DEEP = 0.9  # of the deepest part's depth: the wires along a rack, not those across it
 
 
 def is_within_outline(box: Box, front: Box, clear: float) -> bool:
@@ -42,8 +43,13 @@ def touched_by(group: Collection[str], asset: Asset, graph: FunctionalGraph, own
 
 
 def sliding_out(parts: Sequence[Part], source: str) -> JointRequest:
-    """Returns the joint of parts that slide out towards -Y as one: that of the largest, with the others on it."""
-    largest = max(parts, key=lambda part: float(np.prod(np.sort(part.box.size)[1:])))
+    """Returns the joint of parts that slide out towards -Y as one: that of the largest, with the others on it.
+
+    It is one of those that reach as far back as any: a joint slides as far as its part is deep.
+    """
+    depth = _AS_DEEP * max(float(part.box.size[_DEPTH]) for part in parts)
+    deep = [part for part in parts if part.box.size[_DEPTH] >= depth]
+    largest = max(deep, key=lambda part: float(np.prod(np.sort(part.box.size)[1:])))
     others = tuple(part.id for part in parts if part is not largest)
     axis = Axis(Box.enclosing(part.box for part in parts).center, vec3(0.0, -1.0, 0.0))
     return JointRequest(largest.id, Slide.joint_type, axis, source, attached=others)
