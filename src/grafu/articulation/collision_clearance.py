@@ -12,7 +12,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of, extent_of
-from grafu.articulation.kinematics import link_poses
+from grafu.articulation.kinematics import REST, link_poses
 from grafu.articulation.sweep import ratios_of_range, rest_to_full, values_before
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox
@@ -60,7 +60,6 @@ class ShapeClearanceConfig:
 
 
 DEFAULT_CLEARANCE_CONFIG = ShapeClearanceConfig()
-_REST: Mat4 = np.eye(4)
 
 
 @final
@@ -81,7 +80,7 @@ class _JointPath:
         """Returns the pose of a link that is not carried."""
         if link in self.Ts_object_coupled:
             return np.asarray(self.Ts_object_coupled[link][pose])
-        return self.T_object_still.get(link, _REST)
+        return self.T_object_still.get(link, REST)
 
 
 @final
@@ -128,7 +127,7 @@ def _motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearance
     values = joint.limits.lower + joint.limits.range * ratios_of_range(config.poses, config.crowding)
     Ts = np.stack([T_object_parent @ joint.motion(float(value)) @ T_child_object for value in values])
     carried = _carried(articulated, joint)
-    still = {link: T for link, T in start.items() if link not in carried and not np.array_equal(T, np.eye(4))}
+    still = {link: T for link, T in start.items() if link not in carried and T is not REST}
     return _JointPath({link: Ts @ start[link] for link in carried}, still, {})
 
 
@@ -143,7 +142,7 @@ def _coupled_motion(articulated: ArticulatedObject, joint: Joint, config: ShapeC
     Ts = {link.id: np.stack([frame[link.id] for frame in frames]) for link in articulated.links}
     carried = _carried(articulated, joint)
     others = {link: Ts_link for link, Ts_link in Ts.items() if link not in carried}
-    moved = {link: Ts_link for link, Ts_link in others.items() if not np.allclose(Ts_link, _REST)}
+    moved = {link: Ts_link for link, Ts_link in others.items() if not np.allclose(Ts_link, REST)}
     return _JointPath({link: Ts[link] for link in carried}, {}, moved)
 
 
@@ -184,8 +183,16 @@ def _near(motion: _JointPath, moving: list[ShapeBody], still: list[ShapeBody]) -
     if not moving or not still:
         return np.zeros((0, 3), dtype=np.int64)
     a = np.stack([body.bounds_at(motion.Ts_object_carried[body.link]) for body in moving], axis=1)[:, :, None]
-    b = np.stack([np.broadcast_to(_bounds_of_other(motion, body), (len(a), 2, 3)) for body in still], axis=1)[:, None]
-    return np.argwhere(np.all((a[..., 0, :] <= b[..., 1, :]) & (b[..., 0, :] <= a[..., 1, :]), axis=-1))
+    low, high = a[..., 0, :].min(axis=(0, 1, 2)), a[..., 1, :].max(axis=(0, 1, 2))  # of the whole motion
+    others = [_bounds_of_other(motion, body) for body in still]
+    swept = np.array([(at[..., 0, :].min(axis=0), at[..., 1, :].max(axis=0)) if at.ndim > 2 else at for at in others])
+    near = np.flatnonzero(np.all((swept[:, 0] <= high) & (swept[:, 1] >= low), axis=1))
+    if not len(near):
+        return np.zeros((0, 3), dtype=np.int64)
+    b = np.stack([np.broadcast_to(others[k], (len(a), 2, 3)) for k in near], axis=1)[:, None]
+    rows = np.argwhere(np.all((a[..., 0, :] <= b[..., 1, :]) & (b[..., 0, :] <= a[..., 1, :]), axis=-1))
+    rows[:, 2] = near[rows[:, 2]]
+    return rows
 
 
 def _bounds_of_other(motion: _JointPath, body: ShapeBody) -> np.ndarray:

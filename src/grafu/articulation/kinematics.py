@@ -4,14 +4,17 @@ Exporters and simulators need one frame per link. What has to be open before a p
 """
 
 from collections.abc import Iterable, Mapping
+from typing import Final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.errors import ArticulationError
-from grafu.geometry.arrays import Mat4, Vec3, vec3
+from grafu.geometry.arrays import Mat4, Vec3, frozen_array, vec3
 
 _ALIKE = 1e-6  # radians or metres
+REST: Final = frozen_array(np.eye(4))
+"""The pose of a link that has not moved."""
 
 
 def all_before(name: str, waits: Mapping[str, Iterable[str]]) -> set[str]:
@@ -68,7 +71,8 @@ def with_coupled(articulated: ArticulatedObject, values: Mapping[str, float]) ->
 def link_poses(articulated: ArticulatedObject, values: Mapping[str, float], shown: bool = False) -> dict[str, Mat4]:
     """Returns for each link id its motion from rest, in the object frame, chained from the root outwards.
 
-    `shown` adds what joints are shown to do beside their motion (`Slip`).
+    A link that hangs on none that moves has the pose `REST` itself. `shown` adds what joints are shown to do beside
+    their motion (`Slip`).
 
     A joint that `values` leaves out stays closed (0); a coupled joint follows its leader. Values are radians or metres;
     limits are not applied.
@@ -83,9 +87,9 @@ def link_poses(articulated: ArticulatedObject, values: Mapping[str, float], show
     values, poses = with_coupled(articulated, values), dict[str, Mat4]()
     for link in articulated.links_from_root:
         joint = articulated.joint_of.get(link.id)
-        if joint is None:
-            poses[link.id] = np.eye(4)
-            continue
-        motion = joint.shown_motion if shown else joint.motion
-        poses[link.id] = poses[joint.parent] @ motion(values.get(joint.id, 0.0))
+        value, carried = (0.0, REST) if joint is None else (values.get(joint.id, 0.0), poses[joint.parent])
+        if joint is None or (carried is REST and value == 0.0 and (not shown or joint.slip is None)):
+            poses[link.id] = REST  # most links, in most poses
+        else:
+            poses[link.id] = carried @ (joint.shown_motion if shown else joint.motion)(value)
     return poses

@@ -12,10 +12,10 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.collision_clearance import Shapes
-from grafu.articulation.collision_shapes import CollisionShape, corners_of
+from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of
 from grafu.articulation.convex_pieces import hull_of
 from grafu.articulation.floor_clearance import carrying_links, floor_below, lowest_of
-from grafu.articulation.kinematics import link_poses
+from grafu.articulation.kinematics import REST, link_poses
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.stability import Stability, StabilityConfig, stability_of
 from grafu.articulation.sweep import rest_to_full
@@ -23,10 +23,8 @@ from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box, OrientedBox
 from grafu.geometry.budget import require_time
 from grafu.geometry.config_checks import require_positive
-from grafu.geometry.transform import transform_points
 
 _UPRIGHT = 1.0 - 1e-6  # of a unit vector: an axis that rises by more stands upright
-_REST: Mat4 = np.eye(4)
 
 
 @final
@@ -120,15 +118,25 @@ def _with_room_below(
 ) -> list[int]:
     """Returns which of the root's shapes have no moving shape between their lower ends and the floor in any pose."""
     moving = {link: held for link, held in shapes.items() if link != articulated.root}
-    places = [(link, _REST) for link in moving]
+    places: dict[str, list[Mat4]] = {link: [REST] for link in moving}
     for joint in articulated.free_joints:
         require_time()
         for values in rest_to_full(articulated, joint.id, config.poses):
-            places += [(link, T) for link, T in link_poses(articulated, values).items() if not np.array_equal(T, _REST)]
-    boxes = (Box.around(transform_points(T, corners_of(shape))) for link, T in places for shape in moving.get(link, ()))
-    near = [box for box in boxes if box.low[2] < floor + config.hanging]
-    body = shapes[articulated.root]
-    return [k for k in short if not any(_below(body[k], floor, config).overlaps(box) for box in near)]
+            for link, T in link_poses(articulated, values).items():
+                if T is not REST and link in places:
+                    places[link].append(T)
+    near = [
+        _low_bounds(shape, np.stack(places[link]), floor + config.hanging) for link in moving for shape in moving[link]
+    ]
+    lows, highs = np.concatenate([np.zeros((0, 2, 3)), *near]).swapaxes(0, 1)
+    rooms = ((k, _below(shapes[articulated.root][k], floor, config)) for k in short)
+    return [k for k, room in rooms if not np.all((lows <= room.high) & (highs >= room.low), axis=1).any()]
+
+
+def _low_bounds(shape: CollisionShape, Ts: np.ndarray, height: float) -> np.ndarray:
+    """Returns the bounds, (n, 2, 3), of a shape in those of its poses, (m, 4, 4), that reach below a height."""
+    bounds = ShapeBody("", shape).bounds_at(Ts)
+    return bounds[bounds[:, 0, 2] < height]
 
 
 def _below(foot: CollisionShape, floor: float, config: LevelFeetConfig) -> Box:

@@ -13,12 +13,13 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from grafu.asset.drafts import Chain, SceneNode, drafts_of_nodes, parts_of_drafts
+from grafu.asset.drafts import drafts_of_nodes, parts_of_drafts
 from grafu.asset.mesh_files import linear_channel, named_texture, surface_of_corners
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import library_call, parse_xml
+from grafu.asset.scene_nodes import Chain, SceneNode
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat4

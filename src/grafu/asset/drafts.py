@@ -19,6 +19,7 @@ from grafu.asset.grips import grip_among
 from grafu.asset.labels import is_piece, is_whole_part, label_of
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Part, PartSource
+from grafu.asset.scene_nodes import Chain, SceneNode, with_split_meshes_whole
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
@@ -173,24 +174,12 @@ def _lies_in(draft: PartDraft, around: Box, ratio: float) -> bool:
     return box is not None and bool(np.all(box.low >= around.low - spare) and np.all(box.high <= around.high + spare))
 
 
-Chain = tuple[tuple[int, str], ...]
-
-
-@final
-@dataclass(frozen=True)
-class SceneNode:
-    """A node with a mesh: its name, its surfaces in the scene's coordinates, and the nodes from the root down to it.
-
-    Each node of the chain is a number of its own within the scene, and its name; the last is the node itself.
-    """
-
-    name: str
-    chain: Chain
-    surfaces: tuple[Surface, ...]
-
-
 def drafts_of_nodes(nodes: Sequence[SceneNode], file: str, by_name: bool = True) -> list[PartDraft]:
-    """Returns one draft for each node; `by_name` groups nodes below one that is named as a whole door or drawer."""
+    """Returns one draft for each node; `by_name` groups nodes below one that is named as a whole door or drawer.
+
+    Nodes that are pieces of one mesh, parted by an exporter, are one.
+    """
+    nodes = with_split_meshes_whole(nodes)
     wholes = _whole_nodes([node.chain for node in nodes]) if by_name else set()
     return [_draft(node, file, wholes) for node in nodes]
 

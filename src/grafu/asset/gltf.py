@@ -7,13 +7,14 @@ from typing import final
 
 import numpy as np
 
-from grafu.asset.drafts import Chain, SceneNode, drafts_of_nodes, parts_of_drafts
+from grafu.asset.drafts import drafts_of_nodes, parts_of_drafts
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
 from grafu.asset.json_files import JsonObject
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
+from grafu.asset.scene_nodes import Chain, SceneNode
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import from_rotation, quaternion_matrix

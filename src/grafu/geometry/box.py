@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, extremes, frozen_array
-from grafu.geometry.transform import from_rotation, transform_points
+from grafu.geometry.transform import from_rotation
 
 _AT_HIGH: Final = np.array([[bool((k >> axis) & 1) for axis in range(3)] for k in range(8)])  # of each corner
 
@@ -161,7 +161,7 @@ class OrientedBox(ArrayValue):
 
     def corners(self) -> Points:
         """Returns the eight corners in the object frame."""
-        return transform_points(self.T_object_box, Box(-self.half, self.half).corners())
+        return np.where(_AT_HIGH, self.half, -self.half) @ self.rotation.T + self.center
 
     @classmethod
     def around(cls, points: Points, rotation: Mat3) -> "OrientedBox":
