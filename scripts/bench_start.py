@@ -15,10 +15,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
+from bench_figure import Figure, Section
 from bench_table import measured_table
 
 ROOT = Path(__file__).parent.parent
 SAMPLE = ROOT / "samples" / "dresser.glb"
+BARS = {"cold": 0.9, "import": 0.3, "open": 0.1, "help": 0.5, "ratio": 1.2}
 OPTIONS = ("--formats", "glb", "--no-page", "--overwrite")
 BLENDER = """
 import sys, bpy
@@ -42,15 +44,10 @@ class Starting:
 
     cpu: Mapping[str, list[float]]
     clock: Mapping[str, list[float]]
+    in_turn: Mapping[str, list[float]]
+    """The clock's seconds in the order of the turns."""
     opening: list[float]
     """Seconds of the processor in which the shipped network is opened, ONNX Runtime being imported."""
-
-    @property
-    def figures(self) -> dict[str, float]:
-        """The figures that have a bar, in seconds; the ratio where Blender was there."""
-        found = {"cold_s": median(self.cpu["grafu"]), "import_s": median(self.cpu["import"])}
-        found["open_s"] = median(self.opening)
-        return found | ({"cold_ratio": self.ratio(self.clock)} if "blender" in self.clock else {})
 
     def ratio(self, seconds: Mapping[str, list[float]]) -> float:
         """Returns grafu's seconds over Blender's."""
@@ -64,6 +61,7 @@ def time_starting(sample: str, repeats: int) -> Starting:
         commands: dict[str, Sequence[str]] = {
             "grafu": (sys.executable, "-m", "grafu", "functionalize", sample, "--out", folder, *OPTIONS),
             "import": (sys.executable, "-c", "import grafu.api.functions"),
+            "help": (sys.executable, "-m", "grafu", "--help"),
         }
         if blender:
             commands["blender"] = (blender, "-c", BLENDER, sample, str(Path(folder) / "model.blend"))
@@ -76,7 +74,8 @@ def time_starting(sample: str, repeats: int) -> Starting:
                     cpu[name].append(round(processor, 4))
                     clock[name].append(round(seconds, 4))
         opening = [round(float(printed((sys.executable, "-c", NETWORK))), 4) for _ in range(repeats)]
-    return Starting({k: sorted(v) for k, v in cpu.items()}, {k: sorted(v) for k, v in clock.items()}, sorted(opening))
+    ordered = [{name: sorted(seconds) for name, seconds in by.items()} for by in (cpu, clock)]
+    return Starting(*ordered, clock, sorted(opening))
 
 
 def blender_python() -> str:
@@ -101,6 +100,26 @@ def printed(command: Sequence[str]) -> str:
     """Returns what a command prints; bytecode is kept, as an installed package has it."""
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     return subprocess.run(command, env=kept, check=True, capture_output=True, text=True).stdout
+
+
+def starting_section(starting: Starting) -> Section:
+    """Returns the figures of a fresh process, and their table."""
+    named = {"cold": "grafu", "import": "import", "help": "help"}
+    figures = [
+        Figure(f"a fresh process: {name}", tuple(starting.cpu[of]), "s", BARS[name]) for name, of in named.items()
+    ]
+    figures.append(Figure("a fresh process: the network opens", tuple(starting.opening), "s", BARS["open"]))
+    if "blender" in starting.clock:
+        ratios = zip(starting.in_turn["grafu"], starting.in_turn["blender"], strict=True)
+        figures.append(
+            Figure(
+                "a fresh process over Blender, clock",
+                tuple(sorted(round(a / b, 3) for a, b in ratios)),
+                "",
+                BARS["ratio"],
+            )
+        )
+    return Section(tuple(figures), starting_table(starting))
 
 
 def starting_table(starting: Starting) -> str:

@@ -12,10 +12,12 @@ from pathlib import Path
 from statistics import mean, median
 
 import numpy as np
+from bench_figure import Figure, Section
 from bench_table import measured_table
 
 POINTS = 512
 SEED = 0
+RATE = 200.0  # models a second that are asked for
 PLACES = (5, 50, 95)  # per cent points of a single model's time
 
 
@@ -112,6 +114,12 @@ def time_reading(count: int) -> float:
         started = time.process_time()
         read = sum(1 for _ in ShardReader(path))
         return round(read / (time.process_time() - started), 1)
+
+
+def making_section(making: Making) -> Section:
+    """Returns the rate as a figure, and its table."""
+    rate = Figure("synthetic models with points", tuple(making.rates), "a second", RATE, at_least=True)
+    return Section((rate,), making_table(making))
 
 
 def making_table(making: Making) -> str:
