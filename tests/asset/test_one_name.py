@@ -37,10 +37,13 @@ FRAMED = [
 ]
 
 
-def read(tmp_path, **pieces):
+BLENDER = "{}.{:03}"
+
+
+def read(tmp_path, called=BLENDER, **pieces):
     """The asset of a case and pieces, called as Blender calls the shells into which it separates an object."""
     scene = trimesh.Scene()
-    copies = {f"{n}.{k:03}" if k else n: box for n, boxes in pieces.items() for k, box in enumerate(boxes)}
+    copies = {called.format(n, k) if k else n: box for n, boxes in pieces.items() for k, box in enumerate(boxes)}
     for name, (low, high) in {**CASE, **copies}.items():
         mesh = trimesh.creation.box(bounds=(low, high))
         scene.add_geometry(mesh, node_name=name, geom_name=name)
@@ -63,6 +66,17 @@ def test_the_boards_of_one_drawer_are_one_whatever_else_its_name_holds(tmp_path,
     assert any(f"joined to {name}.004" in note for note in asset.notes)
 
 
+def test_the_boards_of_drawers_are_one_whatever_numbers_trimesh_gave_them(tmp_path):
+    """A drawer and its boards may be `drawer_4`, `drawer_3_5`, `drawer_3_6`: other drawers' names, counted on."""
+    lower = [((x, y, z - 0.63), (X, Y, Z - 0.63)) for (x, y, z), (X, Y, Z) in DRAWER]
+    boards = {f"drawer_3_{k}": [box] for k, box in enumerate(DRAWER[:-1], 5)}
+    boards |= {f"drawer_2_{k}": [box] for k, box in enumerate(lower[:4], 4)}
+    asset = read(tmp_path, **boards, drawer_4=[DRAWER[-1]], drawer_3=lower[4:5])
+
+    fronts = [p for p in asset.parts if p.source.name in ("drawer_3_9", "drawer_3")]
+    assert [round(float(front.box.size[1]), 3) for front in fronts] == [0.35, 0.35]
+
+
 def test_stiles_rails_and_panel_of_one_name_are_one_door_beside_another_drawer(tmp_path):
     asset = read(tmp_path, door=FRAMED, drawer=DRAWER)
     doors = [p for p in asset.parts if p.label is PartLabel.DOOR]
@@ -71,13 +85,15 @@ def test_stiles_rails_and_panel_of_one_name_are_one_door_beside_another_drawer(t
     np.testing.assert_allclose(doors[0].box.size, [0.76, 0.02, 0.6], atol=1e-6)
 
 
-def test_doors_of_one_name_stay_several(tmp_path):
+@pytest.mark.parametrize("called", [BLENDER, "{}_{}", "{}-{}"])
+def test_doors_of_one_name_stay_several(tmp_path, called):
     """Three doors side by side that nearly meet, and two fronts of drawers above each other."""
     leaves = [((x, -0.20, 0.0), (x + 0.256, -0.18, 0.60)) for x in (-0.39, -0.133, 0.124)]
     drawers = [((-0.39, -0.20, z), (0.39, -0.18, z + 0.17)) for z in (0.62, 0.795)]
-    asset = read(tmp_path, Door=leaves, Drawer=drawers)
+    asset = read(tmp_path, called, Door=leaves, Drawer=drawers)
 
-    assert [n for n, _ in moving(asset)] == ["Door", "Door.001", "Door.002", "Drawer", "Drawer.001"]
+    names = ["Door", called.format("Door", 1), called.format("Door", 2), "Drawer", called.format("Drawer", 1)]
+    assert [n for n, _ in moving(asset)] == names
     assert not any("joined" in note for note in asset.notes)
 
 

@@ -20,6 +20,7 @@ from grafu.asset.labels import is_piece, is_whole_part, label_of
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Part, PartSource
 from grafu.asset.scene_nodes import Chain, SceneNode, with_split_meshes_whole
+from grafu.asset.split_meshes import split_objects
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
@@ -76,6 +77,7 @@ class _Grouped:
 def parts_of_drafts(drafts: list[PartDraft], config: GroupConfig = GroupConfig()) -> tuple[Part, ...]:
     """Returns one part per group or single piece, in order; handles stay parts of their own and ride on their group."""
     grouped: dict[str, _Grouped] = {}
+    drafts = _with_split_objects_whole(drafts)
     for index, draft in enumerate(_with_openings(_with_name_groups(drafts, config.spare))):
         label = label_of(draft.label_name or draft.name)
         alone = not draft.group or label is PartLabel.HANDLE
@@ -91,6 +93,15 @@ def parts_of_drafts(drafts: list[PartDraft], config: GroupConfig = GroupConfig()
     ids = unique_ids((g.name, g.label is PartLabel.HANDLE) for g in grouped.values())
     by_key = dict(zip(grouped, ids, strict=True))
     return tuple(_part(g, by_key[key], by_key.get(g.carrier)) for key, g in grouped.items())
+
+
+def _with_split_objects_whole(drafts: list[PartDraft]) -> list[PartDraft]:
+    """Returns the drafts with the pieces of a mesh that an exporter parted as one draft each."""
+    found, names = list(drafts), ["" if draft.group else draft.name for draft in drafts]
+    for start, (name, count) in reversed(split_objects(names, [draft.surfaces for draft in drafts]).items()):
+        surfaces = tuple(surface for draft in drafts[start : start + count] for surface in draft.surfaces)
+        found[start : start + count] = [replace(drafts[start], name=name, surfaces=surfaces)]
+    return found
 
 
 def _with_grip(key: str, grouped: _Grouped) -> Iterator[tuple[str, _Grouped]]:

@@ -18,7 +18,7 @@ from grafu.segmentation.joining import joined_objects
 from grafu.vocabulary import PartLabel
 
 # What Blender calls the others of one name: copies of an object, and the shells into which it was separated.
-_COPY: Final = re.compile(r"\.\d{3,}$")
+_COPY: Final = re.compile(r"(?:[-_. ]*\d+)+$")
 
 
 @final

@@ -1,0 +1,114 @@
+"""Whether objects are the pieces of one mesh, which an exporter parted by material and named after it.
+
+glTF keeps a mesh of several materials in one object, as primitives. Tools that know no primitives part it:
+
+* trimesh: `drawer_1b6a32`, `drawer_5b6346`: six hexadecimal digits, drawn by chance.
+* Sketchfab: `Door_Wood_0`, `Door_Glass_0`: each with the name of its material.
+* Assimp: `drawer_1-0`, `drawer_1-1`; three.js: `drawer_1_1`, `drawer_1_2`. Several doors that somebody numbered are
+  called so as well: pieces of one mesh touch, and either the mesh has a number of its own before theirs, or no two of
+  them have a material in common and each lies in the bounds of others.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations, takewhile
+from typing import Final, final
+
+import numpy as np
+
+from grafu.geometry.appearance import Surface
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_ratios
+
+Surfaces = tuple[Surface, ...]
+_BY_CHANCE: Final = re.compile(r"_[0-9a-f]{6}")
+_NUMBER: Final = re.compile(r"[-_.]?\d+")
+_FIRST: Final = re.compile(r"(.+)-0")
+_SIGNS: Final = re.compile(r"[^0-9a-z]+")
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class SplitMeshConfig:
+    """How near pieces of one mesh lie.
+
+    Raises:
+        ValueError: if the ratio is not between 0 and 1.
+    """
+
+    apart: float = 0.005
+    """The widest gap between the box of a piece and those of the others (fraction of the largest side of all)."""
+
+    def __post_init__(self) -> None:
+        require_ratios(self, *self.__dataclass_fields__)
+
+
+def is_one_mesh(
+    name: str, names: Sequence[str], pieces: Sequence[Surfaces], config: SplitMeshConfig = SplitMeshConfig()
+) -> bool:
+    """Whether objects are the pieces of a mesh of this name: by their names, and numbered ones by what they are."""
+    if len(names) < 2 or not name or not all(piece.startswith(name) for piece in names):
+        return False
+    endings = [piece[len(name) :] for piece in names]
+    if all(map(_BY_CHANCE.fullmatch, endings)):
+        return any(sign.isdigit() for ending in endings for sign in ending)
+    if all(_is_material(ending, surfaces) for ending, surfaces in zip(endings, pieces, strict=True)):
+        return True
+    boxes = [Box.enclosing(solid) for of in pieces if (solid := [s.mesh.box for s in of if not s.is_empty])]
+    if not all(map(_NUMBER.fullmatch, endings)) or len(boxes) < len(pieces):
+        return False
+    if name[-1].isdigit() and not endings[0][0].isdigit():
+        return _hang_together(boxes, config.apart * float(Box.enclosing(boxes).size.max()))
+    return _have_own_materials(pieces) and _hang_together(boxes, None)
+
+
+def split_objects(names: Sequence[str], pieces: Sequence[Surfaces]) -> dict[int, tuple[str, int]]:
+    """Returns the pieces of one mesh among objects that no node stands over, as Assimp names and orders them.
+
+    By the place of the first: the name of the mesh, and how many pieces follow one another, it counted in.
+    """
+    found: dict[int, tuple[str, int]] = {}
+    for start, first in enumerate(names):
+        named = _FIRST.fullmatch(first)
+        if named is None:
+            continue
+        numbered = (f"{named[1]}-{k}" == name for k, name in enumerate(names[start:]))
+        count = sum(1 for _ in takewhile(bool, numbered))
+        if is_one_mesh(named[1], names[start : start + count], pieces[start : start + count]):
+            found[start] = named[1], count
+    return found
+
+
+def _is_material(ending: str, surfaces: Surfaces) -> bool:
+    """Whether what follows the name is that of the piece's material, and a number."""
+    word, _, number = ending.rpartition("_")
+    return number.isdigit() and bool(_plain(word)) and {_plain(s.material.name) for s in surfaces} == {_plain(word)}
+
+
+def _plain(name: str) -> str:
+    return _SIGNS.sub("", name.lower())
+
+
+def _have_own_materials(pieces: Sequence[Surfaces]) -> bool:
+    used = [{(s.material.name, s.material.base_color) for s in surfaces} for surfaces in pieces]
+    return all(mine.isdisjoint(theirs) for mine, theirs in combinations(used, 2))
+
+
+def _hang_together(boxes: Sequence[Box], apart: float | None) -> bool:
+    """Whether each box is joined to the others: at most so far apart, or (None) by room that they have in common."""
+    reached, queue = {0}, [0]
+    while queue:
+        here = boxes[queue.pop()]
+        near = (k for k, box in enumerate(boxes) if k not in reached)
+        new = {k for k in near if (_share_room(here, boxes[k]) if apart is None else here.gap(boxes[k]) <= apart)}
+        reached |= new
+        queue += new
+    return len(reached) == len(boxes)
+
+
+def _share_room(one: Box, other: Box) -> bool:
+    """Whether two boxes overlap along every axis; a sheet overlaps what it lies in."""
+    inside = np.minimum(one.high, other.high) - np.maximum(one.low, other.low)
+    flat = np.minimum(one.size, other.size) <= 0
+    return bool(np.all((inside > 0) | (flat & (inside >= 0))))
