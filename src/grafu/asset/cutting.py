@@ -11,7 +11,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.labels import is_appliance, is_bed, is_chest, is_washer, sense_of
+from grafu.asset.labels import is_appliance, is_bed, is_chest, is_washer, is_whole_part, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
 from grafu.asset.part import ROBOTS, Frame, Part
@@ -57,9 +57,12 @@ class CutConfig:
     """What takes this much of a bed's side (fraction) ..."""
     bed_height: float = 0.4
     """... and is as high as this (fraction of its width) is a headboard or footboard, and no front."""
+    alike: float = 0.8
+    """The fronts of an object that has the name of one door or drawer are what it says if the smallest has this
+    fraction of the largest one's width and height: two leaves. Of fronts that differ it says what the first one is."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "door_height", "thick", "case", "bed_width", "bed_height")
+        require_ratios(self, "door_height", "thick", "case", "bed_width", "bed_height", "alike")
         require_positive(self, "few")
 
 
@@ -99,9 +102,11 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
     cut = {reading.parts[k].id for k in cuts}
     cases = {reading.parts[k].id for k in _cases_beside_larger(meshes, cuts, config)}
+    of_one = {reading.parts[k].id for k in _named_after_one(reading, meshes, cuts, config)}
+    bare = ((_without_label(part) if part.id in of_one else part, piece) for part, piece in pieces)
     parts = tuple(
         _freed(_named(_part(part, piece, new, T, part.id in cases), piece, model, T, config), cut)
-        for (part, piece), new in zip(pieces, _ids(pieces), strict=True)
+        for (part, piece), new in zip(bare, _ids(pieces), strict=True)
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes), fronts_face=_side_of_fronts(cuts, T))
@@ -150,6 +155,25 @@ def _cases_beside_larger(
             sides = np.sort(meshes[k].with_faces(rest[0]).box.size)
             if sides[0] > config.case * sides[1]:
                 yield k
+
+
+def _named_after_one(
+    reading: Reading, meshes: list[TriangleMesh], cuts: dict[int, list[FacePiece]], config: CutConfig
+) -> Iterator[int]:
+    """Yields the objects with the name of one door or drawer that several fronts unlike one another were cut from.
+
+    Objects that are joined by their material, as optimisers of glTF do, have the name of the first.
+    """
+    for k, pieces in cuts.items():
+        fronts = [meshes[k].with_faces(piece.faces).box.size for piece in pieces if piece.role == "front"]
+        if len(fronts) > 1 and is_whole_part(reading.parts[k].source.name):
+            sides = np.sort(fronts, axis=1)[:, 1:]
+            if (sides.min(axis=0) < config.alike * sides.max(axis=0)).any():
+                yield k
+
+
+def _without_label(part: Part) -> Part:
+    return replace(part, label=PartLabel.UNKNOWN, labelled_by="none")
 
 
 def _materials(part: Part) -> Indices:

@@ -60,7 +60,9 @@ def hides(
 ) -> bool:
     """Whether an object is more than the fronts in it are: a case, or several fronts in one.
 
-    The only object of an input is a case, also where it looks like a drawer: open above, and as wide as its front.
+    What is said to be one door or drawer holds several where they fill its outline, as an open niche among them does
+    not, or where it is nothing but fronts. The only object of an input is a case, also where it looks like a drawer:
+    open above, and as wide as its front.
     """
     own = view.owner == owner
     low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
@@ -71,7 +73,8 @@ def hides(
     filled = sum(outline(view, front) for front in major) / float(size[0] * size[1])
     is_plate = size[2] <= config.division.plate * size[:2].min()
     if is_whole or (is_plate and not _is_shallow_case(view, np.flatnonzero(own), fronts, config.division)):
-        several = len(major) > 1 and filled >= config.division.filled
+        all_fronts = {shell for front in fronts for shell in front.all_shells} >= set(np.flatnonzero(own).tolist())
+        several = (len(fronts) > 1 and all_fronts) or (len(major) > 1 and filled >= config.division.filled)
         return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major, config.division))
     rest = own.copy()
     rest[[shell for front in fronts for shell in front.all_shells]] = False
