@@ -2,11 +2,11 @@
 
     python scripts/bench.py [MODELS ...] [--repeats 3] [--out bench] [--quick] [--only SECTION ...]
 
-MODELS are inputs; without any, those of pnm, pnm2 and wild in the folder that GRAFU_MODELS names, else in
-../shared/models. Bars are held against the processor's own time on one core, which is the clock's on a machine that
-does nothing else. A fixed piece of work is timed before and after each section: times and rates are compared with those
-of docs/speed.md in units of it, so that two machines, or two hours of one, can be compared. `--quick` measures little
-of each section, to see that all works. Sections: models, growth, starting, network, synthetic, many, joints.
+MODELS are models, or folders of them; without any, the models in the folder that GRAFU_MODELS names, if it names one.
+Bars are held against the processor's own time on one core, which is the clock's on a machine that does nothing else.
+A fixed piece of work is timed before and after each section: times and rates are compared with those of docs/speed.md
+in units of it, so that two machines, or two hours of one, can be compared. `--quick` measures little of each section,
+to see that all works. Sections: models, growth, starting, network, synthetic, many, joints.
 """
 
 import argparse
@@ -36,7 +36,7 @@ from stated.store import Stored, load_store
 W, T = TypeVar("W"), TypeVar("T")
 ROOT = Path(__file__).parent.parent
 MEASURE = "speed"
-SETS = ("pnm", "pnm2", "wild")
+FEW = 4  # models of a quick run
 MADE, QUICK_MADE = 300, 40  # specimens
 STARTS, QUICK_STARTS = 7, 3
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -71,7 +71,8 @@ SECTIONS: dict[str, Callable[[Setup], Section]] = {
 def main() -> int:
     """Runs the bench; returns the exit code."""
     options = parse_arguments()
-    models = tuple(str(path) for path in options.models or development_models(options.quick))
+    folders = options.models or [Path(at) for at in filter(None, [os.environ.get("GRAFU_MODELS")])]
+    models = tuple(str(path) for path in models_in(folders, options.quick))
     setup = Setup(models, 1 if options.quick else options.repeats, options.quick, load_store().get(MEASURE))
     work, sections = [fixed_work()], []
     for name in options.only or SECTIONS:
@@ -101,13 +102,12 @@ def parse_arguments() -> argparse.Namespace:
     return options
 
 
-def development_models(quick: bool) -> list[Path]:
-    """Returns the models at hand; none, where there is no such folder."""
+def models_in(folders: Sequence[Path], quick: bool) -> list[Path]:
+    """Returns the models in folders; of many only a few where it has to be `quick`."""
     from grafu.evaluation.dataset import find_models
 
-    folder = Path(os.environ.get("GRAFU_MODELS", ROOT.parent / "shared" / "models"))
-    found = [ref.path for name in SETS if (folder / name).is_dir() for ref in find_models(folder / name)]
-    return found[:: len(found) // 4] if quick and len(found) > 4 else found
+    found = [ref.path for folder in folders for ref in find_models(folder)]
+    return found[:: len(found) // FEW] if quick and len(found) > FEW else found
 
 
 def in_fresh_process(job: Callable[[W, int], T], what: W, repeats: int) -> T:
