@@ -92,6 +92,19 @@ def test_a_frame_and_the_pane_in_it_are_the_door_that_stands_above_them(tmp_path
     assert named(tmp_path, "door", ("door_1", FRAME, OAK), ("door_2", PANE, GLASS)) == ["door"]
 
 
+def test_pieces_that_three_js_calls_after_the_mesh_are_the_node_above_them(tmp_path):
+    knob = [((0.36, -0.02, 0.3), (0.38, 0.0, 0.32))]
+    pieces = ("Cube003", FRAME, OAK), ("Cube003_1", PANE, GLASS), ("Cube003_2", knob, RED)
+
+    assert named(tmp_path, "Door", *pieces) == ["Door"]
+
+
+@pytest.mark.parametrize("colours", [(OAK, OAK), (OAK, RED)])
+def test_doors_in_a_group_that_three_js_could_have_named_stay_doors(tmp_path, colours):
+    """Two of one material, and two that are alike but for it."""
+    assert named(tmp_path, "doors", *zip(("door", "door_1"), beside(2), colours, strict=True)) == ["door", "door_1"]
+
+
 def beside(count):
     return [[((0.5 * k, 0.0, 0.0), (0.5 * k + 0.5, 0.3, 0.2))] for k in range(count)]
 

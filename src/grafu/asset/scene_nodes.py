@@ -39,7 +39,7 @@ def with_split_meshes_whole(nodes: Sequence[SceneNode]) -> list[SceneNode]:
             found.append(node)
         elif node is below[above][0]:
             surfaces = tuple(surface for piece in below[above] for surface in piece.surfaces)
-            found.append(SceneNode(node.chain[-2][1], node.chain[:-1], surfaces))
+            found.append(SceneNode(node.chain[-2][1] or node.name, node.chain[:-1], surfaces))
     return found
 
 

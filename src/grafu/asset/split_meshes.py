@@ -7,6 +7,8 @@ glTF keeps a mesh of several materials in one object, as primitives. Tools that 
 * Assimp: `drawer_1-0`, `drawer_1-1`; three.js: `drawer_1_1`, `drawer_1_2`. Several doors that somebody numbered are
   called so as well: pieces of one mesh touch, and either the mesh has a number of its own before theirs, or no two of
   them have a material in common and each lies in the bounds of others.
+* three.js, after the mesh and not its node: `Cube003`, `Cube003_1`, `Cube003_2` below `Door`. No two of them have a
+  material in common, all hang together, and they are not copies, alike in size.
 """
 
 import re
@@ -34,11 +36,13 @@ class SplitMeshConfig:
     """How near pieces of one mesh lie.
 
     Raises:
-        ValueError: if the ratio is not between 0 and 1.
+        ValueError: if a ratio is not between 0 and 1.
     """
 
     apart: float = 0.005
     """The widest gap between the box of a piece and those of the others (fraction of the largest side of all)."""
+    alike: float = 0.9
+    """Copies: each side of each box has at least this fraction of the longest such side."""
 
     def __post_init__(self) -> None:
         require_ratios(self, *self.__dataclass_fields__)
@@ -48,18 +52,25 @@ def is_one_mesh(
     name: str, names: Sequence[str], pieces: Sequence[Surfaces], config: SplitMeshConfig = SplitMeshConfig()
 ) -> bool:
     """Whether objects are the pieces of a mesh of this name: by their names, and numbered ones by what they are."""
-    if len(names) < 2 or not name or not all(piece.startswith(name) for piece in names):
+    if len(names) < 2:
+        return False
+    boxes = [Box.enclosing(solid) for of in pieces if (solid := [s.mesh.box for s in of if not s.is_empty])]
+    if len(boxes) < len(pieces):
+        return False
+    near = config.apart * float(Box.enclosing(boxes).size.max())
+    if all(piece == f"{names[0]}_{k}" for k, piece in enumerate(names) if k):
+        return _have_own_materials(pieces) and _hang_together(boxes, near) and not _are_alike(boxes, config.alike)
+    if not name or not all(piece.startswith(name) for piece in names):
         return False
     endings = [piece[len(name) :] for piece in names]
     if all(map(_BY_CHANCE.fullmatch, endings)):
         return any(sign.isdigit() for ending in endings for sign in ending)
     if all(_is_material(ending, surfaces) for ending, surfaces in zip(endings, pieces, strict=True)):
         return True
-    boxes = [Box.enclosing(solid) for of in pieces if (solid := [s.mesh.box for s in of if not s.is_empty])]
-    if not all(map(_NUMBER.fullmatch, endings)) or len(boxes) < len(pieces):
+    if not all(map(_NUMBER.fullmatch, endings)):
         return False
     if name[-1].isdigit() and not endings[0][0].isdigit():
-        return _hang_together(boxes, config.apart * float(Box.enclosing(boxes).size.max()))
+        return _hang_together(boxes, near)
     return _have_own_materials(pieces) and _hang_together(boxes, None)
 
 
@@ -105,6 +116,11 @@ def _hang_together(boxes: Sequence[Box], apart: float | None) -> bool:
         reached |= new
         queue += new
     return len(reached) == len(boxes)
+
+
+def _are_alike(boxes: Sequence[Box], ratio: float) -> bool:
+    sizes = np.array([box.size for box in boxes])
+    return bool((sizes.min(axis=0) >= ratio * sizes.max(axis=0)).all())
 
 
 def _share_room(one: Box, other: Box) -> bool:
