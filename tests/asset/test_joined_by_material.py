@@ -1,4 +1,4 @@
-"""Objects joined by their material have the name of the first: the fronts among them are found, whatever it says."""
+"""Objects joined by their material have the name of the first: the fronts among them are found, whatever it states."""
 
 from collections import defaultdict
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A mesh that an exporter parted by material is one object again; what somebody numbered or grouped is not."""
+"""A mesh that an exporter parted by material is one object again; what the user numbered or grouped is not."""
 
 import json
 import struct

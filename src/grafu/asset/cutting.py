@@ -58,8 +58,8 @@ class CutConfig:
     bed_height: float = 0.4
     """... and is as high as this (fraction of its width) is a headboard or footboard, and no front."""
     alike: float = 0.8
-    """The fronts of an object that has the name of one door or drawer are what it says if the smallest has this
-    fraction of the largest one's width and height: two leaves. Of fronts that differ it says what the first one is."""
+    """The fronts of an object that has the name of one door or drawer are what it states if the smallest has this
+    fraction of the largest one's width and height: two leaves. Of fronts that differ it states what the first is."""
 
     def __post_init__(self) -> None:
         require_ratios(self, "door_height", "thick", "case", "bed_width", "bed_height", "alike")

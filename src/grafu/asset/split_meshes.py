@@ -4,7 +4,7 @@ glTF keeps a mesh of several materials in one object, as primitives. Tools that 
 
 * trimesh: `drawer_1b6a32`, `drawer_5b6346`: six hexadecimal digits, drawn by chance.
 * Sketchfab: `Door_Wood_0`, `Door_Glass_0`: each with the name of its material.
-* Assimp: `drawer_1-0`, `drawer_1-1`; three.js: `drawer_1_1`, `drawer_1_2`. Several doors that somebody numbered are
+* Assimp: `drawer_1-0`, `drawer_1-1`; three.js: `drawer_1_1`, `drawer_1_2`. Doors that the user numbered are
   called so as well: pieces of one mesh touch, and either the mesh has a number of its own before theirs, or no two of
   them have a material in common and each lies in the bounds of others.
 * three.js, after the mesh and not its node: `Cube003`, `Cube003_1`, `Cube003_2` below `Door`. No two of them have a
