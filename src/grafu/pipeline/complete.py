@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grafu.asset.part import Asset
+from grafu.completion.dropping_doors import with_dropping_doors
 from grafu.completion.handle_sides import with_handle_sides
 from grafu.completion.network import complete_by_network
 from grafu.completion.round_doors import with_round_doors
@@ -70,4 +71,6 @@ def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
 
 def _shaped(completion: GraphCompletion, asset: Asset) -> GraphCompletion:
     """Returns the completion in which shape decides where drawers and lids open to, and on which side doors hang."""
-    return with_handle_sides(with_round_doors(with_ways_out(completion, asset), asset), asset)
+    return with_handle_sides(
+        with_dropping_doors(with_round_doors(with_ways_out(completion, asset), asset), asset), asset
+    )
