@@ -21,7 +21,6 @@ from grafu.joints.plan import JointRequest
 from grafu.joints.report import Clearance
 from grafu.scene.border import part_axes
 from grafu.scene.scene import JointMotion, Scene
-from grafu.vocabulary import JointType
 
 _POSES = 16
 
@@ -77,7 +76,7 @@ def trimmed_at_seam(
 
 def _edge(part: Part, motion: JointMotion, config: ClearanceConfig) -> _Edge | None:
     """Returns the free edge of a leaf that turns; None of what slides, or turns about its thin side."""
-    if motion.type is not JointType.REVOLUTE or not len(part.mesh.faces):
+    if not motion.kind.turns or not len(part.mesh.faces):
         return None
     axes = np.asarray(part_axes(part.mesh))
     local = part.mesh.vertices @ axes
@@ -89,8 +88,8 @@ def _edge(part: Part, motion: JointMotion, config: ClearanceConfig) -> _Edge | N
     middle = (local[:, column].min() + local[:, column].max()) / 2
     sign = float(np.sign(middle - motion.axis.point @ axes[:, column])) or 1.0
     turned = (transform_points(motion.axis.rotation(angle), part.mesh.vertices) for angle in _angles(config))
-    ways = [float((sign * points @ axes[:, column]).max()) for points in turned]
-    return _Edge(axes, column, sign, ways[0], max(ways))
+    reached = [float((sign * points @ axes[:, column]).max()) for points in turned]
+    return _Edge(axes, column, sign, reached[0], max(reached))
 
 
 def _angles(config: ClearanceConfig) -> list[float]:
