@@ -42,9 +42,10 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
 
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
-    left or right side (`with_round_doors`), those of ovens below (`with_dropping_doors`), and doors on the side away from
-    their handle (`with_handle_sides`). What is only guessed to be a door, and is too thick, is a drawer (`with_thick_doors`); what is only guessed to be a door or
-    drawer stays static where it cannot be one (`with_static_guesses`).
+    left or right side (`with_round_doors`), those of ovens on their lower border (`with_dropping_doors`), and doors on
+    the side away from their handle (`with_handle_sides`). What is only guessed to be a door, and is too thick, is a
+    drawer (`with_thick_doors`); what is only guessed to be a door or drawer stays static where it cannot be one
+    (`with_static_guesses`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
