@@ -15,10 +15,12 @@ from grafu.articulation.catch import CatchConfig
 from grafu.articulation.finger_fit import FingerFitConfig
 from grafu.articulation.finger_room import FingerRoomCutConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
+from grafu.asset.appliance_fronts import ApplianceFrontConfig
 from grafu.asset.body_kinds import BodyKindConfig
 from grafu.asset.cutting import CutConfig
 from grafu.asset.door_frames import FramedDoorsConfig
 from grafu.asset.drafts import GroupConfig
+from grafu.asset.drawn_cuts import DrawnCutConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.grips import DrawnGripConfig
@@ -36,6 +38,7 @@ from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceC
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
+from grafu.completion.dropping_doors import DroppingDoorConfig
 from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
 from grafu.completion.round_doors import RoundDoorConfig
@@ -55,6 +58,7 @@ from grafu.segmentation.config import (
     SegmentationConfig,
 )
 from grafu.segmentation.furniture_pieces import FurnitureConfig
+from grafu.segmentation.surface_config import CreaseConfig, JoiningConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
 SOURCES = Path(__file__).parents[1] / "src" / "grafu"
@@ -224,6 +228,7 @@ CONFIGS = (
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
     ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig,
+    ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DroppingDoorConfig, JoiningConfig,
     ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
     WayOutConfig,
 )  # fmt: skip

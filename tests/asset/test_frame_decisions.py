@@ -212,6 +212,14 @@ def test_a_format_is_believed_where_few_labels_speak_against_it():
     assert settle_frame(reading, LoadOptions()).up == "+Y"
 
 
+@pytest.mark.parametrize(("height", "up"), [(0.9, "+Z"), (2.38, "+Z"), (0.02, "-Z")])
+def test_a_worktop_below_the_middle_of_high_units_turns_nothing_upside_down(height, up):
+    """A top at the very bottom of all does."""
+    units = [box(f"unit_{x}", (x, 0.0, 0.0), (x + 0.6, 0.6, 2.4)) for x in (0.0, 2.4)]
+    worktop = replace(box("worktop", (0.6, 0.0, height - 0.02), (2.4, 0.6, height)), label=PartLabel.TOP_PANEL)
+    assert settle_frame(Reading("made", (*units, worktop), UNKNOWN), LoadOptions()).up == up
+
+
 @settings(max_examples=12, deadline=None)
 @given(degrees=st.floats(-44.0, 44.0).filter(lambda angle: abs(angle) > 1.5), up=st.sampled_from(DIRECTIONS))
 def test_a_piece_that_stands_askew_comes_out_along_the_axes_whatever_is_up(degrees, up):

@@ -118,6 +118,29 @@ def test_a_plant_is_no_door_and_a_bent_front_or_one_that_stands_open_is():
     assert why([*BASE_CASE, shaped("guess", ajar)], edge=edge) == ""
 
 
+def bevelled(low, high, width: float, deep: float) -> trimesh.Trimesh:
+    """A plate at y = 0 whose face slopes to all four sides, over so much of its width."""
+    inner_low, inner_high = np.array(low) + width, np.array(high) - width
+    rims = [(low, high, 0.0), (low, high, -0.005), (inner_low, inner_high, -0.005 - deep)]
+    points = [(x, y, z) for a, b, y in rims for x in (a[0], b[0]) for z in (a[1], b[1])]
+    return trimesh.Trimesh(points).convex_hull
+
+
+def test_fronts_with_bevels_on_all_sides_are_not_round_and_domes_and_pipes_are():
+    """Of a low drawer the bevels are most of what is seen."""
+    rail, edge = Rail("left", "guess", FRONT), Hinge("left", "guess", 0, 1)
+    low = bevelled((0.02, 0.6), (0.58, 0.76), 0.06, 0.05)
+    assert why([*BASE_CASE, shaped("guess", low)], edge=rail) == ""
+    assert why([*BASE_CASE, shaped("guess", bevelled((0.02, 0.1), (0.58, 0.7), 0.2, 0.12))], edge=edge) == ""
+
+    dome = trimesh.creation.icosphere(subdivisions=3, radius=0.25)
+    dome.apply_scale([1.0, 0.4, 1.0]).apply_translation([0.3, 0.0, 0.4])
+    assert "round" in why([*BASE_CASE, shaped("guess", dome.slice_plane([0, 0, 0], [0, -1, 0], cap=True))], edge=edge)
+    pipe = trimesh.creation.cylinder(0.08, 0.56, sections=24)
+    pipe.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [0, 1, 0])).apply_translation([0.3, 0, 0.7])
+    assert "round" in why([*BASE_CASE, shaped("guess", pipe)], edge=rail)
+
+
 @pytest.mark.parametrize(("depth", "is_static"), [(0.02, False), (0.1, False), (0.2, True)])
 def test_a_post_is_no_door(depth, is_static):
     post = box("guess", (0.0, -depth, 0.1), (0.3, 0.0, 0.8))

@@ -44,6 +44,26 @@ def test_a_leaf_turns_about_the_edge_away_from_its_handle_to_the_face_that_it_is
     assert {part.id: part.category for part in report.parts}["panel"] is PartLabel.DOOR
 
 
+@pytest.mark.parametrize("reach", [0.0, 1e-7])
+@pytest.mark.parametrize("depth", [0.06, 0.14])
+def test_a_threshold_that_its_leaf_touches_stays(depth, reach):
+    """By rounding the two overlap."""
+    strip = replace(box("strip", (0.05, -depth, 0.0), (0.85, depth, 0.005 + reach)), label=PartLabel.BOTTOM_PANEL)
+    made = built(frame(), leaf(), knob(), strip)
+    assert building_door(made.asset) is not None
+    (joint,) = made.object.joints
+    assert {v.name for v in made.object.link(joint.child).visuals if v.role == "part"} == {"panel", "grip"}
+    assert abs(joint.axis.direction[2]) == pytest.approx(1.0)
+
+
+def test_what_stands_before_a_leaf_is_no_threshold_and_a_seal_below_it_goes_with_it():
+    stand = box("stand", (0.05, -0.3, 0.0), (0.85, -0.1, 0.3))
+    assert building_door(scene(frame(), leaf(), knob(), stand)) is None
+    seal = box("seal", (0.06, -0.05, 0.0), (0.84, -0.03, 0.005))
+    found = building_door(scene(frame(), leaf(), knob(), seal))
+    assert {part.id for part in found.on_leaf[0]} == {"grip", "seal"}
+
+
 def test_in_the_middle_of_its_frame_a_leaf_opens_away_from_the_only_knob():
     for before in (True, False):
         grip = knob(0.79, (-0.06, -0.02) if before else (-0.02, 0.02))

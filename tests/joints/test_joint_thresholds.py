@@ -71,6 +71,7 @@ REASONS = {
     },
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/in_frame.py": {"GAPS": EFFORT},
+    "clearance/seam.py": {"_POSES": SAMPLES},
     "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},
     "beside_leaf.py": {"_UP": NUMBERING, "_RAYS": SAMPLES, "_UPRIGHT": NUMBERING},
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},

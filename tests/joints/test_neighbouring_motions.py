@@ -5,6 +5,8 @@ from itertools import pairwise
 import pytest
 
 from grafu.asset.part import Asset
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.metrics.collision import CollisionConfig, collision_shares, largest_gaps
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
@@ -94,3 +96,25 @@ def test_the_hinges_of_a_short_door_keep_apart():
     moving, _ = hardware(result, "door")
     spans = sorted((v.mesh.box.low[2], v.mesh.box.high[2]) for v in moving if v.name.startswith("hinge"))
     assert all(one[1] <= other[0] + 1e-6 for one, other in pairwise(spans))
+
+
+def test_a_block_beside_a_door_that_fills_its_opening_does_not_wedge_it():
+    """Two doors in one rim, on both sides of a stile of 25 mm; the first hangs on it, the second on the other side."""
+    rim = [
+        box("left", (-0.32, 0.0, 0.0), (-0.2925, 0.001, 2.3)),
+        box("stile", (0.2925, 0.0, 0.1), (0.3175, 0.001, 2.225)),
+        box("right", (0.9025, 0.0, 0.0), (0.93, 0.001, 2.3)),
+        box("low", (-0.2925, 0.0, 0.0), (0.9025, 0.001, 0.1)),
+        box("high", (-0.2925, 0.0, 2.225), (0.9025, 0.001, 2.3)),
+    ]
+    rim.append(box("back", (-0.32, 0.58, 0.0), (0.93, 0.6, 2.3)))
+    rim += [box(f"side_{x}", (x, 0.001, 0.0), (x + 0.02, 0.6, 2.3)) for x in (-0.34, 0.93)]
+    doors = [
+        box("door_1", (-0.2925, -0.025, 0.1), (0.2925, 0.009, 2.225)),
+        box("door_2", (0.3175, -0.025, 0.1), (0.9025, 0.009, 2.225)),
+    ]
+    joints = tuple(
+        hinged(part.id, Axis(vec3(float(part.box.high[0]), -0.025, 0.0), vec3(0.0, 0.0, 1.0))) for part in doors
+    )
+    found = realized(scene(*doors, *rim, joints=joints))
+    assert set(installed(found)) == {"door_1", "door_2"}

@@ -1,6 +1,5 @@
 """Fronts that are drawn on one welded surface: grooves, raised and sunk panels, another material."""
 
-import manifold3d
 import numpy as np
 import pytest
 import trimesh
@@ -12,23 +11,14 @@ from grafu.asset.load import load_asset
 from grafu.errors import UnsegmentedAsset
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.config import CreaseConfig
 from grafu.segmentation.creases import CreasedSurface, back_of, drawn_fronts
+from grafu.segmentation.surface_config import CreaseConfig
+from solids import as_mesh, solid
 
 FRONT = np.array([0.0, -1.0, 0.0])
 SIZE = (0.6, 0.4, 0.8)
 # Two drawers above each other and a door below them, each as x and z from the lower left corner.
 FRONTS = (((0.03, 0.57), (0.64, 0.77)), ((0.03, 0.57), (0.48, 0.61)), ((0.03, 0.57), (0.03, 0.45)))
-
-
-def solid(low, high):
-    cube = manifold3d.Manifold.cube([h - lo for lo, h in zip(low, high, strict=True)])
-    return cube.translate([float(v) for v in low])
-
-
-def as_mesh(body) -> TriangleMesh:
-    found = body.to_mesh()
-    return TriangleMesh(np.asarray(found.vert_properties)[:, :3].astype(float), np.asarray(found.tri_verts))
 
 
 def cabinet(drawn: str, fronts=FRONTS) -> TriangleMesh:

@@ -104,3 +104,35 @@ def test_objects_that_may_not_be_joined_are_not_and_never_all_are():
     assert groups(*fragments, case=[*CASE], may=[*closed[:-1], True]) == [(0, 1, 2, 3, 4)]
     assert all(1 not in group for group in groups(*fragments, may=without_left))
     assert groups(*fragments, case=[]) == []
+
+
+def sheets(low, high, *missing) -> TriangleMesh:
+    """A box of sheets without those that face along the axes that are named."""
+    mesh = board(low, high)
+    return mesh.with_faces(~(mesh.face_normals @ np.array(missing).T > 0.9).any(axis=1))
+
+
+@pytest.mark.parametrize("may_case", [False, True])
+def test_doors_that_meet_the_rim_of_their_case_at_its_corners_stay_apart(may_case):
+    """Doors without a back, each along the whole edge of an opening in the face of a case of one object."""
+    behind = (0.0, 1.0, 0.0)
+    doors = [sheets((x, -0.02, 0.1), (x + 0.5, 0.0, 0.7), behind) for x in (0.05, 0.6, 1.15)]
+    xs, zs = (0.0, 0.05, 0.55, 0.6, 1.1, 1.15, 1.65, 1.7), (0.0, 0.1, 0.7, 0.75)
+    rim = [
+        flat((xs[i], xs[i + 1]), (zs[k], zs[k + 1])) for i in range(7) for k in range(3) if k != 1 or i not in (1, 3, 5)
+    ]
+    case = merge_meshes([sheets((0.0, 0.0, 0.0), (1.7, 0.5, 0.75), (0.0, -1.0, 0.0)), *rim])
+    foot = board((0.0, 0.0, -0.1), (0.05, 0.05, 0.0))
+    assert joined_objects([*doors, foot, case], [True] * 4 + [may_case]) == []
+
+
+def test_pieces_of_one_door_that_meet_at_corners_are_joined():
+    leaf = sheets((0.0, -0.02, 0.1), (0.5, 0.0, 0.6), (0.0, 0.0, 1.0))
+    strip = sheets((0.0, -0.02, 0.6), (0.5, 0.0, 0.7), (0.0, 0.0, -1.0))
+    case = sheets((-0.05, 0.0, 0.0), (0.55, 0.5, 0.75), (0.0, -1.0, 0.0))
+    assert [set(group) for group in joined_objects([leaf, strip, case], [True, True, False], has_name=True)] == [{0, 1}]
+
+
+def flat(x, z):
+    corners = np.array([[x[0], 0.0, z[0]], [x[1], 0.0, z[0]], [x[1], 0.0, z[1]], [x[0], 0.0, z[1]]])
+    return TriangleMesh(corners, np.array([[0, 1, 2], [0, 2, 3]]))

@@ -11,6 +11,7 @@ from typing import Final, final
 
 import numpy as np
 
+from grafu.asset.drawn_cuts import count_fronts, handles_on_plates, with_drawn_fronts
 from grafu.asset.labels import is_appliance, is_bed, is_chest, is_washer, is_whole_part, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
@@ -20,12 +21,12 @@ from grafu.asset.reading import Reading
 from grafu.asset.standing import spelled
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices, Mat4, Vec3
-from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.config import CreaseConfig
-from grafu.segmentation.creases import back_of, drawn_fronts, uv_islands
+from grafu.segmentation.creases import back_of
 from grafu.segmentation.division import FacePiece, divided
 from grafu.segmentation.lids import lid_of_chest, lid_of_washer
+from grafu.segmentation.surface_config import CreaseConfig
 from grafu.vocabulary import PartLabel
 
 # What may hide fronts: what no name tells, and what is called by what it holds.
@@ -47,8 +48,6 @@ class CutConfig:
 
     door_height: float = 0.5
     """Least height of an appliance's door (fraction of its width)."""
-    few: int = 3
-    """Fronts drawn on a surface are looked for where an input has no others, and so many objects at most."""
     thick: float = 0.35
     """What is thicker than this is no board (fraction of its middle side) ..."""
     case: float = 0.1
@@ -63,7 +62,6 @@ class CutConfig:
 
     def __post_init__(self) -> None:
         require_ratios(self, "door_height", "thick", "case", "bed_width", "bed_height", "alike")
-        require_positive(self, "few")
 
 
 def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", config: CutConfig = CutConfig()) -> Reading:
@@ -84,11 +82,10 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     materials = [_materials(part) for part in reading.parts]
     loose = [part.label in _LYING and part.carried_by is None for part in reading.parts]
     cuts = divided(meshes, open_to, whole, materials, loose)
-    if not cuts and not any(whole) and len(reading.parts) <= config.few:
-        cuts = drawn_fronts(meshes, open_to, materials)
-        if not cuts and any(surface.uv is not None for part in reading.parts for surface in part.surfaces):
-            cuts = drawn_fronts(meshes, open_to, [_islands(part) for part in reading.parts])
-    if is_chest(name) and not any(whole) and sum(p.role == "front" for found in cuts.values() for p in found) <= 1:
+    if not any(whole):
+        cuts = with_drawn_fronts(cuts, reading.parts, meshes, open_to, materials)
+    cuts |= handles_on_plates(cuts, meshes, open_to, materials)
+    if is_chest(name) and not any(whole) and count_fronts(cuts) <= 1:
         cuts = lid_of_chest(meshes, open_to) or cuts  # its front wall is a plate, too
     if is_washer(name) and not any(whole):
         cuts = lid_of_washer(meshes, open_to) or cuts
@@ -195,16 +192,6 @@ def _is_board(mesh: TriangleMesh, piece: FacePiece, extent: Vec3, config: CutCon
     size = mesh.with_faces(piece.faces).box.size
     wide = int(np.argmax(size[:2]))
     return bool(size[wide] >= config.bed_width * extent[wide] and size[2] >= config.bed_height * size[wide])
-
-
-def _islands(part: Part) -> Indices:
-    """Returns the number of the UV island of each face of the part's mesh; no island has faces of two surfaces."""
-    found: list[np.ndarray] = []
-    for surface in part.surfaces:
-        start = int(found[-1].max(initial=-1)) + 1 if found else 0
-        one = np.zeros(len(surface.mesh.faces), np.int64)
-        found.append(start + (one if surface.uv is None else uv_islands(surface.mesh, surface.uv)))
-    return np.concatenate(found)
 
 
 def turn_of(frame: Frame) -> Mat4:

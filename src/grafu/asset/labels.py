@@ -102,7 +102,7 @@ _OPENING: Final = re.compile(r"^sweethome3d_opening_on_(?:hinge|rail)_\d+_?", re
 _AND = word_set("and or plus")
 _CHESTS = word_set("chest trunk coffer")
 _BEDS = word_set("bed cot crib cradle mattress pillow duvet")
-_APPLIANCES = word_set("fridge refrigerator freezer oven stove cooker microwave dishwasher washer")
+APPLIANCES = word_set("fridge refrigerator freezer oven stove cooker microwave dishwasher washer")
 
 
 @final
@@ -170,7 +170,7 @@ def is_bed(name: str) -> bool:
 
 def is_appliance(name: str) -> bool:
     """Whether the name is that of a kitchen appliance or its body: an oven, a refrigerator, a dishwasher."""
-    return sense_of(name).is_container and bool({singular(w) for w in spoken(name)} & _APPLIANCES)
+    return sense_of(name).is_container and bool({singular(w) for w in spoken(name)} & APPLIANCES)
 
 
 def is_opening(name: str) -> bool:

@@ -8,6 +8,7 @@ from typing import Final, final
 
 import numpy as np
 
+from grafu.asset.appliance_fronts import named_first
 from grafu.asset.cutting import is_divided, turn_of
 from grafu.asset.part import Frame
 from grafu.asset.pieces import in_words, with_pieces
@@ -138,7 +139,8 @@ def _with_copies(reading: Reading) -> tuple[list[str], list[bool]]:
 
 
 def _joined(reading: Reading, groups: Sequence[tuple[int, ...]]) -> Reading:
-    """Returns the reading with each group joined to its first part."""
+    """Returns the reading with each group joined to its first part, or to that which bears an appliance's name."""
+    groups = [named_first(reading.parts, group) for group in groups]
     joined = {k: group[0] for group in groups for k in group[1:]}
     members = {group[0]: [reading.parts[k] for k in group[1:]] for group in groups}
     ids = {reading.parts[k].id: reading.parts[host].id for k, host in joined.items()}

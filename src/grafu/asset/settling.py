@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from grafu.asset.appliance_fronts import with_appliance_fronts
 from grafu.asset.cutting import cut_where_fronts_appear
 from grafu.asset.door_frames import with_door_frames
 from grafu.asset.either_kind import with_either_kind
@@ -62,6 +63,7 @@ def settled(
         stands = settle_frame(reading, options, file)
         reading = cut_where_fronts_appear(reading, stands, name)
         reading = joined_where_nameless(reading, stands)
+        reading = replace(reading, parts=with_appliance_fronts(reading.parts, stands))
         reading = _with_split_handles(reading)
     reading = replace(reading, parts=with_bodies(with_control_panels(reading.parts)))
     _check_parts(reading, path, options)

@@ -89,7 +89,9 @@ class UpEvidenceConfig:
     least: float = 3.0
     """... of so many votes at least: two standing plates whose thin sides differ, and one that lies."""
     turned: float = 1.0
-    """Sum of the places of tops, bottoms and legs (each -1..1) from which on a piece stands upside down."""
+    """Sum of the places of tops, bottoms and legs (each -1..1) from which on a piece stands upside down ..."""
+    below: float = 0.5
+    """... and from which on where its format states no direction: a worktop under wall units lies below the middle."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -138,7 +140,7 @@ class UpVotes:
         axis = int(np.argmax(score))
         if score[axis] <= 0 or (score >= score[axis] - 1e-9).sum() > 1:
             return None
-        return spelled(axis, bool(self.sense[axis] >= 0))
+        return spelled(axis, bool(self.sense[axis] > -UpEvidenceConfig().below))
 
     def confidence(self, up: str) -> float:
         """Returns which fraction of what lies or stands does so where this direction is up.

@@ -10,11 +10,12 @@ from functools import partial
 from typing import NamedTuple, final
 
 import numpy as np
+from jaxtyping import Bool
 
 from grafu.asset.part import Asset
 from grafu.completion.drawer_case import is_front_only, is_without_case
 from grafu.completion.ways_out import rest_of
-from grafu.geometry.arrays import Scalars
+from grafu.geometry.arrays import Mat3, Scalars
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh
@@ -41,7 +42,10 @@ class GuessedShapeConfig:
     """A surface runs along the axes of its part where its normals are this near to one (cosine: 25 degrees) ..."""
     rounded: float = 0.85
     """... and what has less of its area so is no front (fraction). Of 178 real doors and drawers whose names were
-    hidden the least has 0.94."""
+    hidden the least has 0.94 ..."""
+    moulded: float = 0.05
+    """... but of a plate, what slopes towards one of its sides alone is a bevel or a moulding (cosine between a normal
+    and the other side at most: 3 degrees)."""
     thick: float = 0.36
     """A door is thinner than this (fraction of the shorter of its other sides). Of 69 real ones the most is 0.22."""
     seen: float = 0.35
@@ -120,7 +124,7 @@ def _no_drawer(
     return "it is a solid block, and open to see: nothing could be put into it" if is_block else ""
 
 
-def _frames(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
+def _frames(mesh: TriangleMesh) -> tuple[Mat3, Mat3]:
     """Returns the axes, and a part's own main directions: those of a door that is drawn open, or of an inclined lid.
 
     Each is a matrix with a direction in each column.
@@ -130,12 +134,24 @@ def _frames(mesh: TriangleMesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _straight(mesh: TriangleMesh, config: GuessedShapeConfig) -> float:
-    """Returns how much of a surface lies across one of the axes, or of its own main directions (fraction of area)."""
+    """Returns how much of a surface lies across one of the axes, or of its own main directions (fraction of area).
+
+    So do the bevels and mouldings of a plate.
+    """
     total = float(mesh.face_areas.sum())
     if not total > 0:
         return 1.0
-    turned = (np.abs(mesh.face_normals @ frame).max(axis=1) >= config.straight for frame in _frames(mesh))
-    return max(float(mesh.face_areas[along].sum()) / total for along in turned)
+    return max(float(mesh.face_areas[_lies_along(mesh, frame, config)].sum()) / total for frame in _frames(mesh))
+
+
+def _lies_along(mesh: TriangleMesh, frame: Mat3, config: GuessedShapeConfig) -> Bool[np.ndarray, " faces"]:
+    """Whether each face lies across one of the directions of a frame, or is a bevel or a moulding of a plate."""
+    facing, sides = np.abs(mesh.face_normals @ frame), np.ptp(mesh.vertices @ frame, axis=0)
+    thin, *long = np.argsort(sides)
+    along = facing.max(axis=1) >= config.straight
+    if sides[thin] < config.thick * sides[long[0]]:
+        along |= facing[:, long].min(axis=1) <= config.moulded
+    return np.asarray(along)
 
 
 class _Seen(NamedTuple):

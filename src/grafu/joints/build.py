@@ -13,6 +13,7 @@ from grafu.geometry.config_checks import at_scale
 from grafu.joints.clearance.carve import Path, obstruction
 from grafu.joints.clearance.in_frame import leaf_in_frame
 from grafu.joints.clearance.make import make_clearance
+from grafu.joints.clearance.seam import trimmed_at_seam
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import drawn_pin
@@ -64,6 +65,12 @@ def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: R
 
 
 def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
+    scene, seam = trimmed_at_seam(request, scene, config) if config.trim else (scene, ())
+    built = _door_built(request, scene, gallery, config)
+    return replace(built, clearances=(*seam, *built.clearances)) if isinstance(built, Built) else built
+
+
+def _door_built(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
     search = door_search(request, scene, config)
     if not search.has_pins:
         return Refusal(request.moving, Reason.NO_ROOM, f"what stands around it allows no {request.choice}")

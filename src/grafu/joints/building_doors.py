@@ -60,6 +60,8 @@ class BuildingDoorConfig:
     """How high above a frame around it a leaf ends at most (fraction of the height of the whole): rails are higher."""
     beside: float = 0.15
     """Greatest side of what is beside a leaf: buttons, a lamp (fraction of the height of the whole)."""
+    touch: float = 0.002
+    """What reaches into the outline of a leaf by so much at most (fraction of the height of the whole) touches it."""
     small: float = 0.3
     """Greatest side of a handle or lock (fraction of its leaf's height)."""
     aside: float = 0.2
@@ -171,7 +173,7 @@ def _outermost(boards: Sequence[Part]) -> Iterator[Part]:
 def _is_beside(part: Part, leaf: Box, whole: Box, config: BuildingDoorConfig) -> bool:
     """Whether a part lies beside a leaf, seen from before it: small, on the floor or above, and no drawer in a case."""
     shared = np.minimum(part.box.high, leaf.high) - np.maximum(part.box.low, leaf.low)
-    if part.label.is_movable or np.all(shared[[_WIDTH, _UP]] > 0):
+    if part.label.is_movable or np.all(shared[[_WIDTH, _UP]] > config.touch * whole.size[_UP]):
         return False
     lies = part.box.high[_UP] <= whole.low[_UP] + config.threshold * whole.size[_UP]
     return bool(lies or part.box.low[_UP] >= leaf.high[_UP] or part.box.size.max() <= config.beside * whole.size[_UP])
@@ -220,8 +222,11 @@ def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: Bui
 
 
 def is_on_leaf(part: Part, leaf: Part, config: BuildingDoorConfig) -> bool:
-    """Whether a part lies within the outline of a leaf, seen from before it, and close to it."""
+    """Whether a part lies within the outline of a leaf, seen from before it, and close to it; a threshold does not."""
     width = float(leaf.box.size[_WIDTH])
+    is_below = part.box.high[_UP] <= leaf.box.low[_UP] + config.touch * leaf.box.size[_UP]
+    if is_below and part.box.size[_DEPTH] > leaf.box.size[_DEPTH]:
+        return False
     room = width * np.array([config.threshold, config.before, config.threshold])
     return bool(np.all(part.box.low >= leaf.box.low - room) and np.all(part.box.high <= leaf.box.high + room))
 

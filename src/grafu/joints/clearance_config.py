@@ -41,6 +41,13 @@ class ClearanceConfig:
     through: float = 0.5
     """Along how much of a leaf's thickness its frame reaches at least (fraction): less where it lies on its frame."""
 
+    seam: float = 0.3
+    """Until it has turned so far, the free edge of a leaf may run into the leaf that it meets (radians)."""
+    parallel: float = 0.999
+    """The pins of two leaves that meet are parallel to this (cosine) ..."""
+    meeting: float = 0.5
+    """... and their edges lie beside each other along this much of the shorter one (fraction)."""
+
     def __post_init__(self) -> None:
-        require_positive(self, "play", "enclosed", "beside", "shells", "sides", "lapped")
-        require_ratios(self, "touching", "frame", "sliver", "slivers", "inside", "through")
+        require_positive(self, "play", "enclosed", "beside", "shells", "sides", "lapped", "seam")
+        require_ratios(self, "touching", "frame", "sliver", "slivers", "inside", "through", "parallel", "meeting")

@@ -5,10 +5,10 @@ something still touches. Other numbers are fractions of what their line states.
 """
 
 from dataclasses import dataclass
-from math import radians
 from typing import final
 
 from grafu.geometry.config_checks import require_positive
+from grafu.segmentation.surface_config import CreaseConfig, JoiningConfig
 from grafu.visible import ShortRepr
 
 
@@ -129,6 +129,14 @@ class MemberConfig(ShortRepr):
     """... or that are inset in it, as thin as this (of its thickness) ..."""
     smaller: float = 0.9
     """... and each is smaller than this (of its outline)."""
+    many: int = 3
+    """So many fronts on a body show a case ..."""
+    quarter: float = 0.25
+    """... where they cover this much of it (of its outline): a row of kitchen units has a plinth and rails, too."""
+    body: float = 0.35
+    """A body is thicker than this (of its shorter side) ..."""
+    unit: float = 0.97
+    """... and one as high as wide with a plate on its face, smaller by so much (of its outline), is no drawer."""
     ring: float = 0.5
     """What covers less is a frame (of its outline)."""
     pane_area: float = 0.2
@@ -198,7 +206,9 @@ class DivisionConfig:
     flush: float = 0.2
     """How far inside an object's front a front of it lies (of the object's depth) ..."""
     flush_held: float = 0.8
-    """... where a handle stands on it: the drawers behind the top of a desk."""
+    """... where a handle stands on it: the drawers behind the top of a desk ..."""
+    around: float = 0.15
+    """... unless nothing stands before it, as near as this (of its size): wall units above a worktop that is deeper."""
     lid: float = 0.4
     """How much of a case is closed from above (of its footprint)."""
     shallow: float = 0.1
@@ -211,58 +221,16 @@ class DivisionConfig:
     """A front's shorter side at least (of the whole's largest side)."""
     low: float = 0.025
     """The height of a front that a handle stands on at least (of its object's largest side): a table's drawers."""
+    lowest: float = 0.02
+    """The shorter side of a front in a column or row with others at least (of its object's largest side) ..."""
+    level: float = 0.001
+    """... which ends, and lies, as one of them does (of its object's largest side) ..."""
+    slender: float = 8.0
+    """... and is at most so many times as long as wide: plinths and cornices are longer."""
     single: float = 0.8
     """What an object's one front covers (of the object's outline)."""
     most_handles: int = 2
     """Handles drawn in one front: more are mouldings or slats."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class CreaseConfig:
-    """Where a welded surface is parted so that fronts drawn on it appear.
-
-    Raises:
-        ValueError: if a number is not above 0.
-    """
-
-    corner: float = radians(20.0)
-    """Least angle of an inner corner (radians)."""
-    rise: float = 0.02
-    """How far the next face rises out of the plane of a face at such a corner (of the distance of their middles)."""
-    facing: float = 0.7
-    """Cosine between a face's normal and the direction to the viewer from which on it faces the viewer."""
-    near: float = 1e-3
-    """How far the edge of a front may reach beyond its outline (of its object's largest side)."""
-    thick: float = 0.015
-    """How thick a front becomes that is drawn as a sheet (of its object's largest side)."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class JoiningConfig:
-    """Which objects without a name are one front or handle.
-
-    Raises:
-        ValueError: if a number is not above 0.
-    """
-
-    touch: float = 0.002
-    """As near as this, two objects touch (of the whole's largest side)."""
-    least: float = 0.025
-    """The shorter side of a front at least (of the whole's largest side): desks have drawers as low as this."""
-    boards: int = 3
-    """How many of a front's objects a board behind it touches at least, where it touches others too ..."""
-    beside: int = 2
-    """... and what lies beside or on the front."""
-    edging: float = 0.1
-    """How far behind a front the edging of what it closes ends at most (of the front's largest side)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)

@@ -17,10 +17,11 @@ from jaxtyping import Bool, Float, Int
 from grafu.geometry.arrays import Faces, Indices, Vec3
 from grafu.geometry.components import linked, welded
 from grafu.geometry.mesh import TriangleMesh
-from grafu.segmentation.config import CreaseConfig, SegmentationConfig
+from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object
 from grafu.segmentation.fronts import FrontShells
 from grafu.segmentation.hidden_fronts import outline
+from grafu.segmentation.surface_config import CreaseConfig
 from grafu.segmentation.surroundings import within
 from grafu.segmentation.view import ShellsView, view_of
 
@@ -67,6 +68,47 @@ def drawn_fronts(
         if pieces:
             break  # the front is most likely at -Y: other sides count only where it shows none
     return {k: [replace(p, is_sheet=p.role == "front") for p in found] for k, found in sorted(pieces.items())}
+
+
+def drawn_handles(
+    meshes: Sequence[TriangleMesh],
+    plates: Sequence[bool],
+    materials: Sequence[Indices],
+    config: SegmentationConfig = SegmentationConfig(),
+) -> dict[int, list[FacePiece]]:
+    """Returns for each plate with a handle drawn on its surface, or two, that plate without them, and these.
+
+    They stand out farther than mouldings do. See `drawn_fronts`; `plates` tells which meshes may be such.
+    """
+    if not any(plates):
+        return {}
+    kept, found = np.asarray(plates), dict[int, list[FacePiece]]()
+    surfaces = {k: CreasedSurface.of(meshes[k], materials[k], config.creases) for k in np.flatnonzero(kept).tolist()}
+    for turn in range(4):
+        axes = axes_from(turn)
+        patches = [np.zeros(len(mesh.faces), np.int64) for mesh in meshes]
+        for k, surface in surfaces.items():
+            patches[k] = surface.patches(axes[2], config.creases)
+        if not any(patch.any() for patch in patches):
+            continue
+        shells = MeshShells.of(meshes, patches)
+        view = view_of(shells.mesh, shells.shell, shells.owner, axes)
+        single = fronts_by_object(view, kept[shells.owner], [False] * len(meshes), config).with_handles
+        single = {k: front for k, front in single.items() if _stand_out(view, front, config.creases)}
+        found |= FoundFronts({}, single).pieces(shells)
+        if found:
+            break
+    return found
+
+
+def _stand_out(view: ShellsView, front: FrontShells, config: CreaseConfig) -> bool:
+    """Whether all handles of a front stand out of it far enough."""
+    for handle in front.handles:
+        low, high = view.low[[*handle]].min(axis=0), view.high[[*handle]].max(axis=0)
+        out = float(high[2] - view.high[front.shells[0], 2])
+        if out < config.stand_out * float((high - low)[:2].min()):
+            return False
+    return True
 
 
 def _trimmed(

@@ -129,7 +129,7 @@ class _FrontFinder:
         on = np.zeros(len(self._area), dtype=bool)
         on[plates] = True
         on &= inner & (view.low[:, 2] >= view.high[plate, 2] - near) & (view.owner == view.owner[plate])
-        if self._is_case(plate, plates, inner):
+        if self._is_case(plate, plates, inner) or self._is_unit(plate, plates):
             return True
         outer = _outermost(view, np.flatnonzero(on), config.nested)
         covers = float(self._area[outer].sum())
@@ -147,7 +147,21 @@ class _FrontFinder:
         inset &= view.size[:, 2] <= config.inset * view.size[plate, 2]
         inset &= view.high[:, 2] >= view.high[plate, 2] - near
         outer = _outermost(view, np.flatnonzero(inset), config.nested)
-        return len(outer) > 1 and float(self._area[outer].sum()) >= config.half * float(self._area[plate])
+        least = config.quarter if len(outer) >= config.many else config.half
+        return len(outer) > 1 and float(self._area[outer].sum()) >= least * float(self._area[plate])
+
+    def _is_unit(self, plate: int, plates: Indices) -> bool:
+        """Whether a body is as high as wide and has a door on its face: a wall unit, and no drawer with its front."""
+        view, near, config = self._view, float(self._near[plate]), self._config
+        size = view.size[plate]
+        if size[2] <= config.body * size[:2].min() or size[1] < size[0]:
+            return False
+        door = np.zeros(len(self._area), dtype=bool)
+        door[plates] = True
+        door &= within(view, plate, 0.0) & (view.owner == view.owner[plate])
+        door &= (view.size[:, 2] <= config.inset * size[2]) & (self._area <= config.unit * self._area[plate])
+        door &= np.abs(view.low[:, 2] - view.high[plate, 2]) <= near
+        return bool((self._area[door] >= config.half * self._area[plate]).any())
 
     def _is_apron(self, plate: int, front: int) -> bool:
         """Whether a board is longer by far than the front on it, and hardly higher: the apron of a table."""

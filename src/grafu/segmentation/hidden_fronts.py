@@ -7,7 +7,7 @@ import numpy as np
 from grafu.geometry.arrays import Indices
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells
-from grafu.segmentation.surroundings import Scale, overlaps
+from grafu.segmentation.surroundings import Scale, is_behind, overlaps
 from grafu.segmentation.view import ShellsView
 
 
@@ -52,7 +52,8 @@ def is_flush(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bo
     shorter, thick = float(view.size[plate, :2].min()), float(view.size[plate, 2])
     flush = config.flush_held if front.is_held else config.flush
     low = config.low * float(Scale.of(view).extent[plate]) if front.is_held else np.inf
-    return inside <= flush * depth + thick and shorter >= min(config.small * extent, low)
+    is_ahead = inside <= flush * depth + thick or not is_behind(view, plate, config.around)
+    return is_ahead and shorter >= min(config.small * extent, low)
 
 
 def hides(
@@ -117,7 +118,7 @@ def _is_shallow_case(view: ShellsView, own: Indices, fronts: tuple[FrontShells, 
     handles = [shell for front in fronts for handle in front.handles for shell in handle]
     body, plates = np.setdiff1d(own, handles), [front.shells[0] for front in fronts]
     size = view.high[body].max(axis=0) - view.low[body].min(axis=0)
-    thick = float(view.size[plates, 2].max())
+    thick = float(np.median(view.size[plates, 2]))  # one may be a drawer drawn as one body
     return bool(size[2] >= config.shallow * size[:2].min() and size[2] >= config.deeper * thick)
 
 

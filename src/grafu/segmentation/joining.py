@@ -17,9 +17,10 @@ from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.touching import touching_pairs
 from grafu.segmentation.candidates import candidates, framed, merged
-from grafu.segmentation.config import JoiningConfig, SegmentationConfig
+from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.division import MeshShells, axes_from
 from grafu.segmentation.fronts import fronts_among
+from grafu.segmentation.surface_config import JoiningConfig
 from grafu.segmentation.view import SeenFaces
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
@@ -189,9 +190,12 @@ def _surrounds(rest: Box, box: Box, reach: float) -> bool:
 
 
 def _across(whole: TriangleMesh, owner: ObjectOfFaces, apart: Indices, may: MaskOfObjects) -> Indices:
-    """Returns the shell of each face, where those of several objects that meet at corners are one shell."""
-    joint = shell_numbers(whole)
-    numbers = np.where(may[owner], joint, int(joint.max(initial=-1)) + 1 + apart)
+    """Returns the shell of each face, where those of several objects that meet at corners are one shell.
+
+    Those that only meet at corners of an object that may not be joined are not: doors before the openings of a case.
+    """
+    numbers: Indices = len(owner) + apart
+    numbers[may[owner]] = shell_numbers(whole.with_faces(may[owner]))
     return np.unique(numbers, return_inverse=True)[1].reshape(-1).astype(np.int64)
 
 

@@ -3,12 +3,13 @@
 from collections.abc import Mapping
 
 import numpy as np
+from jaxtyping import Bool
 
 from grafu.geometry.arrays import Indices
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.fronts import SHEET, FrontShells
 from grafu.segmentation.surroundings import Scale
-from grafu.segmentation.view import MaskOfShells, ShellsView
+from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
 
 
 def lying_on_fronts(
@@ -21,7 +22,8 @@ def lying_on_fronts(
 
     The first of `fronts` are hidden in objects, the second are plates that are objects of their own: on such, handles
     count alone. `may` are the shells that may be parted by the first, and those that may by either. What is as small
-    as a handle may be inset: it reaches the face of its front from behind.
+    as a handle may be inset: it reaches the face of its front from behind. The handle on the other side of a door,
+    behind that on its face, lies on it as well.
     """
     hidden, alone = fronts
     plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
@@ -42,9 +44,36 @@ def lying_on_fronts(
         on &= (is_hidden | (is_small & may[1][own, None])) & (view.owner[plates] != owner)
         on &= is_inset | (low[..., 2] >= view.low[plates, 2] - near)
         on &= low[..., 2] <= view.high[plates, 2] + gap * near
+        on |= _behind(view, own, on & is_small, (view.low[plates, 2], near, gap), config.members.on_front)
         lies, front = on.any(axis=1), on.argmax(axis=1)
         served = np.unique(front[lies]).tolist()
         in_others = bool(served) and is_hidden[served].any()
         if len(served) > 1 or (in_others and not lies.all()):
             found[owner] = tuple(tuple(own[lies & (front == k)].tolist()) for k in served)
+    return found
+
+
+def _behind(
+    view: ShellsView,
+    own: Indices,
+    on: Bool[np.ndarray, "own plates"],
+    back: tuple[ScalarsOfShells, ScalarsOfShells, float],
+    least: float,
+) -> Bool[np.ndarray, "own plates"]:
+    """Returns which shells stand right behind the back of a front, in the outline of what lies on its face.
+
+    `back` is where the back of each front is (z), what is near there, and how many times that a handle may stand off.
+    """
+    level, near, gap = back
+    found = np.zeros_like(on)
+    low, high = view.low[own], view.high[own]
+    area = np.prod(high[:, :2] - low[:, :2], axis=1)
+    for k in np.flatnonzero(on.any(axis=0)).tolist():
+        before = on[:, k]
+        begins = (high[:, 2] <= level[k] + near[k]) & (high[:, 2] >= level[k] - gap * near[k])
+        shared = np.minimum(high[:, None, :2], high[None, before, :2]) - np.maximum(
+            low[:, None, :2], low[None, before, :2]
+        )
+        covered = np.maximum(shared, 0.0).prod(axis=2).max(axis=1) >= least * area
+        found[:, k] = begins & covered & (area > 0) & ~on.any(axis=1)
     return found

@@ -130,6 +130,24 @@ def is_recess(view: ShellsView, shell: int, scale: Scale, config: CandidateConfi
     return rim - float(np.median(inside)) > least
 
 
+def is_behind(view: ShellsView, shell: int, reach: float) -> bool:
+    """Whether something stands before a shell below it, above it, or on both sides of it, along most of that side.
+
+    It is looked for as far from the shell as `reach` of its size (fraction), and in the rays around it at least.
+    """
+    rows, columns = view.window(shell)
+    counts = [max(round(reach * (rays.stop - rays.start)), RING_CELLS) for rays in (rows, columns)]
+    first = [max(rays.start - count, 0) for rays, count in zip((rows, columns), counts, strict=True)]
+    below, above = view.depth[first[0] : rows.start, columns], view.depth[rows.stop : rows.stop + counts[0], columns]
+    left, right = view.depth[rows, first[1] : columns.start], view.depth[rows, columns.stop : columns.stop + counts[1]]
+    level = float(view.high[shell, 2]) + view.rays.cell
+    stands = [
+        bool(rays.size) and float(np.median(rays, axis=along).max()) > level
+        for rays, along in ((below, 1), (above, 1), (left, 0), (right, 0))
+    ]
+    return stands[0] or stands[1] or (stands[2] and stands[3])
+
+
 def with_ring(rows: slice, columns: slice) -> tuple[slice, slice]:
     """Returns rows and columns of rays with those around them."""
     rows, columns = (slice(max(rays.start - RING_CELLS, 0), rays.stop + RING_CELLS) for rays in (rows, columns))

@@ -167,7 +167,9 @@ def _static_in_the_way(static: list[TriangleMesh], site: HingeSite) -> bool:
     body.place(np.eye(4))
     box = Box.enclosing(mesh.box for mesh in static)
     hardware = (o.collider for o in (*in_the_way(site.scene.static_hardware, box), *site.scene.obstacles_behind))
-    return any(body.penetrates(other) for other in (*_at_rest_near(site, box), *hardware))
+    if any(body.penetrates(other) for other in (*_at_rest_near(site, box), *hardware)):
+        return True
+    return any(neighbour.is_wedged_by(static) for neighbour in site.neighbours)
 
 
 def _dynamic_in_the_way(dynamic: list[TriangleMesh], site: HingeSite) -> bool:

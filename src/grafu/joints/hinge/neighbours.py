@@ -1,5 +1,6 @@
 """The other moving bodies around a joint: what they are at rest, and whether they run into hardware on their path."""
 
+from collections.abc import Sequence
 from functools import cached_property
 from typing import final
 
@@ -39,6 +40,19 @@ class Neighbour:
     def at_rest(self) -> MeshCollider:
         """The same at rest."""
         return MeshCollider(self.mesh)
+
+    def is_wedged_by(self, standing: Sequence[TriangleMesh]) -> bool:
+        """Whether at rest it cuts into standing meshes, and what is static keeps it from coming free of them.
+
+        A door that fills its opening without a gap is held by what touches its other side.
+        """
+        note_box(Read.BODIES, self.box)
+        meeting = [MeshCollider(mesh) for mesh in standing if self.box.overlaps(mesh.box)]
+        if not meeting:
+            return False
+        self._body.place(np.eye(4))
+        around = (obstacle.collider for obstacle in self._scene.static_obstacles.near(self.box))
+        return any(k < len(meeting) for k in self._body.penetrated([*meeting, *around]))
 
     def runs_into(self, *standing: TriangleMesh) -> bool:
         """Whether it cuts into standing meshes, taken together, anywhere along its path."""

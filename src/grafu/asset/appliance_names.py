@@ -1,0 +1,20 @@
+"""Names that are those of kitchen appliances, and of which of them doors drop."""
+
+from typing import Final
+
+from grafu.asset.labels import APPLIANCES, is_appliance
+from grafu.asset.names import singular, spoken
+
+_DROPPING: Final = frozenset({"oven", "stove", "cooker", "dishwasher"})
+
+
+def appliances(name: str) -> frozenset[str]:
+    """Returns the words of kitchen appliances in a name that ends with one; none where it is that of a part of one."""
+    said = [singular(word) for word in spoken(name)]
+    return frozenset(said) & APPLIANCES if said and said[-1] in APPLIANCES and is_appliance(name) else frozenset()
+
+
+def is_drop_down(name: str) -> bool:
+    """Whether the name is that of an appliance whose door drops: an oven or a dishwasher, but no microwave oven."""
+    found = appliances(name)
+    return bool(found & _DROPPING) and "microwave" not in found

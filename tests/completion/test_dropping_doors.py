@@ -1,0 +1,53 @@
+"""Doors that are called an oven or a dishwasher drop; with a handle at a side, tall or of other names they do not."""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.asset.part import Asset, PartSource
+from grafu.completion.dropping_doors import with_dropping_doors
+from grafu.graph.completion import Decision, GraphCompletion
+from grafu.graph.edges import Attached, Hinge
+from grafu.graph.edit import with_edges
+from grafu.graph.motion import border_to_face, face_to_border, opening_face, sign_for_opening
+from grafu.graph.parse import parse_graph
+from grafu.vocabulary import PartLabel
+from small_scenes import box
+
+LEFT, RIGHT, FRONT, BOTTOM, TOP = 0, 1, 2, 4, 5  # faces
+BODY = replace(box("body", (-0.3, 0.0, 0.0), (0.3, 0.6, 1.85)), label=PartLabel.SIDE_PANEL)
+GRIP = box("handle", (0.2, -0.05, 0.3), (0.22, -0.02, 0.5))
+
+
+def hung(name: str, side: int, *others, height: float = 0.58, by: str = "name"):
+    """The face on which a door that is called so hangs in the end, where a side was predicted."""
+    door = replace(box("door", (-0.29, -0.02, 0.1), (0.29, 0.0, 0.1 + height)), source=PartSource(name), labelled_by=by)
+    asset = Asset("made", "", "made", (BODY, door, *others))
+    border = face_to_border(1, side)
+    decisions = (Decision("door", "border", str(border), 0.8, str(face_to_border(1, BOTTOM)), 0.15),)
+    graph = parse_graph(asset)
+    sign = sign_for_opening(1, border, FRONT)
+    edges = [Hinge("body", "door", border, sign), *(Attached("door", other.id) for other in others)]
+    completion = GraphCompletion(graph, with_edges(graph, edges), "network", decisions=decisions)
+    (hinge,) = with_dropping_doors(completion, asset).completed.hinges
+    assert opening_face(1, hinge.border, hinge.sign) == FRONT
+    return border_to_face(1, hinge.border)
+
+
+@pytest.mark.parametrize("side", [LEFT, RIGHT])
+@pytest.mark.parametrize("name", ["oven", "Dishwasher.001", "ofen"])
+def test_the_door_of_an_oven_drops(name, side):
+    assert hung(name, side) == BOTTOM
+
+
+@pytest.mark.parametrize("side", [LEFT, TOP])
+@pytest.mark.parametrize("name", ["microwave", "microwave oven", "fridge", "door", "oven_knob"])
+def test_doors_of_other_names_hang_as_predicted(name, side):
+    assert hung(name, side) == side
+
+
+def test_a_handle_a_height_or_a_hidden_name_leaves_it_as_predicted():
+    assert hung("oven", LEFT, GRIP) == LEFT
+    assert hung("oven", LEFT, height=1.2) == LEFT
+    assert hung("oven", LEFT, by="hidden") == LEFT
+    assert hung("oven", TOP) == TOP
