@@ -8,6 +8,7 @@ from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
+from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.building_doors import building_door, with_building_doors, with_door_labels
 from grafu.joints.config import RealizationConfig, SmallPartConfig
@@ -70,9 +71,16 @@ def shown_by_shape(
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
     plan = with_racks(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
     plan = with_trays(with_waste_bins(plan, asset, graph), asset, graph)
-    plan = with_lifts(plan, graph, at_scale(joints.lift, metre_on(asset.extent)))
+    plan = with_lifts(plan, _of_input(graph, asset), at_scale(joints.lift, metre_on(asset.extent)))
     plan = _without_knobs(plan, asset, settled, at_scale(joints.small, metre_on(asset.extent)))
     return _without_turntables(plan, asset, small)
+
+
+def _of_input(graph: FunctionalGraph, asset: Asset) -> FunctionalGraph:
+    """Returns the graph without the parts that were only predicted to be missing."""
+    known = {part.id for part in asset.parts}
+    added = [node.id for node in graph.nodes if node.id not in known]
+    return without_nodes(graph, added) if added else graph
 
 
 def _without_small(
