@@ -16,6 +16,7 @@ from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_supports import with_supported_leaves
 from grafu.joints.extension_leaves import with_shown_extensions
 from grafu.joints.folding import with_folds
+from grafu.joints.layered_fronts import with_layered_fronts
 from grafu.joints.lifts import with_lifts
 from grafu.joints.lone_leaves import with_lone_leaf
 from grafu.joints.parallel_lifts import with_named_lifts
@@ -63,7 +64,7 @@ def shown_by_shape(
 
     `settled` are the parts whose motions the user states; `small` is as in the settings.
     """
-    plan = _without_small(plan, asset, graph, settled, joints.plan)
+    plan = with_layered_fronts(_without_small(plan, asset, graph, settled, joints.plan), asset)
     plan = with_lone_leaf(with_windows(with_building_doors(plan, asset), asset), asset)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
