@@ -18,7 +18,7 @@ from grafu.joints.extension_leaves import with_shown_extensions
 from grafu.joints.folding import with_folds
 from grafu.joints.layered_fronts import with_layered_fronts
 from grafu.joints.lifts import with_lifts
-from grafu.joints.lone_leaves import with_lone_leaf
+from grafu.joints.lone_leaves import with_lone_labels, with_lone_leaf
 from grafu.joints.parallel_lifts import with_named_lifts
 from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.joints.portholes import with_porthole_labels
@@ -49,7 +49,7 @@ class WantedSmallParts:
 
 def with_labels_by_shape(asset: Asset) -> Asset:
     """Returns the asset in which the leaves of a building's door or window, and a round door, have these labels."""
-    return with_porthole_labels(with_window_labels(with_door_labels(asset)))
+    return with_porthole_labels(with_window_labels(with_door_labels(with_lone_labels(asset))))
 
 
 def shown_by_shape(
@@ -65,7 +65,7 @@ def shown_by_shape(
     `settled` are the parts whose motions the user states; `small` is as in the settings.
     """
     plan = with_layered_fronts(_without_small(plan, asset, graph, settled, joints.plan), asset)
-    plan = with_lone_leaf(with_windows(with_building_doors(plan, asset), asset), asset)
+    plan = with_lone_leaf(with_windows(with_building_doors(plan, asset), asset), asset, settled)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_wide_bars(plan, asset, settled)
