@@ -19,6 +19,7 @@ from grafu.joints.folding import with_folds
 from grafu.joints.layered_fronts import with_layered_fronts
 from grafu.joints.lifts import with_lifts
 from grafu.joints.lone_leaves import with_lone_labels, with_lone_leaf
+from grafu.joints.named_cases import with_case_label
 from grafu.joints.parallel_lifts import with_named_lifts
 from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.joints.portholes import with_porthole_labels
@@ -48,8 +49,11 @@ class WantedSmallParts:
 
 
 def with_labels_by_shape(asset: Asset) -> Asset:
-    """Returns the asset in which the leaves of a building's door or window, and a round door, have these labels."""
-    return with_porthole_labels(with_window_labels(with_door_labels(with_lone_labels(asset))))
+    """Returns the asset in which the leaves of a building's door or window, and a round door, have these labels.
+
+    What holds drawers that all parts are called has none.
+    """
+    return with_porthole_labels(with_window_labels(with_door_labels(with_lone_labels(with_case_label(asset)))))
 
 
 def shown_by_shape(
