@@ -83,7 +83,7 @@ def test_nameless_drawers_that_are_free_move():
     assert {joint.child for joint in made(chest()).object.joints} == {"f_0", "f_1", "f_2"}
 
 
-def one_guess(handle: PartLabel = PartLabel.UNKNOWN, share: float = 1.0) -> tuple[GraphCompletion, Installed]:
+def one_guess(handle: PartLabel = PartLabel.UNKNOWN, ratio: float = 1.0) -> tuple[GraphCompletion, Installed]:
     """Returns a drawer that is only guessed, with what is taken for its handle, and its joint as it was built."""
     parts = [
         *drawer().parts[:-1],
@@ -97,7 +97,7 @@ def one_guess(handle: PartLabel = PartLabel.UNKNOWN, share: float = 1.0) -> tupl
     decisions = (Decision("drawer", "label", "drawer", 0.9, "misc", 0.1),)
     (done,) = functionalize(drawer(), MotionSource.ANNOTATION, builtin_gallery()).report.installed
     completion = GraphCompletion(graph, with_edges(labelled, edges), "network", decisions=decisions)
-    return completion, replace(done, collision_share=share)
+    return completion, replace(done, collision_share=ratio)
 
 
 def test_a_handle_that_the_input_names_shows_that_a_drawer_moves():
@@ -112,9 +112,9 @@ def test_a_handle_that_is_itself_a_guess_does_not():
     assert "taken for a drawer (90%)" in refusal.why
 
 
-@pytest.mark.parametrize("share", [0.0, StaticGuessConfig().cuts])
-def test_what_hardly_touches_anything_moves(share):
-    completion, done = one_guess(share=share)
+@pytest.mark.parametrize("ratio", [0.0, StaticGuessConfig().cuts])
+def test_what_hardly_touches_anything_moves(ratio):
+    completion, done = one_guess(ratio=ratio)
     assert not tuple(colliding_guesses(completion, [done]))
 
 
