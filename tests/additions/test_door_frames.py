@@ -10,9 +10,11 @@ from grafu.additions.door_frame.complete import add_door_frame
 from grafu.additions.door_frame.config import DoorFrameConfig
 from grafu.additions.step import DeficiencyKind, StepRequest
 from grafu.asset.part import Asset
+from grafu.joints.building_doors import with_building_doors
 from grafu.joints.lone_leaves import lone_leaves_of, with_lone_labels, with_lone_leaf
 from grafu.joints.plan import RealizationPlan
 from grafu.pipeline.additions import planned_scene
+from grafu.pipeline.shown_by_shape import with_labels_by_shape
 from grafu.synth.openings.door import drawn_door, make_building_door
 from grafu.vocabulary import PartLabel
 from judging import swept_collisions
@@ -84,6 +86,20 @@ def test_the_frame_leaves_room_for_what_stands_out_at_a_side():
     assert inner == pytest.approx(0.473)
     assert {d.kind for d in made.deficiencies} == {DeficiencyKind.DOOR_FRAME}
     assert added.part.mesh.box.size[1] == pytest.approx(0.1)
+
+
+def test_a_leaf_in_a_slim_frame_keeps_its_joint():
+    """The frame ends 3 cm beside the leaf, as near as a lock: it is not on the leaf."""
+    jambs = [box(f"jamb_{k}", (x, -0.05, 0.0), (x + 0.03, 0.05, 2.05)) for k, x in enumerate((-0.48, 0.45))]
+    head = box("head", (-0.48, -0.05, 2.0), (0.48, 0.05, 2.05))
+    frame = replace(head, id="frame", surfaces=tuple(s for part in (*jambs, head) for s in part.surfaces))
+    leaf = replace(LEAF, id="board", label=PartLabel.UNKNOWN)
+    asset = with_labels_by_shape(scene(frame, leaf, cylinder("grip", ((0.38, -0.08, 1.0), (0.38, -0.02, 1.0)), 0.02)))
+    assert (asset.part("board").label, asset.part("board").labelled_by) == (PartLabel.DOOR, "shape")
+    plan = with_building_doors(RealizationPlan(), asset)
+    assert [request.moving for request in plan.joints] == ["board"]
+    assert "frame" not in plan.joints[0].attached
+    assert with_lone_leaf(plan, asset) is plan
 
 
 def nameless(*parts) -> Asset:

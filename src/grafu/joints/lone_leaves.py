@@ -69,9 +69,15 @@ def _alone(boards: Sequence[Part], parts: Sequence[Part], config: BuildingDoorCo
     for leaves in (tuple(tall[:1]), tuple(tall[:2])):
         rest = [part for part in parts if part not in leaves]
         on_some = all(any(is_on_leaf(part, leaf, config) for leaf in leaves) for part in rest)
-        if leaves and on_some and _are_side_by_side(leaves, config):
+        if leaves and on_some and _are_side_by_side(leaves, config) and not _has_frame(leaves, rest):
             return leaves
     return ()
+
+
+def _has_frame(leaves: Sequence[Part], rest: Sequence[Part]) -> bool:
+    """Whether a part is wider and higher than all leaves together: a slim frame ends near their edges."""
+    size = Box.enclosing(leaf.box for leaf in leaves).size[[_WIDTH, _UP]]
+    return any(bool(np.all(part.box.size[[_WIDTH, _UP]] > size)) for part in rest)
 
 
 def _is_leaf(board: Part, whole: Box, config: BuildingDoorConfig) -> bool:
