@@ -245,3 +245,14 @@ def test_what_stays_static_is_refused_and_all_others_move_as_they_did():
     assert (label.choice, label.runner_up, label.runner_up_score) == ("misc", "drawer", 0.9)
     assert tray_slides == told[2]
     assert with_static_guesses(found, asset) is found
+
+
+def test_a_door_on_a_post_that_was_taken_for_one_hangs_on_the_post():
+    post = at("post", (-0.32, -0.3, 0.0), (-0.3, 0.3, 0.5))
+    door = at("door", (-0.3, -0.32, 0.0), (0.0, -0.3, 0.5), PartLabel.DOOR)
+    edges = (Hinge("side_1", "post", 0, 1), Hinge("post", "door", 0, 1))
+    weak, asset = guessed([SIDES[1], post, door], "post", PartLabel.DOOR, score=0.3, edges=edges)
+    completion = with_static_guesses(weak, asset)
+    assert [refusal.part for refusal in completion.refused] == ["post"]
+    assert completion.completed.node("post").label is PartLabel.MISC
+    assert completion.completed.motions == (Hinge("post", "door", 0, 1),)

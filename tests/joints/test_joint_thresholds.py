@@ -115,7 +115,7 @@ REASONS = {
         "_BETWEEN": SAMPLES,
         "_HALVINGS": SAMPLES,
     },
-    "lone_leaves.py": {"(_DEPTH, _UP)": NUMBERING},
+    "lone_leaves.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING},
     "measuring.py": {"_MEASURED_POSES": SAMPLES},
     "motion_choice.py": {"_BOARD": OUTLINE, "_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
     "order.py": {"_RATIOS": SAMPLES},

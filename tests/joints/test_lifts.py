@@ -6,11 +6,16 @@ import numpy as np
 import pytest
 
 from grafu.asset.part import Asset
+from grafu.graph.edges import Contact
+from grafu.graph.parse import parse_graph
+from grafu.joints.lifts import with_lifts
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
+from grafu.joints.plan import RealizationPlan
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
+from grafu.pipeline.shown_by_shape import shown_by_shape
 from grafu.templates.gallery import builtin_gallery
 from judging import hardware, installed, realized, swept_collisions
 from small_scenes import box, scene, sliding
@@ -125,3 +130,41 @@ def test_a_user_may_let_a_part_slide_up():
     joint = made.object.joint_of["door_sash"]
     assert np.allclose(joint.axis.direction, (0, 0, 1))
     assert joint.limits.upper > 0.4
+
+
+def seat(screw: float = 0.1) -> Asset:
+    """A seat of a board on a frame of four, 0.45 m high on legs; screws come up through the frame into the board."""
+    corners = [(x, y) for x in ENDS for y in ENDS]
+    legs = [box(f"leg_{x}{y}", (x - 0.03, y - 0.03, 0.0), (x + 0.03, y + 0.03, 0.36)) for x, y in corners]
+    sides = [(end + out - 0.01, end + out + 0.01) for end in ENDS for out in (-0.02, 0.02)]
+    rails = [box(f"rail_{low}", (-0.3, low, 0.36), (0.3, high, 0.42)) for low, high in sides]
+    ties = [box(f"tie_{low}", (low, -0.3, 0.36), (high, 0.3, 0.42)) for low, high in sides]
+    below = 0.46 - screw
+    screws = [box(f"screw_{x}{y}", (x - 0.01, y - 0.01, below), (x + 0.01, y + 0.01, 0.46)) for x, y in corners]
+    return scene(*legs, *rails, *ties, *screws, box("board", (-0.32, -0.32, 0.45), (0.32, 0.32, 0.47)))
+
+
+ENDS = (-0.25, 0.25)
+
+
+def lifted(asset: Asset) -> set[str]:
+    return {request.moving for request in with_lifts(RealizationPlan(), parse_graph(asset)).joints}
+
+
+def test_screws_in_a_frame_below_a_seat_are_no_columns():
+    assert not lifted(seat())
+
+
+def test_posts_in_the_same_frame_that_are_long_enough_are():
+    assert len(lifted(seat(screw=0.15))) == 4
+
+
+def test_what_was_only_predicted_to_be_missing_is_not_lifted():
+    asset = desk()
+    graph = parse_graph(asset)
+    ghost = replace(graph.node("desktop"), id="top_panel_added_1")
+    touching = tuple(Contact(ghost.id, f"tube_{k}") for k in (0, 1))
+    completed = replace(graph, nodes=(*graph.nodes, ghost), edges=(*graph.edges, *touching))
+    plan, _ = shown_by_shape(RealizationPlan(), asset, completed, PipelineConfig().joints)
+    assert {request.moving for request in plan.joints} == {"tube_0", "tube_1"}
+    assert {part for request in plan.joints for part in request.attached} <= {part.id for part in asset.parts}

@@ -16,7 +16,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import triangle_bounds
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
-from grafu.graph.edges import Hinge, Rail
+from grafu.graph.edges import Hinge, Rail, ends_of
 from grafu.graph.edit import relabelled, without_edges, without_nodes
 from grafu.graph.functional_graph import PartNode
 from grafu.refusal import Reason, Refusal
@@ -46,6 +46,9 @@ class StaticGuessConfig:
     """... and what is above covers as much of it, seen from above (fraction)."""
     touch: float = 0.01
     """How far a part may end above the floor, or what it carries below its top (fraction of the largest side)."""
+    cuts: float = 0.1
+    """What cuts into what stays in more of its poses than this, as it was built, was guessed wrong (fraction). No joint
+    of 55 real pieces whose names were hidden does in any."""
 
     def __post_init__(self) -> None:
         require_ratios(self, *self.__dataclass_fields__)
@@ -63,15 +66,20 @@ def with_static_guesses(
     added to it is left out.
     """
     while doubtful := tuple(static_guesses(completion, asset, config)):
-        completion = _with_static(completion, doubtful)
+        completion = with_static(completion, doubtful)
     return completion
 
 
-def _with_static(completion: GraphCompletion, doubtful: Sequence[Refusal]) -> GraphCompletion:
-    """Returns the completion in which the parts that are refused stay static."""
+def with_static(completion: GraphCompletion, doubtful: Sequence[Refusal]) -> GraphCompletion:
+    """Returns the completion in which the parts that are refused stay static; what hangs on them still moves.
+
+    Each was guessed to be a door or drawer, and becomes a part of no category.
+    """
     still, graph = {refusal.part for refusal in doubtful}, completion.completed
     gone = {e.child for e in graph.attachments if e.parent in still and e.child in completion.added}
-    rest = without_edges(graph, [edge for edge in graph.motions if edge.child in still])
+    moved = {frozenset(ends_of(edge)) for edge in graph.motions if edge.child in still}
+    as_parts = relabelled(graph, dict.fromkeys(still, PartLabel.MISC))
+    rest = without_edges(as_parts, [edge for edge in as_parts.edges if frozenset(ends_of(edge)) in moved])
 
     def is_kept(decision: Decision) -> bool:
         is_moot = decision.part in gone or (decision.question == "parent" and decision.choice in still)
@@ -79,7 +87,7 @@ def _with_static(completion: GraphCompletion, doubtful: Sequence[Refusal]) -> Gr
 
     return replace(
         completion,
-        completed=relabelled(without_nodes(rest, gone), dict.fromkeys(still, PartLabel.MISC)),
+        completed=without_nodes(rest, gone),
         added=tuple(name for name in completion.added if name not in gone),
         decisions=tuple(_as_static(d) if d.part in still else d for d in completion.decisions if is_kept(d)),
         refused=(*(refusal for refusal in completion.refused if refusal.part not in still | gone), *doubtful),
@@ -105,13 +113,18 @@ def static_guesses(
     guesses = [(d, node) for d, node in labelled if node.label.is_movable]
     bounds = {part.id: _Bounds.of(part) for part in asset.parts} if guesses else {}
     for guess, node in guesses:
-        taken, is_held = f"it is taken for a {node.label} ({guess.score:.0%})", _is_held(node, completion)
-        if not is_held and (carried := _carried(node, completion, bounds, asset.box, config)):
+        taken, held = taken_for(guess), _is_held(node, completion)
+        if not held and (carried := _carried(node, completion, bounds, asset.box, config)):
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but {carried} stands on it and on nothing else")
-        elif (not is_held and (why := _unlikely(node, guess, completion, config))) or (
-            why := shape_against(node, asset, graph, is_held)
+        elif (not held and (why := _unlikely(node, guess, completion, config))) or (
+            why := shape_against(node, asset, graph, held)
         ):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but {why}")
+
+
+def taken_for(guess: Decision) -> str:
+    """Returns in words what a part was guessed to be, from the decision on its label."""
+    return f"it is taken for a {guess.choice} ({guess.score:.0%})"
 
 
 def _unlikely(node: PartNode, guess: Decision, completion: GraphCompletion, config: StaticGuessConfig) -> str:

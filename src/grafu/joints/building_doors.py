@@ -48,6 +48,8 @@ class BuildingDoorConfig:
     """What of the width of the whole the frame spans at least (fraction); of its height it spans nearly all."""
     high: float = 0.95
     """What of the height of the whole the frame spans at least (fraction)."""
+    solid: float = 0.95
+    """What covers more than this of its own outline, seen from before it, is a board and no frame (fraction)."""
     open: float = 0.1
     """What of a leaf the frame covers at most, seen from before it (fraction)."""
     leaf: float = 0.6
@@ -66,12 +68,18 @@ class BuildingDoorConfig:
     """Greatest side of a handle or lock (fraction of its leaf's height)."""
     aside: float = 0.2
     """A handle or lock is this far to one side of its leaf's middle at least (fraction of the leaf's width)."""
+    hand: tuple[float, float] = (0.3, 0.65)
+    """A handle of a leaf without a frame is between these heights (fractions of the leaf's height) ..."""
+    out: float = 0.01
+    """... and stands out of it by this much at least (fraction of its height)."""
     flush: float = 0.1
     """A leaf is nearer to one face of the frame if the two gaps differ by this much (fraction of the frame's depth)."""
 
     def __post_init__(self) -> None:
         require_positive(self, "tall")
-        require_ratios(self, *(name for name in self.__dataclass_fields__ if name != "tall"))
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name not in ("tall", "hand")))
+        if not 0 <= self.hand[0] <= self.hand[1] <= 1:
+            raise ValueError(f"`BuildingDoorConfig.hand` must be two rising fractions: got {self.hand}")
 
 
 def building_door(asset: Asset, config: BuildingDoorConfig = BuildingDoorConfig()) -> FramedLeaves | None:
@@ -134,6 +142,7 @@ def _frame(asset: Asset, config: BuildingDoorConfig) -> Part | None:
         if part.box.size[_WIDTH] >= config.around * size[_WIDTH]
         and part.box.size[_UP] >= config.high * size[_UP]
         and part.box.size[_DEPTH] <= config.shallow * size[_UP]
+        and covered_ratio(RayCaster(part.mesh), part.box, _DEPTH, _RAYS, asset.box.diagonal) <= config.solid
     )
     return max(frames, key=lambda part: float(np.prod(part.box.size[[_WIDTH, _UP]])), default=None)
 

@@ -31,6 +31,8 @@ class LiftConfig:
     LENGTHS = ("off_floor", "gap", "tube")
     slim: float = 0.4
     """Largest level side of a column (fraction of its height)."""
+    tall: float = 0.3
+    """Least height of a column (fraction of the whole): what is shorter is a screw through the boards of a seat."""
     off_floor: float = 0.02
     """How high above the floor a column ends at least (metres): its sleeve stands on the floor."""
     engaged: float = 0.4
@@ -50,7 +52,7 @@ class LiftConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "off_floor", "gap", "tube")
-        require_ratios(self, "slim", "engaged", "out", "faces", "travel", "covers")
+        require_ratios(self, "slim", "tall", "engaged", "out", "faces", "travel", "covers")
 
 
 @final

@@ -27,7 +27,8 @@ def with_lifts(plan: RealizationPlan, graph: FunctionalGraph, config: LiftConfig
     """Returns the plan in which lifting columns slide up with what they carry; the plan itself where there are none.
 
     The first column carries all; the others follow it. A joint on what is carried moves with it. Joints that the plan
-    has stay as they are. Lengths of `config` are in the scale of the model (`at_scale`).
+    has stay as they are. `graph` holds the parts of the input alone; lengths of `config` are in the scale of the model
+    (`at_scale`).
     """
     moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
     static = [node for node in graph.nodes if node.id not in moving]
@@ -58,7 +59,9 @@ def _sleeve_top(node: PartNode, static: list[PartNode], graph: FunctionalGraph, 
     """Returns the height at which a column leaves its sleeve; None where the part is no column in a sleeve."""
     box = node.box
     tall, floor = float(box.size[2]), float(graph.box.low[2])
-    if max(box.size[:2]) > config.slim * tall or float(box.low[2]) < floor + config.off_floor:
+    if max(box.size[:2]) > config.slim * tall or tall < config.tall * float(graph.box.size[2]):
+        return None
+    if float(box.low[2]) < floor + config.off_floor:
         return None
     near = [other.box for other in static if other is not node and _guides(other.box, box, config)]
     walls = [

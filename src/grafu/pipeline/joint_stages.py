@@ -11,6 +11,7 @@ from typing import NamedTuple, final
 
 from grafu.additions.step import StepResult
 from grafu.asset.part import Asset
+from grafu.completion.static_guesses import with_static
 from grafu.graph.completion import GraphCompletion
 from grafu.joints.closing import closed_plan
 from grafu.joints.folding import Fold
@@ -20,6 +21,7 @@ from grafu.joints.plan import RealizationPlan
 from grafu.joints.realize import Realized, realize
 from grafu.joints.waste_bins import with_stated_bins
 from grafu.pipeline.additions import add_before_joints, without_idle
+from grafu.pipeline.colliding_guesses import colliding_guesses
 from grafu.pipeline.finishing import to_build
 from grafu.pipeline.mechanisms import with_mechanisms
 from grafu.pipeline.motion_methods import MotionMethod
@@ -60,7 +62,7 @@ class JointStages:
     def with_second_choices(self, completion: GraphCompletion) -> BuiltJoints:
         """Returns the joints of a completion, with another direction where the likeliest one is blocked.
 
-        What was stated is not chosen again.
+        What was stated is not chosen again. What was only guessed to move stays where it cuts into other parts.
         """
         first = best = self.built(completion)
         config = self.config.joints.plan
@@ -74,10 +76,19 @@ class JointStages:
                 best = tried
             else:
                 self.stages.take_back(before)
+        best = self._without_colliding(best)
         if best is first:
             return first
         report = noted(best.realized.report, completion, best.completion)
         return best._replace(realized=replace(best.realized, report=report))
+
+    def _without_colliding(self, made: BuiltJoints) -> BuiltJoints:
+        """Returns the joints in which what was only guessed to move stays where it cuts into other parts."""
+        if self.method.reads_annotation or self.stages.gave_up("realize"):
+            return made
+        settled = {*self.motions, *(name for fold in self.folds for name in fold.leaves)}
+        doubtful = tuple(colliding_guesses(made.completion, made.realized.report.installed, settled))
+        return self.built(with_static(made.completion, doubtful)) if doubtful else made
 
     def built(self, completion: GraphCompletion) -> BuiltJoints:
         """Returns the joints of a completion."""

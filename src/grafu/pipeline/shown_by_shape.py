@@ -8,6 +8,7 @@ from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED
 from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
+from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.building_doors import building_door, with_building_doors, with_door_labels
 from grafu.joints.config import RealizationConfig, SmallPartConfig
@@ -15,8 +16,10 @@ from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_supports import with_supported_leaves
 from grafu.joints.extension_leaves import with_shown_extensions
 from grafu.joints.folding import with_folds
+from grafu.joints.layered_fronts import with_layered_fronts
 from grafu.joints.lifts import with_lifts
-from grafu.joints.lone_leaves import with_lone_leaf
+from grafu.joints.lone_leaves import with_lone_labels, with_lone_leaf
+from grafu.joints.named_cases import with_case_label
 from grafu.joints.parallel_lifts import with_named_lifts
 from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.joints.portholes import with_porthole_labels
@@ -46,8 +49,11 @@ class WantedSmallParts:
 
 
 def with_labels_by_shape(asset: Asset) -> Asset:
-    """Returns the asset in which the leaves of a building's door or window, and a round door, have these labels."""
-    return with_porthole_labels(with_window_labels(with_door_labels(asset)))
+    """Returns the asset in which the leaves of a building's door or window, and a round door, have these labels.
+
+    What holds drawers that all parts are called has none.
+    """
+    return with_porthole_labels(with_window_labels(with_door_labels(with_lone_labels(with_case_label(asset)))))
 
 
 def shown_by_shape(
@@ -62,17 +68,24 @@ def shown_by_shape(
 
     `settled` are the parts whose motions the user states; `small` is as in the settings.
     """
-    plan = _without_small(plan, asset, graph, settled, joints.plan)
-    plan = with_lone_leaf(with_windows(with_building_doors(plan, asset), asset), asset)
+    plan = with_layered_fronts(_without_small(plan, asset, graph, settled, joints.plan), asset)
+    plan = with_lone_leaf(with_windows(with_building_doors(plan, asset), asset), asset, settled)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_wide_bars(plan, asset, settled)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
     plan = with_racks(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
     plan = with_trays(with_waste_bins(plan, asset, graph), asset, graph)
-    plan = with_lifts(plan, graph, at_scale(joints.lift, metre_on(asset.extent)))
+    plan = with_lifts(plan, _of_input(graph, asset), at_scale(joints.lift, metre_on(asset.extent)))
     plan = _without_knobs(plan, asset, settled, at_scale(joints.small, metre_on(asset.extent)))
     return _without_turntables(plan, asset, small)
+
+
+def _of_input(graph: FunctionalGraph, asset: Asset) -> FunctionalGraph:
+    """Returns the graph without the parts that were only predicted to be missing."""
+    known = {part.id for part in asset.parts}
+    added = [node.id for node in graph.nodes if node.id not in known]
+    return without_nodes(graph, added) if added else graph
 
 
 def _without_small(

@@ -16,7 +16,7 @@ from grafu.additions.step import (
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.joints.lone_leaves import lone_leaf_of
+from grafu.joints.lone_leaves import lone_leaves_of
 from grafu.scene.scene import Scene
 from grafu.vocabulary import PartLabel
 
@@ -25,18 +25,19 @@ _WIDTH, _DEPTH, _UP = 0, 1, 2
 
 def add_door_frame(scene: Scene, request: StepRequest, config: DoorFrameConfig | None) -> StepResult:
     """Returns the scene with a frame around a leaf that is drawn alone; without a config only the lack is stated."""
-    leaf = lone_leaf_of(tuple(scene.parts.values()))
-    joint = next((one for one in request.plan.joints if leaf is not None and one.moving == leaf.id), None)
-    if leaf is None or joint is None or scene.still_parts:
+    leaves = lone_leaves_of(tuple(scene.parts.values()))
+    moving = {joint.moving for joint in request.plan.joints}
+    if not leaves or not moving.issuperset(leaf.id for leaf in leaves) or scene.still_parts:
         return StepResult(scene)
-    lacking = (Deficiency(DeficiencyKind.DOOR_FRAME, leaf.id, "nothing is drawn that could carry it"),)
+    names = " and ".join(leaf.id for leaf in leaves)
+    lacking = (Deficiency(DeficiencyKind.DOOR_FRAME, leaves[0].id, "nothing is drawn that could carry it"),)
     if config is None:
         return StepResult(scene, deficiencies=lacking)
-    moving = scene.moving_mesh(leaf.id).box
-    mesh = _frame(leaf.box, moving, at_scale(config, scene.metre))
+    riding = Box.enclosing(scene.moving_mesh(leaf.id).box for leaf in leaves)
+    mesh = _frame(Box.enclosing(leaf.box for leaf in leaves), riding, at_scale(config, scene.metre))
     (name,) = free_ids("door_frame", 1, scene.parts)
-    part = added_part(name, PartLabel.FACE_FRAME, (surface_like(mesh, [leaf]),))
-    why = f"{leaf.id} is drawn without a frame"
+    part = added_part(name, PartLabel.FACE_FRAME, (surface_like(mesh, list(leaves)),))
+    why = f"{names} {'is' if len(leaves) == 1 else 'are'} drawn without a frame"
     return StepResult(scene.with_parts([part]), (Addition(part, why, "door frame"),), deficiencies=lacking)
 
 

@@ -1,0 +1,101 @@
+"""One front drawn as several nameless parts moves as one; what only looks like it stays two."""
+
+from dataclasses import replace
+
+import pytest
+
+from grafu.asset.part import Part
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.graph.edit import relabelled
+from grafu.graph.parse import parse_graph
+from grafu.joints.config import RealizationConfig
+from grafu.joints.layered_fronts import with_layered_fronts
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.pipeline.shown_by_shape import shown_by_shape
+from grafu.vocabulary import JointType, PartLabel
+from small_scenes import box, scene
+
+OUT = vec3(0.0, -1.0, 0.0)
+
+
+def board(name: str, low, high, label: PartLabel = PartLabel.UNKNOWN) -> Part:
+    return replace(box(name, low, high), label=label)
+
+
+def turning(part: Part, *attached: str, parent: str = "") -> JointRequest:
+    axis = Axis(part.box.low, vec3(0.0, 0.0, 1.0))
+    return JointRequest(part.id, JointType.REVOLUTE, axis, "network", attached=attached, parent=parent)
+
+
+def sliding_out(part: Part, *attached: str) -> JointRequest:
+    return JointRequest(part.id, JointType.PRISMATIC, Axis(part.box.center, OUT), "network", attached=attached)
+
+
+def moved(*requests: JointRequest, parts: list[Part]) -> dict[str, tuple[str, ...]]:
+    """Returns what moves by a joint of its own, with what goes along."""
+    plan = with_layered_fronts(RealizationPlan(requests), scene(*parts))
+    return {request.moving: request.attached for request in plan.joints}
+
+
+TALL = board("tall", (0.0, -0.02, 0.0), (0.5, 0.0, 1.0))
+WIDE = board("wide", (-0.03, -0.02, 0.05), (0.53, 0.0, 0.95))
+PANE = board("pane", (0.05, -0.026, 0.1), (0.45, -0.025, 0.9))
+SCREEN = board("screen", (0.05, -0.06, 0.1), (0.45, -0.04, 0.9))
+NEXT = board("next", (0.5, -0.02, 0.0), (1.0, 0.0, 1.0))
+LAPPING = board("lapping", (0.4, -0.04, 0.0), (0.9, -0.02, 1.0))
+
+
+def test_two_boards_in_one_another_with_a_pane_before_them_are_one_leaf():
+    parts = [TALL, WIDE, PANE]
+    assert moved(turning(PANE), turning(TALL), turning(WIDE, "knob"), parts=parts) == {"wide": ("knob", "tall", "pane")}
+
+
+def test_boards_in_one_another_are_one_whatever_is_on_each():
+    made = moved(turning(TALL, "lock"), turning(WIDE, "knob"), parts=[TALL, WIDE])
+    assert made == {"wide": ("knob", "tall", "lock")}
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        pytest.param(turning(TALL), turning(SCREEN), id="a screen before a door, with air between them"),
+        pytest.param(turning(TALL), turning(NEXT), id="a pair of doors"),
+        pytest.param(turning(TALL), turning(LAPPING), id="leaves that lap"),
+        pytest.param(turning(TALL, "lock"), turning(PANE, "knob"), id="a flap in a door, with handles of their own"),
+        pytest.param(turning(TALL), turning(PANE, parent="tall"), id="what turns on the other"),
+        pytest.param(turning(TALL), sliding_out(PANE), id="what moves otherwise"),
+    ],
+)
+def test_two_that_move_each_for_itself_stay_two(first, second):
+    assert set(moved(first, second, parts=[TALL, PANE, SCREEN, NEXT, LAPPING])) == {first.moving, second.moving}
+
+
+def test_what_the_input_calls_a_door_stays_one():
+    named = replace(PANE, label=PartLabel.DOOR)
+    assert set(moved(turning(TALL), turning(named), parts=[TALL, named])) == {"tall", "pane"}
+
+
+TRAY = board("tray", (0.0, 0.0, 0.0), (0.5, 0.5, 0.15))
+PLATE = board("plate", (-0.02, -0.02, 0.01), (0.52, 0.0, 0.16))
+BEHIND = board("plate", (-0.02, 0.5, 0.01), (0.52, 0.52, 0.16))
+ABOVE = board("plate", (-0.02, -0.02, 0.155), (0.52, 0.0, 0.3))
+
+
+def test_the_plate_before_a_drawer_goes_with_it():
+    assert moved(sliding_out(PLATE, "knob"), sliding_out(TRAY), parts=[TRAY, PLATE]) == {"tray": ("plate", "knob")}
+
+
+@pytest.mark.parametrize("other", [BEHIND, ABOVE], ids=["behind it", "the front of the drawer above"])
+def test_another_plate_does_not(other):
+    assert set(moved(sliding_out(TRAY), sliding_out(other), parts=[TRAY, other])) == {"tray", "plate"}
+
+
+def test_a_plan_by_shape_holds_the_drawer_alone():
+    case = [board("side", (-0.1, 0.0, 0.0), (-0.05, 0.5, 0.4)), board("other", (0.55, 0.0, 0.0), (0.6, 0.5, 0.4))]
+    asset = scene(*case, TRAY, PLATE)
+    graph = relabelled(parse_graph(asset), {"tray": PartLabel.DRAWER, "plate": PartLabel.DRAWER})
+    plan, _ = shown_by_shape(
+        RealizationPlan((sliding_out(PLATE), sliding_out(TRAY))), asset, graph, RealizationConfig()
+    )
+    assert [(request.moving, request.attached) for request in plan.joints] == [("tray", ("plate",))]

@@ -1,0 +1,72 @@
+"""Where all parts are called drawers, the one that holds the others is their case; elsewhere a drawer stays one."""
+
+from dataclasses import replace
+
+import pytest
+
+import grafu
+from grafu.asset.part import Asset, Part
+from grafu.joints.named_cases import with_case_label
+from grafu.vocabulary import PartLabel
+from small_scenes import box, scene
+
+
+def named(part: Part) -> Part:
+    return replace(part, labelled_by="name")
+
+
+def hollow(name: str, low, high, wall: float = 0.02, *, front: bool = False, lid: bool = True) -> Part:
+    """A box with walls, open in front unless it has a `front`, and from above without a `lid`."""
+    (x0, y0, z0), (x1, y1, z1), t = low, high, wall
+    boards = [
+        box("a", low, (x0 + t, y1, z1)),
+        box("b", (x1 - t, y0, z0), high),
+        box("c", low, (x1, y1, z0 + t)),
+        box("d", (x0, y1 - t, z0), high),
+        *([box("e", (x0, y0, z1 - t), high)] if lid else []),
+        *([box("f", low, (x1, y0 + t, z1))] if front else []),
+    ]
+    whole = box(name, low, high)
+    return named(replace(whole, surfaces=tuple(surface for board in boards for surface in board.surfaces)))
+
+
+CASE = hollow("drawer_box", (-0.3, -0.25, 0.0), (0.3, 0.25, 0.6))
+TRAYS = [
+    hollow(f"drawer_{k}", (-0.275, -0.27, 0.03 + 0.29 * k), (0.275, 0.2, 0.28 + 0.29 * k), 0.01, front=True, lid=False)
+    for k in (0, 1)
+]
+KNOBS = [box(f"handle_{k}", (-0.02, -0.3, 0.15 + 0.29 * k), (0.02, -0.27, 0.17 + 0.29 * k)) for k in (0, 1)]
+
+
+def moving(asset: Asset) -> set[str]:
+    return {joint.child for joint in grafu.functionalize(asset).object.joints}
+
+
+def test_drawers_slide_out_of_the_one_that_holds_them():
+    assert moving(scene(CASE, *TRAYS, *KNOBS)) == {"drawer_0", "drawer_1"}
+
+
+FRONTS = [named(box(f"drawer_{k}", (-0.3, -0.27, 0.3 * k), (0.3, -0.25, 0.29 + 0.3 * k))) for k in (0, 1)]
+INNER = hollow("drawer_0", (-0.25, -0.2, 0.04), (0.25, 0.2, 0.2), front=True, lid=False)
+
+OTHERS = {
+    "a chest with sides": scene(CASE, *TRAYS, box("side", (0.3, -0.25, 0.0), (0.32, 0.25, 0.6))),
+    "drawers above one another": scene(*TRAYS),
+    "fronts before a drawer": scene(CASE, *FRONTS),
+    "boards of a drawer": scene(CASE, named(box("drawer_bottom", (-0.28, -0.2, 0.03), (0.28, 0.2, 0.05)))),
+    "what the user called a drawer": scene(replace(CASE, labelled_by="user"), INNER),
+    "one drawer": scene(CASE),
+}
+
+
+@pytest.mark.parametrize("what", OTHERS)
+def test_else_nothing_is_taken_for_a_case(what):
+    assert with_case_label(OTHERS[what]) is OTHERS[what]
+
+
+def test_a_case_has_no_category():
+    made = with_case_label(scene(CASE, INNER))
+    assert [(part.label, part.labelled_by) for part in made.parts] == [
+        (PartLabel.MISC, "shape"),
+        (PartLabel.DRAWER, "name"),
+    ]
