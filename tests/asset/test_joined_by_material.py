@@ -29,16 +29,19 @@ def fronts(path):
 
 @pytest.mark.parametrize(("sample", "count"), [("desk", 4), ("kitchen_base", 4), ("dresser", 6)])
 def test_every_front_of_a_sample_is_found_and_none_is_what_the_first_is_called(tmp_path, sample, count):
-    scene, joined, names = trimesh.load_scene(SAMPLES / f"{sample}.glb"), defaultdict(list), {}
-    for node in sorted(scene.graph.nodes_geometry):
+    """All fronts are one object, called like the first drawer."""
+    scene, joined = trimesh.load_scene(SAMPLES / f"{sample}.glb"), defaultdict(list)
+    for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
-        mesh, above = scene.geometry[name], scene.graph.transforms.parents[node]
-        names.setdefault(mesh.visual.material.name, node if above == "body_link" else above)
-        joined[mesh.visual.material.name].append(mesh.copy().apply_transform(transform))
+        material = scene.geometry[name].visual.material.name
+        is_front = node.startswith(("door", "drawer")) and material != "birch"
+        joined["drawer_1" if is_front else f"all_{material}"].append(
+            scene.geometry[name].copy().apply_transform(transform)
+        )
     found = trimesh.Scene()
-    for material, meshes in joined.items():
+    for name, meshes in joined.items():
         bare = [trimesh.Trimesh(mesh.vertices, mesh.faces, process=False) for mesh in meshes]
-        found.add_geometry(trimesh.util.concatenate(bare), node_name=names[material], geom_name=names[material])
+        found.add_geometry(trimesh.util.concatenate(bare), node_name=name, geom_name=name)
     found.apply_transform(trimesh.transformations.rotation_matrix(1.5707963267948966, [1, 0, 0]))
     found.export(tmp_path / "joined.glb")
 

@@ -62,8 +62,8 @@ def hides(
     """Whether an object is more than the fronts in it are: a case, or several fronts in one.
 
     What is said to be one door or drawer holds several where they fill its outline, as an open niche among them does
-    not, or where it is nothing but fronts. The only object of an input is a case, also where it looks like a drawer:
-    open above, and as wide as its front.
+    not, or where it is nothing but fronts in one plane. The only object of an input is a case, also where it looks
+    like a drawer: open above, and as wide as its front.
     """
     own = view.owner == owner
     low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
@@ -74,14 +74,21 @@ def hides(
     filled = sum(outline(view, front) for front in major) / float(size[0] * size[1])
     is_plate = size[2] <= config.division.plate * size[:2].min()
     if is_whole or (is_plate and not _is_shallow_case(view, np.flatnonzero(own), fronts, config.division)):
-        all_fronts = {shell for front in fronts for shell in front.all_shells} >= set(np.flatnonzero(own).tolist())
-        several = (len(fronts) > 1 and all_fronts) or (len(major) > 1 and filled >= config.division.filled)
+        several = len(major) > 1 and filled >= config.division.filled
+        several |= is_whole and len(fronts) > 1 and _is_nothing_else(view, np.flatnonzero(own), fronts)
         return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major, config.division))
     rest = own.copy()
     rest[[shell for front in fronts for shell in front.all_shells]] = False
     if len(major) > 1 or not rest.any():
         return len(major) > 1
     return bool(own.all()) or _is_case(view, np.flatnonzero(rest), fronts, config)
+
+
+def _is_nothing_else(view: ShellsView, own: Indices, fronts: tuple[FrontShells, ...]) -> bool:
+    """Whether an object consists of fronts and their handles, and the plates overlap in depth."""
+    plates = [front.shells[0] for front in fronts]
+    in_one_plane = view.low[plates, 2].max() < view.high[plates, 2].min()
+    return bool(in_one_plane) and {k for front in fronts for k in front.all_shells} >= set(own.tolist())
 
 
 def _major(view: ShellsView, fronts: tuple[FrontShells, ...], alike: float) -> tuple[FrontShells, ...]:
