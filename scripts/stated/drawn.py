@@ -4,7 +4,6 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from bench_figure import PRINTED
 from docs_results import HARD, HIDDEN, LEAD
 
 from stated.measures import MEASURES
@@ -51,8 +50,6 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("additions.md", "statics real"): copied(store["statics"], 1),
         ("training.md", "losses"): copied(store["losses"], 0),
         ("training.md", "folds"): copied(store["folds"], 0),
-        ("training.md", "departures measured"): copied(store["departures"], 0),
-        ("speed.md", "speed"): without_ratio(store["speed"]),
         ("benchmarks.md", "welded"): ours(store["welded"]),
         ("cluster.md", "cluster"): copied(store["cluster"], 0),
         ("synthetic.md", "synthetic and real"): "\n".join(["```text", *store["synthetic and real"].lines, "```"]),
@@ -77,11 +74,6 @@ def _section(lead: str, kept: Stored) -> str:
 def copied(kept: Stored, number: int) -> str:
     """Returns one of the tables that a command printed."""
     return drawn_table(kept.tables[number])
-
-
-def without_ratio(kept: Stored) -> str:
-    """Returns the figures of the bench without the last column: their ratio to those that the page had before."""
-    return drawn_table([row[:PRINTED] for row in kept.tables[0]])
 
 
 def ours(kept: Stored) -> str:
