@@ -38,7 +38,7 @@ def test_thick_leaves_that_meet_open_past_each_other(thick, gap):
     assert max(trimmed(made).values()) < 0.006
 
 
-@pytest.mark.parametrize(("thick", "gap"), [(0.02, 0.0), (0.04, 0.004), (0.06, 0.02)])
+@pytest.mark.parametrize(("thick", "gap"), [(0.02, 0.0), (0.04, 0.004), (0.06, 0.02), (0.06, 0.003)])
 def test_thin_leaves_and_those_with_a_gap_stay_whole(thick, gap):
     assert trimmed(double(thick, gap)) == {}
 

@@ -46,8 +46,8 @@ def trimmed_at_seam(
 ) -> tuple[Scene, tuple[Clearance, ...]]:
     """Returns the scene with the free edge of a leaf pressed back from the leaf that it meets, and a record of that.
 
-    Of two leaves that are not built the first gives way by half, the second by what is left. Nothing is pressed that
-    needs no more than the tolerated penetration, or more than `config.max_trim` of the leaf's width.
+    The first of two leaves gives way until each passes the other while that is closed. Nothing is pressed where the
+    tolerated penetration is enough for that, or where more is needed than `config.max_trim` of the leaf's width.
     """
     own_motion = scene.joint_motions.get(request.moving)
     part, depth = scene.parts[request.moving], config.depth * scene.extent
@@ -62,10 +62,10 @@ def trimmed_at_seam(
         if other is None or not _meet((part.box, own), (scene.parts[name].box, other), config.clearance):
             continue
         gap = -(own.at_rest + other.at_rest)
-        overlap = (own.farthest - own.at_rest) + (other.farthest - other.at_rest) - gap
-        amount = overlap * (1.0 if motion.is_built else 0.5) + depth
+        overlap = max(own.farthest - own.at_rest, other.farthest - other.at_rest) - gap
+        amount = overlap + depth
         width = float(part.box.size @ np.abs(own.across))
-        if gap < -depth or overlap <= 2 * depth or amount > config.max_trim * width:
+        if gap < -depth or overlap <= depth or amount > config.max_trim * width:
             continue
         pressed = _pressed(part, own, amount)
         if pressed is not None:
