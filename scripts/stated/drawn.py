@@ -50,6 +50,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("additions.md", "statics real"): copied(store["statics"], 1),
         ("training.md", "losses"): copied(store["losses"], 0),
         ("training.md", "folds"): copied(store["folds"], 0),
+        ("training.md", "departures measured"): copied(store["departures"], 0),
         ("benchmarks.md", "welded"): ours(store["welded"]),
         ("cluster.md", "cluster"): copied(store["cluster"], 0),
         ("synthetic.md", "synthetic and real"): "\n".join(["```text", *store["synthetic and real"].lines, "```"]),

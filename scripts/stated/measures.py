@@ -208,6 +208,15 @@ MEASURES = (
         read=ablation_table,
     ),
     Measure(
+        "departures",
+        "grafu ablate departures --out {out} --seeds 1 2 3 --steps 800 --jobs {jobs}",
+        f"grafu ablate departures --out {{out}} {_FEW}",
+        "the worth of each departure from the paper",
+        ("training.md",),
+        170,
+        read=ablation_table,
+    ),
+    Measure(
         "synthetic and real",
         "grafu synth --stats {models}/pnm --count 4000 --jobs {jobs}",
         "grafu synth --stats {models}/pnm --count 20 --jobs {jobs}",
