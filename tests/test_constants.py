@@ -25,6 +25,7 @@ from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.grips import DrawnGripConfig
 from grafu.asset.lasso_cut import LassoConfig
+from grafu.asset.leaf_pieces import LeafPieceConfig
 from grafu.asset.loose import LooseConfig
 from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.one_front import HeldTogetherConfig
@@ -43,6 +44,7 @@ from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
 from grafu.completion.round_doors import RoundDoorConfig
 from grafu.completion.static_guesses import StaticGuessConfig
+from grafu.completion.tall_doors import TallDoorConfig
 from grafu.completion.thick_doors import ThickDoorConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
@@ -224,12 +226,13 @@ CONFIGS = (
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,
-    FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LooseConfig,
+    FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LeafPieceConfig,
+    LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
     ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DroppingDoorConfig, JoiningConfig,
-    ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
+    TallDoorConfig, ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
     WayOutConfig,
 )  # fmt: skip
 NUMBERS = [

@@ -283,3 +283,24 @@ def estimate(asset: Asset, factor: float) -> float:
 
 def box_lying_on_its_side():
     return replace(box("top", (-0.5, -0.3, 0.1), (0.5, -0.28, 0.9)), label=PartLabel.TOP_PANEL)
+
+
+def fronted(lids: int) -> Reading:
+    """A wide case whose fronts, each 0.5 x 0.9 m, are thin along Y; as many others are lids on it, thin along Z."""
+    case = box("case", (0.0, 0.0, 0.0), (2.0, 0.6, 1.0))
+    doors = [box(f"door_{k}", (0.5 * k, -0.02, 0.05), (0.5 * k + 0.49, 0.0, 0.95)) for k in range(4 - lids)]
+    tops = [box(f"door_top_{k}", (0.5 * k, 0.0, 1.0), (0.5 * k + 0.49, 0.6, 1.02)) for k in range(lids)]
+    return Reading("made", (case, *doors, *tops), Convention("OBJ"))
+
+
+def test_doors_that_would_lie_flat_tell_that_z_is_up_where_the_format_states_nothing():
+    frame = settle_frame(fronted(lids=0), LoadOptions())
+    assert (frame.up, frame.front) == ("+Z", "-Y")
+    assert "would lie flat otherwise" in frame.assumed[0]
+
+
+@pytest.mark.parametrize("kept", [1, 2])
+def test_one_that_lies_is_a_lid_and_doors_both_ways_tell_nothing(kept):
+    reading = fronted(lids=0) if kept == 1 else fronted(lids=2)
+    parts = reading.parts[: 1 + kept] if kept == 1 else reading.parts
+    assert settle_frame(replace(reading, parts=parts), LoadOptions()).up == "+Y"

@@ -256,3 +256,39 @@ def test_a_door_on_a_post_that_was_taken_for_one_hangs_on_the_post():
     assert [refusal.part for refusal in completion.refused] == ["post"]
     assert completion.completed.node("post").label is PartLabel.MISC
     assert completion.completed.motions == (Hinge("post", "door", 0, 1),)
+
+
+CASE = drawer("case", (-0.25, 0.0, 0.3), (0.25, 0.5, 0.6))
+
+
+def front(low=(-0.25, -0.025, 0.3), high=(0.25, -0.005, 0.6), label: PartLabel = PartLabel.DOOR) -> Part:
+    return at("front", low, high, label)
+
+
+def behind(before: Part, side: int) -> tuple[GraphCompletion, Asset]:
+    """Returns a part behind another that was guessed to be a drawer, and to slide to one of the faces."""
+    doors = (Hinge("side_0", "front", 0, 1),) if before.label is PartLabel.DOOR else ()
+    return guessed([*SIDES, CASE, before], "case", edges=(Rail("side_0", "case", side), *doors))
+
+
+def test_the_case_behind_a_front_does_not_slide_out_at_its_back():
+    completion, asset = behind(front(), BACK)
+    (refusal,) = static_guesses(completion, asset)
+    assert refusal.reason is Reason.UNLIKELY
+    assert "away from front, which closes it" in refusal.why
+
+
+@pytest.mark.parametrize(
+    ("before", "side"),
+    [
+        (front(), FRONT),
+        (front(high=(0.1, -0.005, 0.6)), BACK),
+        (front((-0.25, -0.2, 0.3), (0.25, -0.18, 0.6)), BACK),
+        (front(label=PartLabel.BACK_PANEL), BACK),
+        (front((-0.25, -0.305, 0.3), (0.25, -0.005, 0.6)), BACK),
+    ],
+    ids=["towards its front", "beside half a front", "far behind a door", "no front is there", "back to back"],
+)
+def test_another_drawer_slides_as_predicted(before, side):
+    completion, asset = behind(before, side)
+    assert not [r for r in static_guesses(completion, asset) if "which closes it" in r.why]

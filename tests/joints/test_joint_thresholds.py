@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from grafu.joints.boxes_behind import BoxBehindConfig
 from grafu.joints.building_doors import BuildingDoorConfig
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.concealed_config import ConcealedConfig
@@ -74,6 +75,7 @@ REASONS = {
     "clearance/seam.py": {"_POSES": SAMPLES},
     "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},
     "beside_leaf.py": {"_UP": NUMBERING, "_RAYS": SAMPLES, "_UPRIGHT": NUMBERING},
+    "boxes_behind.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "building_doors.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "clearance/loss.py": {
         "_MOST_EXACT": EFFORT,
@@ -135,7 +137,8 @@ REASONS = {
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_STEPS": SAMPLES, "_ON_LEAF": SAMPLES},
 }
 CONFIGS = (
-    BehindConfig, BlockConfig, BodyConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig, ConcealedConfig,
+    BehindConfig, BlockConfig, BodyConfig, BoxBehindConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig,
+    ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
     PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RackGuideConfig, RailConfig, RailFootingConfig,

@@ -96,3 +96,43 @@ def test_the_user_may_fix_a_leaf_or_state_how_it_moves():
 def test_the_kinds_of_motion_are_those_of_hinges_and_rails():
     kinds = {joint.type for spec in SPECS for joint in make_window(spec).joints}
     assert kinds == {Hinge.joint_type, Slide.joint_type}
+
+
+def ring(name, low, high, wide):
+    """A frame of four boards as one part, open in its middle."""
+    (x0, y0, z0), (x1, y1, z1) = low, high
+    ends = [
+        ((x0, y0, z0), (x1, y1, z0 + wide)),
+        ((x0, y0, z1 - wide), (x1, y1, z1)),
+        ((x0, y0, z0), (x0 + wide, y1, z1)),
+        ((x1 - wide, y0, z0), (x1, y1, z1)),
+    ]
+    boards = [box(name, *both) for both in ends]
+    return replace(boards[0], surfaces=tuple(surface for board in boards for surface in board.surfaces))
+
+
+def side_by_side(shift: float, bar: float = 0.06):
+    """Two sashes that stand beside one another in their frame, 10 mm apart, the right one `shift` metres behind."""
+    left = (-0.46, -0.03, 0.06), (-0.005, -0.005, 0.94)
+    right = (0.005, -0.03 + shift, 0.06), (0.46, -0.005 + shift, 0.94)
+    panes = [
+        box(f"pane_{k}", (low[0] + 0.03, low[1] + 0.01, 0.09), (high[0] - 0.03, high[1] - 0.01, 0.91))
+        for k, (low, high) in enumerate((left, right))
+    ]
+    pull = box("pull", (-0.05, -0.03 - bar, 0.4), (-0.03, -0.03, 0.6))
+    frame = ring("frame", (-0.52, -0.05, 0.0), (0.52, 0.05, 1.0), 0.055)
+    return scene(frame, ring("west", *left, 0.04), ring("east", *right, 0.04), *panes, pull)
+
+
+def test_sashes_side_by_side_in_two_planes_slide_past_one_another():
+    made = built(bare(side_by_side(shift=0.035)))
+    joints = {joint.child: joint for joint in made.object.joints}
+    assert {name: joint.axis.direction[0] for name, joint in joints.items()} == pytest.approx({"west": 1, "east": -1})
+    assert all(joint.kind.slides and joint.limits.upper > 0.3 for joint in joints.values())
+    assert {visual.name for visual in made.object.link("west").visuals} >= {"west", "pane_0", "pull"}
+
+
+def test_casements_side_by_side_in_one_plane_turn():
+    made = built(bare(side_by_side(shift=0.0)))
+    assert {joint.child for joint in made.object.joints if joint.kind.turns} == {"west", "east"}
+    assert all(joint.kind.turns for joint in made.object.joints)

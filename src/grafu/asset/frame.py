@@ -9,6 +9,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.asset.labels import label_of
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Placing, Reading
@@ -105,7 +106,7 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
     convention = reading.convention
     if options.up is not None:
         return _Choice(options.up, "stated by the user")
-    votes = up_votes([part for part in reading.parts if part.labelled_by != "shape"], whole)
+    votes = up_votes([part for part in reading.parts if _is_named(part)], whole)
     if convention.up is not None:
         other = votes.against(convention.up)
         if other is not None:
@@ -120,7 +121,16 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
     if votes.best is not None:
         sure = _sure(votes.confidence(votes.best))
         return _Choice(votes.best, f"from the places and thin sides of labelled panels and legs{sure}")
+    other = "+Z" if convention.usual_up == "+Y" else "+Y"
+    if votes.stands_instead(other, convention.usual_up):
+        against = f"against {convention.usual_up}, {convention.origin}"
+        return _Choice(other, f"doors and panels would lie flat otherwise, {against}; --up changes it")
     return _by_rest(reading, votes, _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it"))
+
+
+def _is_named(part: Part) -> bool:
+    """Whether no shape alone gave a part its label: how the piece stands was known then."""
+    return part.labelled_by != "shape" or label_of(part.source.name) is part.label
 
 
 def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice) -> _Choice:

@@ -16,6 +16,7 @@ from grafu.asset.either_kind import with_either_kind
 from grafu.asset.folder import divide, looked_for_fronts
 from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
+from grafu.asset.leaf_pieces import with_leaf_pieces
 from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.named_fittings import with_named_fittings
 from grafu.asset.one_front import has_copies, joined_where_nameless, joined_where_one_name
@@ -109,8 +110,10 @@ def _taken_apart(reading: Reading, path: Path, options: LoadOptions) -> Reading:
 
 def _joined(reading: Reading) -> Reading:
     framed, found = with_door_frames(reading.parts)
-    parts, notes = with_joined_pieces(framed, whole_box(framed))
-    return replace(reading, parts=parts, notes=(*reading.notes, *found, *notes))
+    whole = whole_box(framed)
+    fronts, told = with_leaf_pieces(framed, whole)
+    parts, notes = with_joined_pieces(fronts, whole)
+    return replace(reading, parts=parts, notes=(*reading.notes, *found, *told, *notes))
 
 
 def _plausible(reading: Reading) -> Reading:

@@ -92,6 +92,9 @@ class UpEvidenceConfig:
     """Sum of the places of tops, bottoms and legs (each -1..1) from which on a piece stands upside down ..."""
     below: float = 0.5
     """... and from which on where its format states no direction: a worktop under wall units lies below the middle."""
+    flat: float = 2.0
+    """Doors and panels that would lie flat, from which on another direction is up where the format states none: a
+    single one may be the lid of a chest, or drawn open."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -152,6 +155,12 @@ class UpVotes:
             return float(np.abs(self.sense[axis]) / max(np.abs(self.sense).sum(), 1e-12))
         agree = self.lying[axis] + self.standing.sum() - self.standing[axis]
         return float(agree / max(self.lying.sum() + self.standing.sum(), 1.0))
+
+    def stands_instead(self, up: str, usual: str, config: UpEvidenceConfig = UpEvidenceConfig()) -> bool:
+        """Whether doors and panels stand with this direction up, and nearly all would lie flat with the `usual` one."""
+        axis, other = "XYZ".index(usual[1]), "XYZ".index(up[1])
+        flat, lying = self.standing[axis], self.lying[axis]
+        return bool(flat >= config.flat and flat >= config.agree * (flat + lying) and not self.standing[other])
 
     def against(self, stated: str, config: UpEvidenceConfig = UpEvidenceConfig()) -> str | None:
         """Returns the upward direction that nearly everything speaks for instead of a stated one; None: it holds."""

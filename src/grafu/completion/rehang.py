@@ -49,6 +49,13 @@ def other_scores(completion: GraphCompletion, door: str) -> dict[str, float]:
     return {} if decision is None else dict([*decision.others, (decision.runner_up, decision.runner_up_score)])
 
 
+def likelier_side(hinge: Hinge, completion: GraphCompletion) -> tuple[HingeBorder, float]:
+    """Returns the likelier upright border of a door, and its score; the left one where no score tells them apart."""
+    sides = upright_borders(completion.completed.node(hinge.child).box.thin_axis)
+    scores = other_scores(completion, hinge.child)
+    return max(((side, scores.get(str(side), 0.0)) for side in sides), key=lambda found: found[1])
+
+
 def _decided(decision: Decision, side: tuple[HingeBorder, float], sign: str) -> Decision:
     """Returns a decision on a door that hangs on another border now; its sign is counted about that."""
     if decision.question == "border":

@@ -9,10 +9,9 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border, upright_borders
+from grafu.completion.rehang import hung_on, likelier_side, stands_on_a_level_border
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Hinge, HingeBorder
 from grafu.graph.motion import plane_axes
 
 
@@ -47,7 +46,7 @@ def with_round_doors(
     return hung_on(
         completion,
         {
-            hinge.child: _on_a_side(hinge, completion)
+            hinge.child: likelier_side(hinge, completion)
             for hinge in graph.hinges
             if hinge.child in given
             and hinge.coupling is None
@@ -66,10 +65,3 @@ def is_round(part: Part, config: RoundDoorConfig = RoundDoorConfig()) -> bool:
         return False
     reach = np.abs(part.mesh.vertices[:, axes] - box.center[axes]) / half
     return float(reach.sum(axis=1).max()) <= config.corner
-
-
-def _on_a_side(hinge: Hinge, completion: GraphCompletion) -> tuple[HingeBorder, float]:
-    """Returns the likelier upright border of a door, and its score."""
-    sides = upright_borders(completion.completed.node(hinge.child).box.thin_axis)
-    scores = other_scores(completion, hinge.child)
-    return max(((side, scores.get(str(side), 0.0)) for side in sides), key=lambda found: found[1])

@@ -18,7 +18,7 @@ from grafu.geometry.mesh import triangle_bounds
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail, ends_of
 from grafu.graph.edit import relabelled, without_edges, without_nodes
-from grafu.graph.functional_graph import PartNode
+from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
@@ -46,6 +46,10 @@ class StaticGuessConfig:
     """... and what is above covers as much of it, seen from above (fraction)."""
     touch: float = 0.01
     """How far a part may end above the floor, or what it carries below its top (fraction of the largest side)."""
+    closed: float = 0.8
+    """What slides away from another front that covers this much of it is the case behind that front (fraction) ..."""
+    front: float = 0.3
+    """... whose thickness is at most this (fraction of the depth of what it covers)."""
     cuts: float = 0.1
     """What cuts into what stays in more of its poses than this, as it was built, was guessed wrong (fraction). No joint
     of 55 real pieces whose names were hidden does in any."""
@@ -54,6 +58,7 @@ class StaticGuessConfig:
         require_ratios(self, *self.__dataclass_fields__)
 
 
+_UP = 2
 _MOVABLE = frozenset(label.value for label in PartLabel if label.is_movable)
 
 
@@ -116,6 +121,8 @@ def static_guesses(
         taken, held = taken_for(guess), _is_held(node, completion)
         if not held and (carried := _carried(node, completion, bounds, asset.box, config)):
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but {carried} stands on it and on nothing else")
+        elif not held and (front := _front_of_case(node, graph, asset.box, config)):
+            yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but it would slide away from {front}, which closes it")
         elif (not held and (why := _unlikely(node, guess, completion, config))) or (
             why := shape_against(node, asset, graph, held)
         ):
@@ -168,6 +175,25 @@ def _carried(
     if not stands:
         return ""
     return next((n for n in sorted(supports) if bounds[n].covered(node.box, high - touch) >= config.covers), "")
+
+
+def _front_of_case(node: PartNode, graph: FunctionalGraph, whole: Box, config: StaticGuessConfig) -> str:
+    """Returns the door or drawer that covers the face opposite to where a part would slide to; empty for none."""
+    rail = next((rail for rail in graph.rails if rail.child == node.id), None)
+    if rail is None or rail.axis // 2 == _UP:
+        return ""
+    axis, box, reach = rail.axis // 2, node.box, config.touch * float(whole.size.max())
+    across = [k for k in range(3) if k != axis]
+    area = max(float(np.prod(box.size[across])), 1e-12)
+    for other in graph.nodes:
+        front = other.box
+        if other.id == node.id or not other.label.is_movable or front.size[axis] > config.front * box.size[axis]:
+            continue
+        gap = box.low[axis] - front.high[axis] if rail.axis % 2 else front.low[axis] - box.high[axis]
+        shared = np.maximum(np.minimum(front.high, box.high) - np.maximum(front.low, box.low), 0.0)[across]
+        if abs(float(gap)) <= reach and float(np.prod(shared)) >= config.closed * area:
+            return other.id
+    return ""
 
 
 def _is_held(node: PartNode, completion: GraphCompletion) -> bool:

@@ -37,7 +37,7 @@ class WindowConfig:
     """Greatest thickness of a leaf (fraction of its shorter other side)."""
     within: float = 0.02
     """How far what is on a leaf reaches beyond its outline at most (fraction of its side) ..."""
-    before: float = 0.25
+    before: float = 0.4
     """... and before and behind it (fraction of its shorter side)."""
     small: float = 0.35
     """Greatest side of a handle (fraction of its leaf's longer side)."""
@@ -47,6 +47,10 @@ class WindowConfig:
     """A leaf without a handle that is lower than this over its width hangs from its upper edge (fraction)."""
     lap: float = 0.02
     """Two leaves that lap by more than this in two planes slide past one another (fraction of the leaf's side)."""
+    beside: float = 0.15
+    """... and so do two in two planes that are no farther apart than this (fraction of the leaf's side) ..."""
+    level: float = 0.8
+    """... and stand side by side along this much of the leaf's other side (fraction): casements have one plane."""
     flush: float = 0.1
     """A leaf is nearer to one face of the frame if the two gaps differ by this much (fraction of the frame's depth)."""
 

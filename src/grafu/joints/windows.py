@@ -181,10 +181,12 @@ def _stays(leaf: Part, leaves: Sequence[Part], config: WindowConfig) -> bool:
 
 
 def _laps(leaf: Part, other: Part, config: WindowConfig) -> bool:
-    """Whether two leaves stand in two planes and lap one another along one edge."""
+    """Whether two leaves stand in two planes and lap one another along one edge, or stand close side by side."""
     overlap = np.minimum(leaf.box.high, other.box.high) - np.maximum(leaf.box.low, other.box.low)
     apart = overlap[_DEPTH] <= config.lap * min(leaf.box.size[_DEPTH], other.box.size[_DEPTH])
-    return bool(apart and (overlap[_PLANE] > config.lap * leaf.box.size[_PLANE]).all())
+    ratios = np.sort(overlap[_PLANE] / leaf.box.size[_PLANE])
+    near = ratios[0] > config.lap or (ratios[0] >= -config.beside and ratios[1] >= config.level)
+    return bool(apart and near and ratios[1] > config.lap)
 
 
 def _sliding_side(leaf: Part, past: Part) -> Side:

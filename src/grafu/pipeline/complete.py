@@ -14,6 +14,7 @@ from grafu.completion.round_doors import with_round_doors
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, open_network
 from grafu.completion.static_guesses import with_static_guesses
+from grafu.completion.tall_doors import with_tall_doors
 from grafu.completion.thick_doors import with_thick_doors
 from grafu.completion.ways_out import with_ways_out
 from grafu.geometry.sampling import sample_surfaces
@@ -42,10 +43,10 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
 
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
-    left or right side (`with_round_doors`), those of ovens on their lower border (`with_dropping_doors`), and doors on
-    the side away from their handle (`with_handle_sides`). What is only guessed to be a door, and is too thick, is a
-    drawer (`with_thick_doors`); what is only guessed to be a door or drawer stays static where it cannot be one
-    (`with_static_guesses`).
+    left or right side (`with_round_doors`), and so do high ones (`with_tall_doors`); those of ovens hang on their lower
+    border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`). What is only
+    guessed to be a door, and is too thick, is a drawer (`with_thick_doors`); what is only guessed to be a door or
+    drawer stays static where it cannot be one (`with_static_guesses`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
@@ -72,6 +73,5 @@ def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
 
 def _shaped(completion: GraphCompletion, asset: Asset) -> GraphCompletion:
     """Returns the completion in which shape decides where drawers and lids open to, and on which side doors hang."""
-    return with_handle_sides(
-        with_dropping_doors(with_round_doors(with_ways_out(completion, asset), asset), asset), asset
-    )
+    turned = with_tall_doors(with_round_doors(with_ways_out(completion, asset), asset), asset)
+    return with_handle_sides(with_dropping_doors(turned, asset), asset)

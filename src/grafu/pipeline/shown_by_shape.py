@@ -10,6 +10,7 @@ from grafu.asset.part import Asset
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.joints.boxes_behind import with_boxes_behind
 from grafu.joints.building_doors import building_door, with_building_doors, with_door_labels
 from grafu.joints.config import RealizationConfig, SmallPartConfig
 from grafu.joints.drawn_hinges import with_drawn_hinges
@@ -72,7 +73,7 @@ def shown_by_shape(
     plan = with_lone_leaf(with_windows(with_building_doors(plan, asset), asset), asset, settled)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
-    plan = with_wide_bars(plan, asset, settled)
+    plan = with_wide_bars(with_boxes_behind(plan, asset, settled), asset, settled)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
     plan = with_racks(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
     plan = with_trays(with_waste_bins(plan, asset, graph), asset, graph)
