@@ -1,18 +1,18 @@
 """`Result`: furniture that works, its joints and its report; what is changed of it gives a new result."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import final
+from typing import TYPE_CHECKING, final
 
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
 from grafu.api.request import Request, as_path, as_words, motion_in_words, optional_number, require, require_word
-from grafu.api.saving import files_of
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError, OptionError, did_you_mean
 from grafu.export.files import write_files
 from grafu.export.formats import DEFAULT_FORMATS, exporter_for
@@ -22,12 +22,13 @@ from grafu.joints.motion_choice import TURNING_SIDES
 from grafu.joints.plan import AUTOMATIC, JointChoice
 from grafu.pipeline.addition_choice import GRIPS
 from grafu.pipeline.functionalize import Functionalized
-from grafu.pipeline.report import report_of
-from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.words import counted
 from grafu.templates.gallery import open_handles
 from grafu.vocabulary import MECHANISM_MENU, MechanismClass, PartLabel
+
+if TYPE_CHECKING:
+    from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
 
 
 @final
@@ -72,26 +73,28 @@ class Result:
         return self.made.completion.completed
 
     @cached_property
-    def report(self) -> Report:
+    def report(self) -> "Report":
         """The values of `report.json`."""
+        from grafu.pipeline.report import report_of
+
         return report_of(self.made, self.asset.name)
 
     @property
-    def joints(self) -> tuple[JointRecord, ...]:
+    def joints(self) -> "tuple[JointRecord, ...]":
         """The joints that were built, with limits in radians or metres; the fields are those of `report.json`."""
         return self.report.joints
 
     @property
-    def added(self) -> tuple[AddedRecord, ...]:
+    def added(self) -> "tuple[AddedRecord, ...]":
         """The parts that were missing in the input and were added."""
         return self.report.added
 
     @property
-    def skipped(self) -> tuple[SkippedRecord, ...]:
+    def skipped(self) -> "tuple[SkippedRecord, ...]":
         """The requests that could not be built, each with its reason."""
         return self.report.skipped
 
-    def joint(self, name: str) -> JointRecord:
+    def joint(self, name: str) -> "JointRecord":
         """Returns the joint of this id, or that of the moving part of this id.
 
         Raises:
@@ -125,6 +128,8 @@ class Result:
             TypeError: if an argument has a wrong type.
             ExportError: if a format is unknown, or the folder is there already, holds the input, or cannot be written.
         """
+        from grafu.api.saving import files_of
+
         path, names = as_path(folder, "folder"), as_words(formats, "formats")
         if why := why_not_apart(path, [Path(self.asset.path)] if self.asset.path else []):
             raise ExportError(why)
@@ -270,7 +275,7 @@ class Result:
         return Result.of(replace(self.request, settings=settings))
 
 
-def _without(settings: Settings, added: AddedRecord) -> Settings:
+def _without(settings: Settings, added: "AddedRecord") -> Settings:
     """Returns the settings in which an added part is left out; a handle that was chosen is not chosen any more."""
     if added.link in settings.additions.fronts:
         return settings.with_front(added.link, HandleChoice(style=NO_HANDLE, replaces=False))

@@ -6,7 +6,7 @@ What the input states about its motions is not asked: the parts are the same wit
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
@@ -19,6 +19,7 @@ from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.asset.standing import spelled
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_ratios

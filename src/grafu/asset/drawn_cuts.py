@@ -1,12 +1,12 @@
 """Which objects are cut where fronts and handles are drawn on their surfaces; `segmentation` finds these."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh

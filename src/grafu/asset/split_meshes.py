@@ -13,12 +13,12 @@ glTF keeps a mesh of several materials in one object, as primitives. Tools that 
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import combinations, takewhile
 from typing import Final, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios

@@ -4,12 +4,12 @@ Heavy queries live in `raycast`, `intersection` and `solids`.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import (
     ArrayValue,
     Faces,

@@ -8,12 +8,12 @@ changes, has each front as a patch, with the edges that it has.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Faces, Indices, Vec3
 from grafu.geometry.components import linked, welded
 from grafu.geometry.mesh import TriangleMesh
@@ -24,6 +24,7 @@ from grafu.segmentation.hidden_fronts import outline
 from grafu.segmentation.surface_config import CreaseConfig
 from grafu.segmentation.surroundings import within
 from grafu.segmentation.view import ShellsView, view_of
+from grafu.shapes import Bool, Float, Int
 
 OfFaces = Int[np.ndarray, " faces"]
 _SAME_UV = 1e-4  # of a texture's side: coordinates nearer to each other are one point of it

@@ -4,13 +4,13 @@ It asks geometry alone.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cache
 from typing import Final, Literal, final
 
 import numpy as np
-from jaxtyping import Bool, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices, Mat3, Vec3
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -21,6 +21,7 @@ from grafu.segmentation.hidden_fronts import hides, is_flush, is_one_with_handle
 from grafu.segmentation.lying import lying_on_fronts
 from grafu.segmentation.surroundings import Scale, overlaps
 from grafu.segmentation.view import MaskOfShells, OfShells, SeenFaces, ShellsView
+from grafu.shapes import Bool, Int
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
 Faces = Int[np.ndarray, " _"]

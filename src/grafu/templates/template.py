@@ -19,12 +19,13 @@ upright about Y where `turns` states that this makes sense (a cup or a drop hand
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import ClassVar, Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError, TemplateError, did_you_mean
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, freeze_arrays
