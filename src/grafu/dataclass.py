@@ -7,12 +7,14 @@ compiled, by the standard library too, at their first call, and then replace the
 """
 
 import dataclasses
+import inspect
 from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final, NoReturn
 
 _BY_HAND: Final = 16
 """Values of a class that are filled by hand; the next costs as much as to compile its `__init__`."""
+_WAITS: Final = "waits_to_be_compiled"
 _ALONE: Final = {"init": False, "repr": False, "eq": False}
 _INIT: Final = {"init": True, "frozen": True}
 _COMPILED: Final = {"__repr__": {"repr": True}, "__eq__": {"eq": True}, "__hash__": {"unsafe_hash": True}}
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
     from dataclasses import dataclass as dataclass
 else:
 
-    def dataclass(cls=None, /, *, frozen=False, eq=True, repr=True, order=False, slots=False):
+    def dataclass(cls=None, /, *, frozen=False, eq=True, repr=True, order=False, slots=False):  # noqa: A002
         """Makes a class a dataclass, or returns the decorator that does, as that of the standard library.
 
         Classes that are not frozen, or that are ordered, are compiled at once. A frozen value refuses every attribute,
@@ -41,7 +43,7 @@ def _with_late_methods(cls: type, options: dict[str, bool]) -> type:
     derived = any(dataclasses.is_dataclass(base) for base in cls.__mro__[1:])
     made: Any = dataclasses.dataclass(**_ALONE, frozen=derived, slots=options["slots"])(cls)
     if "__init__" not in own:
-        made.__init__ = _late_init(made)
+        made.__init__, made.__signature__ = _late_init(made), _Signature()
     if options["repr"] and "__repr__" not in own:
         made.__repr__ = _late_method(made, "__repr__")
     if options["eq"] and "__eq__" not in own:
@@ -76,7 +78,7 @@ def _late_init(made: type) -> Callable[..., None]:
 def _fill(self: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> bool:
     """Gives a value its fields, and returns whether it could: all that were given are fields, and none lacks."""
     fields = dataclasses.fields(self)
-    given = dict(zip((field.name for field in fields), args))
+    given = dict(zip((field.name for field in fields), args, strict=False))
     count = len(args) + len(kwargs)
     given |= kwargs
     if len(given) < count or not all(field.init and not field.kw_only for field in fields):
@@ -125,6 +127,20 @@ def _compiled(made: type, name: str, only: dict[str, bool]) -> Callable[..., Any
     return twin.__dict__[name]
 
 
+def compiled_init(cls: type) -> Callable[..., None]:
+    """Returns the `__init__` of a class, compiled if it waits for that."""
+    init: Callable[..., None] = cls.__init__  # type: ignore[misc]
+    return _compiled(cls, "__init__", _INIT) if hasattr(init, _WAITS) else init
+
+
+class _Signature:
+    """What `inspect.signature` returns of a class whose `__init__` is not compiled yet."""
+
+    def __get__(self, value: object, owner: type) -> inspect.Signature:
+        signature = inspect.signature(compiled_init(owner))
+        return signature.replace(parameters=list(signature.parameters.values())[1:])
+
+
 def _replace(made: type, name: str, late: Callable[..., Any], method: Callable[..., Any]) -> None:
     """Puts a compiled method into the place of the one that waited, unless another took it meanwhile."""
     if made.__dict__.get(name) is late:
@@ -132,15 +148,16 @@ def _replace(made: type, name: str, late: Callable[..., Any], method: Callable[.
 
 
 def _named(late: Any, made: type, name: str) -> Callable[..., Any]:
+    setattr(late, _WAITS, True)
     late.__name__, late.__qualname__, late.__module__ = name, f"{made.__qualname__}.{name}", made.__module__
     return late
 
 
-def _refuse_set(self: object, name: str, value: object) -> NoReturn:
+def _refuse_set(_: object, name: str, __: object) -> NoReturn:
     raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
 
 
-def _refuse_delete(self: object, name: str) -> NoReturn:
+def _refuse_delete(_: object, name: str) -> NoReturn:
     raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, final
 
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
+from grafu.api.choices import joint_choice, mechanism_class
 from grafu.api.request import Request, as_path, as_words, motion_in_words, optional_number, require, require_word
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
@@ -19,13 +20,13 @@ from grafu.export.formats import DEFAULT_FORMATS, exporter_for
 from grafu.export.output_names import why_not_apart
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.motion_choice import TURNING_SIDES
-from grafu.joints.plan import AUTOMATIC, JointChoice
+from grafu.joints.plan import AUTOMATIC
 from grafu.pipeline.addition_choice import GRIPS
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.words import counted
 from grafu.templates.gallery import open_handles
-from grafu.vocabulary import MECHANISM_MENU, MechanismClass, PartLabel
+from grafu.vocabulary import PartLabel
 
 if TYPE_CHECKING:
     from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
@@ -191,9 +192,9 @@ class Result:
             raise OptionError(f"`side` must be one of {', '.join(TURNING_SIDES)}: got {side!r}")
         name = part if side else self.joint(part).part
         settings = self.settings.with_motion(name, motion_in_words(name, side)) if side else self.settings
-        chosen = _choice(
+        chosen = joint_choice(
             template=template,
-            mechanism=_mechanism(mechanism),
+            mechanism=mechanism_class(mechanism),
             count=count,
             scale=scale,
             opening=optional_number(opening, "opening"),
@@ -219,9 +220,9 @@ class Result:
             OptionError: if there is no such part, template or class, or a number is out of range.
         """
         require_word(part, "part")
-        chosen = _choice(
+        chosen = joint_choice(
             template=template,
-            mechanism=_mechanism(mechanism),
+            mechanism=mechanism_class(mechanism),
             opening=optional_number(opening, "opening"),
             mount=mount,
         )
@@ -280,24 +281,3 @@ def _without(settings: Settings, added: "AddedRecord") -> Settings:
     if added.link in settings.additions.fronts:
         return settings.with_front(added.link, HandleChoice(style=NO_HANDLE, replaces=False))
     return settings.with_addition(added.part, accepted=False)
-
-
-def _choice(**fields: object) -> JointChoice:
-    require_word(fields["template"], "template", "the id of a template, as str")
-    require_word(fields["mount"], "mount")
-    require(fields.get("count", 0), int, "count", "a whole number")
-    optional_number(fields.get("scale"), "scale")
-    try:
-        return JointChoice(**fields)  # type: ignore[arg-type]  # it checks them itself
-    except ValueError as error:
-        raise OptionError(str(error).replace("`JointChoice.", "`")) from None
-
-
-def _mechanism(name: str | None) -> MechanismClass | None:
-    if name is None or not require_word(name, "mechanism", "a class such as `contact`, or None"):
-        return None
-    named = {word: mechanism for mechanism in MECHANISM_MENU for word in (mechanism.in_words, mechanism.value)}
-    if name not in named:
-        known = ", ".join(mechanism.in_words for mechanism in MECHANISM_MENU)
-        raise OptionError(f"`mechanism` must be one of {known}: got {name!r}")
-    return named[name]
