@@ -10,7 +10,7 @@ points from the template to the part that its end is mounted on (supplement, Tem
     P       leaf along +Y, n = -X   leaf along +X, n = -Y     the leaves line an inner corner
 
 Rail frame, closed: +X points from the wall to the drawer, +Z up, and the drawer slides out along -Y. The origin is the
-centre of the static snap plane (n = -X, at x = 0); the dynamic one has n = +X, x = thickness. The other rail mirrors it.
+centre of the static snap plane (n = -X, x = 0); the dynamic one has n = +X, x = thickness. The other rail mirrors it.
 
 Handle frame: the foot plane is y = 0 and the origin its middle; +X runs along the handle's long side, -Y points away
 from the front that the handle lies on, +Z is up. A drawer that faces -Y takes a handle as it is; a door turns it about
