@@ -128,7 +128,7 @@ def told_apart(paths: Sequence[Path], names: Sequence[str]) -> tuple[str, ...]:
     """Returns the names of inputs' results: what several share gives way to what names them otherwise.
 
     These are the stems of the files, or else the names of the folders that hold them, or else both and as many of the
-    folders above as it takes (`a_same_cabinet` of `a/same/cabinet.glb`). Where none tells them apart, or one is the name
+    folders above as it takes (`a_same_cabinet` of `a/same/cabinet.glb`). Where none tells them apart, or one is that
     of another input, nothing is changed.
     """
     alike: dict[str, list[int]] = defaultdict(list)
