@@ -55,7 +55,7 @@ class Starting:
 
 
 def time_starting(sample: str, repeats: int) -> Starting:
-    """Returns how long the command, Blender, and an import of `grafu.functionalize` take in turns, each after a first."""
+    """Returns how long the command, Blender, and an import of `grafu.functionalize` take in turns, after a first."""
     blender = blender_python()
     with tempfile.TemporaryDirectory() as folder:
         commands: dict[str, Sequence[str]] = {
