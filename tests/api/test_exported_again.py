@@ -18,6 +18,7 @@ PLACES = {
     "in millimetres": scale_matrix(1000.0),
     "far from the origin": translation_matrix([30.0, 2.0, -17.0]),
     "front to the side": rotation_matrix(np.pi / 2, [0.0, 1.0, 0.0]),
+    "turned by 30 degrees": rotation_matrix(np.pi / 6, [0.0, 1.0, 0.0]),
     "Z up": rotation_matrix(np.pi / 2, [1.0, 0.0, 0.0]),
 }
 MADE: dict[str, Callable[[Path], trimesh.Scene]] = {
