@@ -71,7 +71,7 @@ def time_faces(faces: int, repeats: int) -> Grown:
         one_run(str(SAMPLE))
 
         def run() -> None:
-            if one_run(str(path)) is None:
+            if one_run(str(path), size) is None:
                 raise SystemExit(f"the dresser with {size} faces was refused")
 
         return Grown(size, _timed(run, repeats), _peak())

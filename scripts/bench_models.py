@@ -62,13 +62,22 @@ def time_models(paths: Sequence[str], repeats: int) -> Set:
     return Set(tuple(timed), tuple(Path(path).name for path in refused))
 
 
-def one_run(path: str) -> tuple[float, int, dict[str, float]] | None:
-    """Returns the processor's seconds for one model with its page, its parts and stages; None if it is refused."""
-    from grafu.cli.job import Failed, Job, JobOptions, run_job
+def one_run(path: str, faces: int = 0) -> tuple[float, int, dict[str, float]] | None:
+    """Returns the processor's seconds for one model with its page, its parts and stages; None if it is refused.
 
+    `faces` is the most that are read, where more than usual.
+    """
+    from grafu.asset.options import Limits, LoadOptions
+    from grafu.cli.job import Failed, Job, JobOptions, run_job
+    from grafu.pipeline.settings import Settings
+
+    limits = Limits()
+    if faces > limits.max_faces:
+        limits = Limits(max_faces=faces, max_vertices=2 * faces)
+    settings = Settings(reading=LoadOptions(limits=limits))
     with tempfile.TemporaryDirectory() as folder:
         started = time.process_time()
-        result = run_job(Job(Path(path), "model", JobOptions(out=Path(folder), formats=FORMATS)))
+        result = run_job(Job(Path(path), "model", JobOptions(out=Path(folder), formats=FORMATS, settings=settings)))
         seconds = time.process_time() - started
     if isinstance(result, Failed):
         return None

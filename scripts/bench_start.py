@@ -55,12 +55,12 @@ class Starting:
 
 
 def time_starting(sample: str, repeats: int) -> Starting:
-    """Returns how long the command, Blender, and an import of `grafu.api` take, in turns; each once to warm up."""
+    """Returns how long the command, Blender, and an import of `grafu.functionalize` take in turns, after a first."""
     blender = blender_python()
     with tempfile.TemporaryDirectory() as folder:
         commands: dict[str, Sequence[str]] = {
             "grafu": (sys.executable, "-m", "grafu", "functionalize", sample, "--out", folder, *OPTIONS),
-            "import": (sys.executable, "-c", "import grafu.api.functions"),
+            "import": (sys.executable, "-c", "import grafu; grafu.functionalize"),
             "help": (sys.executable, "-m", "grafu", "--help"),
         }
         if blender:

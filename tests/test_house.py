@@ -65,6 +65,20 @@ def test_files_stay_under_300_lines() -> None:
     assert {name: lines for name, lines in lengths.items() if lines > 300} == {}
 
 
+def test_values_and_shapes_are_those_that_are_quick_to_import() -> None:
+    late = {("dataclasses", "dataclass"), *(("jaxtyping", name) for name in ("Bool", "Float", "Int", "Integer"))}
+    own = ROOT / "src" / "grafu"
+    found = [
+        (path.name, node.module)
+        for path in SOURCES
+        if path not in (own / "dataclass.py", own / "shapes.py")
+        for node in ast.walk(tree(path))
+        if isinstance(node, ast.ImportFrom)
+        if not late.isdisjoint((node.module, name.name) for name in node.names)
+    ]
+    assert found == []
+
+
 def test_every_module_says_what_it_does() -> None:
     assert [p for p in SOURCES if not ast.get_docstring(tree(p))] == []
 

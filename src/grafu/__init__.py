@@ -10,6 +10,7 @@ Importing the package imports nothing else; each name below is imported when it 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from grafu.collecting import without_collecting
 from grafu.version import __version__ as __version__
 
 if TYPE_CHECKING:
@@ -34,7 +35,8 @@ __all__ = ["Asset", "FunctionalizationError", "Result", "__version__", "function
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module 'grafu' has no attribute {name!r}: it offers {', '.join(__all__)}")
-    found = globals()[name] = getattr(import_module(_HOMES[name]), name)
+    with without_collecting():
+        found = globals()[name] = getattr(import_module(_HOMES[name]), name)
     return found
 
 

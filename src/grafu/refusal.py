@@ -3,9 +3,11 @@
 docs/report.md is drawn from the two lists.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from typing import Final, final
+
+from grafu.dataclass import dataclass
 
 
 class Asked(StrEnum):

@@ -53,8 +53,8 @@ def with_pieces(path, ending, grouped):
 
 @pytest.mark.parametrize(
     ("ending", "grouped"),
-    [("_{1}", True), ("-{0}", True), ("-{0}", False), ("_{3:06x}", True), ("_{2}_0", True)],
-    ids=["three.js", "Assimp FBX", "Assimp OBJ", "trimesh", "Sketchfab"],
+    [("_{1}", True), ("-{0}", True), ("-{0}", False), ("_{3:06x}", True), ("_{3:06x}", False), ("_{2}_0", True)],
+    ids=["three.js", "Assimp FBX", "Assimp OBJ", "trimesh", "trimesh, flat", "Sketchfab"],
 )
 def test_what_an_exporter_parted_is_the_same_furniture(tmp_path, ending, grouped):
     one = load_asset(SAMPLES / "sideboard.glb", AS_WRITTEN)
@@ -130,7 +130,17 @@ def test_numbers_below_a_numbered_node_that_lie_apart_are_objects_of_their_own(t
     assert named(tmp_path, "leg_1", ("leg_1_1", apart[0], OAK), ("leg_1_2", apart[1], OAK)) == ["leg_1_1", "leg_1_2"]
 
 
-def test_a_word_of_six_letters_is_not_drawn_by_chance(tmp_path):
-    names = ["leg_facade", "leg_decade"]
+@pytest.mark.parametrize("above", ["leg", ""])
+@pytest.mark.parametrize("endings", [("facade", "decade"), ("000010", "000011")])
+def test_a_word_or_number_of_six_signs_is_not_drawn_by_chance(tmp_path, above, endings):
+    names = [f"leg_{ending}" for ending in endings]
 
-    assert named(tmp_path, "leg", *zip(names, beside(2), (OAK, OAK), strict=True)) == names
+    assert named(tmp_path, above, *zip(names, beside(2), (OAK, OAK), strict=True)) == names
+
+
+def test_neighbours_are_pieces_of_the_mesh_that_their_own_name_begins_with(tmp_path):
+    names = ["leg_1_1b6a32", "leg_1_5b6346", "leg_2_0c77de", "leg_2_9a0001", "door_e0e0e1"]
+
+    found = named(tmp_path, "", *zip(names, beside(5), (OAK, GLASS) * 2 + (OAK,), strict=False))
+
+    assert found == ["leg_1", "leg_2", "door_e0e0e1"]

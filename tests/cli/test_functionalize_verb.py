@@ -180,12 +180,19 @@ def test_a_name_that_cannot_be_is_refused(
     assert not (tmp_path / "out").exists()
 
 
-def test_inputs_of_one_name_in_folders_of_one_name_are_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    inputs = [str(write_cabinet(tmp_path / folder / "same")) for folder in ("a", "b")]
+def test_inputs_of_one_name_in_folders_of_one_name_are_named_by_the_folders_above(tmp_path: Path) -> None:
+    inputs = [write_cabinet(tmp_path / kind / folder / "same") for kind in ("a", "b") for folder in ("1", "2")]
 
-    assert main(["functionalize", *inputs, "--out", str(tmp_path / "out")]) == 2
+    assert main(["functionalize", *map(str, inputs), "--out", str(tmp_path / "out"), *LEAST]) == 0
+    names = {f"{kind}_{folder}_same_cabinet" for kind in ("a", "b") for folder in ("1", "2")}
+    assert {one.name for one in (tmp_path / "out").iterdir() if one.is_dir()} == names
+
+
+def test_two_files_of_one_name_in_one_folder_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    made = write_cabinet(tmp_path)
+    made.with_suffix(".glb").write_bytes(b"of the same name")
+
+    assert main(["functionalize", str(made), str(made.with_suffix(".glb")), "--out", str(tmp_path / "out")]) == 2
     assert "different names" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
@@ -204,7 +211,8 @@ def test_one_bad_input_does_not_stop_the_others(tmp_path: Path, capsys: pytest.C
     assert str(bad) in said.err
     *ended, why = said.err.splitlines()
     assert sorted(line.partition(" ")[0] for line in ended) == ["[1/2]", "[2/2]"]
-    assert why.startswith(f"grafu: {bad}: ")
+    assert why.startswith(f"grafu: {bad}")
+    assert why.count(str(bad)) == 1
     assert sorted(p.name for p in out.iterdir()) == ["cabinet", "index.html"]
     assert "bad" in (out / "index.html").read_text()
 

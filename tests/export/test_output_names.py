@@ -211,7 +211,9 @@ def test_a_file_whose_name_is_generic_is_named_by_its_folder(path: str, name: st
         (["x/d/model.glb", "x/d/scene.glb"], ("model", "scene")),  # one folder holds both
         (["x/d/model.glb", "x/d/model.obj"], ("d", "d")),
         (["x/cabinet.glb", "y/cabinet.glb"], ("x", "y")),
-        (["x/d/cabinet.glb", "y/d/cabinet.glb"], ("cabinet", "cabinet")),
+        (["x/d/cabinet.glb", "y/d/cabinet.glb"], ("x_d_cabinet", "y_d_cabinet")),
+        (["x/1/cabinet.glb", "x/2/cabinet.glb", "y/1/cabinet.glb"], ("x_1_cabinet", "x_2_cabinet", "y_1_cabinet")),
+        (["/x/d/cabinet.glb", "/y/d/cabinet.glb", "/x_d_cabinet.glb"], ("cabinet", "cabinet", "x_d_cabinet")),
         (["d1/model.glb", "d2/MODEL.obj"], ("d1", "d2")),
         (["d1/model.glb", "d2/model.glb", "e/d1.glb"], ("model", "d2", "d1")),  # a folder has another's name
         (["con/model.glb", "d2/model.glb"], ("model", "d2")),  # no folder may be called so

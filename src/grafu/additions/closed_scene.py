@@ -1,12 +1,13 @@
 """The scene with every moving body closed, which drawer boxes and carcass boards are looked for in."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh

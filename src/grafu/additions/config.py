@@ -1,7 +1,7 @@
 """What may be added to furniture beside hinges and rails, and how it looks. It adds nothing."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import final
 
 from grafu.additions.carcass.config import CarcassConfig
@@ -15,6 +15,7 @@ from grafu.additions.interior.config import InteriorConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED, CompartmentChoice, InteriorRequest
 from grafu.additions.statics import Statics
 from grafu.additions.top.config import TopConfig
+from grafu.dataclass import dataclass
 from grafu.visible import ShortRepr
 
 

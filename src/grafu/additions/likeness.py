@@ -4,11 +4,11 @@ from collections import defaultdict
 from collections.abc import Iterable
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 from grafu.templates.solids import finished
 
 OPAQUE_ALPHA = 0.95

@@ -1,7 +1,7 @@
 """The one shape that every addition has: `(scene, request, config) -> StepResult`. It adds nothing itself."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import StrEnum
 from typing import Literal, final
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from grafu.additions.grip.carve import Carved
 from grafu.asset.part import Part, PartSource
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.box import Box

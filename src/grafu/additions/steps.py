@@ -4,7 +4,7 @@ Tops, drawer boxes and boards come before joints, which must respect them; all e
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.additions.carcass.step import add_carcass_boards
@@ -16,6 +16,7 @@ from grafu.additions.handle.step import FrontConfig, add_chosen, add_grasps, cle
 from grafu.additions.interior.turned import InteriorChoice, add_panels
 from grafu.additions.step import StepRequest, StepResult
 from grafu.additions.top.step import TopChoice, add_tops
+from grafu.dataclass import dataclass
 from grafu.scene.scene import Scene
 
 

@@ -5,20 +5,20 @@ Arguments of the Python functions are checked where they are given.
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any, TypeVar, final
 
 from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError
 from grafu.joints.motion_choice import MotionChoice, choice_in_words
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.processes.cache import CACHED_VALUES, Cache
-from grafu.templates.gallery import open_gallery
-from grafu.templates.user import load_handles
+from grafu.templates.gallery import open_gallery, own_handles
 
 T = TypeVar("T")
 
@@ -118,7 +118,7 @@ class Request:
         Raises:
             FunctionalizationError: if a setting names what there is not, or a template or the weights are at fault.
         """
-        own = load_handles(self.templates) if self.templates else {}
+        own = own_handles(self.templates)
         source = self.foreign or self.settings.motion
         config = PipelineConfig(self.settings, own)
         return functionalize(self.asset, source, open_gallery(self.templates), config, cache=self.cache)

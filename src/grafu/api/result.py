@@ -1,33 +1,35 @@
 """`Result`: furniture that works, its joints and its report; what is changed of it gives a new result."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import final
+from typing import TYPE_CHECKING, final
 
 from grafu.additions.handle.config import NO_HANDLE, HandleChoice
+from grafu.api.choices import joint_choice, mechanism_class
 from grafu.api.request import Request, as_path, as_words, motion_in_words, optional_number, require, require_word
-from grafu.api.saving import files_of
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError, OptionError, did_you_mean
 from grafu.export.files import write_files
 from grafu.export.formats import DEFAULT_FORMATS, exporter_for
 from grafu.export.output_names import why_not_apart
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.motion_choice import TURNING_SIDES
-from grafu.joints.plan import AUTOMATIC, JointChoice
+from grafu.joints.plan import AUTOMATIC
 from grafu.pipeline.addition_choice import GRIPS
 from grafu.pipeline.functionalize import Functionalized
-from grafu.pipeline.report import report_of
-from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.words import counted
 from grafu.templates.gallery import open_handles
-from grafu.vocabulary import MECHANISM_MENU, MechanismClass, PartLabel
+from grafu.vocabulary import PartLabel
+
+if TYPE_CHECKING:
+    from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
 
 
 @final
@@ -72,26 +74,28 @@ class Result:
         return self.made.completion.completed
 
     @cached_property
-    def report(self) -> Report:
+    def report(self) -> "Report":
         """The values of `report.json`."""
+        from grafu.pipeline.report import report_of
+
         return report_of(self.made, self.asset.name)
 
     @property
-    def joints(self) -> tuple[JointRecord, ...]:
+    def joints(self) -> "tuple[JointRecord, ...]":
         """The joints that were built, with limits in radians or metres; the fields are those of `report.json`."""
         return self.report.joints
 
     @property
-    def added(self) -> tuple[AddedRecord, ...]:
+    def added(self) -> "tuple[AddedRecord, ...]":
         """The parts that were missing in the input and were added."""
         return self.report.added
 
     @property
-    def skipped(self) -> tuple[SkippedRecord, ...]:
+    def skipped(self) -> "tuple[SkippedRecord, ...]":
         """The requests that could not be built, each with its reason."""
         return self.report.skipped
 
-    def joint(self, name: str) -> JointRecord:
+    def joint(self, name: str) -> "JointRecord":
         """Returns the joint of this id, or that of the moving part of this id.
 
         Raises:
@@ -125,6 +129,8 @@ class Result:
             TypeError: if an argument has a wrong type.
             ExportError: if a format is unknown, or the folder is there already, holds the input, or cannot be written.
         """
+        from grafu.api.saving import files_of
+
         path, names = as_path(folder, "folder"), as_words(formats, "formats")
         if why := why_not_apart(path, [Path(self.asset.path)] if self.asset.path else []):
             raise ExportError(why)
@@ -186,9 +192,9 @@ class Result:
             raise OptionError(f"`side` must be one of {', '.join(TURNING_SIDES)}: got {side!r}")
         name = part if side else self.joint(part).part
         settings = self.settings.with_motion(name, motion_in_words(name, side)) if side else self.settings
-        chosen = _choice(
+        chosen = joint_choice(
             template=template,
-            mechanism=_mechanism(mechanism),
+            mechanism=mechanism_class(mechanism),
             count=count,
             scale=scale,
             opening=optional_number(opening, "opening"),
@@ -214,9 +220,9 @@ class Result:
             OptionError: if there is no such part, template or class, or a number is out of range.
         """
         require_word(part, "part")
-        chosen = _choice(
+        chosen = joint_choice(
             template=template,
-            mechanism=_mechanism(mechanism),
+            mechanism=mechanism_class(mechanism),
             opening=optional_number(opening, "opening"),
             mount=mount,
         )
@@ -270,29 +276,8 @@ class Result:
         return Result.of(replace(self.request, settings=settings))
 
 
-def _without(settings: Settings, added: AddedRecord) -> Settings:
+def _without(settings: Settings, added: "AddedRecord") -> Settings:
     """Returns the settings in which an added part is left out; a handle that was chosen is not chosen any more."""
     if added.link in settings.additions.fronts:
         return settings.with_front(added.link, HandleChoice(style=NO_HANDLE, replaces=False))
     return settings.with_addition(added.part, accepted=False)
-
-
-def _choice(**fields: object) -> JointChoice:
-    require_word(fields["template"], "template", "the id of a template, as str")
-    require_word(fields["mount"], "mount")
-    require(fields.get("count", 0), int, "count", "a whole number")
-    optional_number(fields.get("scale"), "scale")
-    try:
-        return JointChoice(**fields)  # type: ignore[arg-type]  # it checks them itself
-    except ValueError as error:
-        raise OptionError(str(error).replace("`JointChoice.", "`")) from None
-
-
-def _mechanism(name: str | None) -> MechanismClass | None:
-    if name is None or not require_word(name, "mechanism", "a class such as `contact`, or None"):
-        return None
-    named = {word: mechanism for mechanism in MECHANISM_MENU for word in (mechanism.in_words, mechanism.value)}
-    if name not in named:
-        known = ", ".join(mechanism.in_words for mechanism in MECHANISM_MENU)
-        raise OptionError(f"`mechanism` must be one of {known}: got {name!r}")
-    return named[name]

@@ -1,12 +1,13 @@
 """Which files a result is saved as: models, graph, report, settings and page. It writes nothing."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from time import perf_counter
 from typing import Final, final
 
 from grafu.articulation.physics import physics_of
+from grafu.dataclass import dataclass
 from grafu.export.files import ExportFiles
 from grafu.export.formats import FORMATS, export
 from grafu.geometry.budget import UNLIMITED, Budget, within

@@ -4,7 +4,7 @@ Everything is in the object frame (metres, Z up, front -Y) at rest, which is clo
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from functools import cached_property
 from typing import final
@@ -20,6 +20,7 @@ from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.articulation.slip import Slip
 from grafu.articulation.swing import Swing
 from grafu.articulation.tree_checks import require_driven, require_unique
+from grafu.dataclass import dataclass
 from grafu.errors import ArticulationError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.axis import Axis

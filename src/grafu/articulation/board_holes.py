@@ -1,12 +1,12 @@
 """Holes through a board: cable outlets in backs, vents. One hull over the board would close them."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 import shapely
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh

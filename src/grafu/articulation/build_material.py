@@ -5,11 +5,12 @@ neither weighs what a solid of its outline would. Of a mesh it knows only the ar
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from types import MappingProxyType
 from typing import final
 
 from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.visible import ShortRepr

@@ -4,12 +4,12 @@ Its force is constant near closed, falls to nothing at the end of its range, and
 where it is left.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.catch_kind import CatchKind
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.config_checks import require_positive, require_ratios
 

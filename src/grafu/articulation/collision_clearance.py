@@ -5,7 +5,6 @@ doors open or stop drawers. They are cut back where it takes the least surface a
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -14,6 +13,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of, extent_of
 from grafu.articulation.kinematics import REST, link_poses
 from grafu.articulation.sweep import ratios_of_range, rest_to_full, values_before
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import require_time

@@ -5,7 +5,7 @@ they can be posed and asked whether they meet.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import final
 
@@ -19,6 +19,7 @@ from grafu.articulation.convex_pieces import (
     convex_pieces,
     hull_of,
 )
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
 from grafu.geometry.box import Box, OrientedBox, yaw_of
 from grafu.geometry.components import clustered

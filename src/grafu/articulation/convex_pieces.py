@@ -6,17 +6,16 @@ Coordinates are the caller's; the pieces fit best in a frame along the boards.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 from typing import Any, final
 
 import manifold3d
 import numpy as np
-from jaxtyping import Bool
 
 from grafu.articulation.board_holes import BoardHole, holes_through, is_board
 from grafu.articulation.plain_boxes import has_all_corners, is_plain_box
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
@@ -26,6 +25,7 @@ from grafu.geometry.halves import halves_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.solids import ConvexSolid, few_corners
+from grafu.shapes import Bool
 
 _DIRECTIONS = np.array([[-1.0, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1]])
 _HULL_CORNERS = 32

@@ -6,13 +6,13 @@ any opening. Formats that know only springs about a joint get the straight line 
 writes no file and moves nothing.
 """
 
-from dataclasses import dataclass
 from math import pi
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Joint
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Scalars, Vec3, freeze_arrays, vec3
 from grafu.geometry.config_checks import require_positive
 

@@ -1,12 +1,12 @@
 """Where two fingers fit round something: measured by rays against what is held and against all that is around it."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.grasp_frame import FINGER_GAP, FINGER_REACH, FINGER_THICKNESS, FINGER_WIDTH
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mask, Mat3, Points, Scalars, Vec3
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh

@@ -5,7 +5,6 @@ goes (see `GraspFrame.fingers`) is cut out of it.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -13,6 +12,7 @@ import numpy as np
 from grafu.articulation.collision_clearance import Shapes, halved
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of
 from grafu.articulation.grasp_frame import GraspFrame
+from grafu.dataclass import dataclass
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import require_time
 from grafu.geometry.config_checks import require_positive

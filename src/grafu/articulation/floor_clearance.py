@@ -4,7 +4,6 @@ A door that is drawn down to the floor would carry the piece, and drag on it.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -14,6 +13,7 @@ from grafu.articulation.collision_clearance import Shapes, halved
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import rest_to_full
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import OrientedBox
 from grafu.geometry.budget import require_time

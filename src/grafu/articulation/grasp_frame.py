@@ -4,11 +4,11 @@ The frame is that of grippers in MoveIt and robosuite: z is the approach, from t
 axis, along which the fingers move; x completes a right-handed frame and lies along the bar or edge that is held.
 """
 
-from dataclasses import dataclass
 from typing import Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Vec3, freeze_arrays
 from grafu.geometry.axis import Axis

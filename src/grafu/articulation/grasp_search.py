@@ -5,7 +5,7 @@ edge. What can be held at all is for others to say.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -14,6 +14,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link
 from grafu.articulation.finger_fit import Facing, FingerFit, FingerFitConfig, FingerSpace
 from grafu.articulation.grasp_frame import GraspFrame, GraspKind
 from grafu.articulation.kinematics import all_before
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.mesh import merge_meshes, mesh_near

@@ -1,13 +1,13 @@
 """Where a hand pulls a joint, and in which direction: at the middle of its handle, else at the front's free edge."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.kinematics import link_poses
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.transform import invert, transform_points
 from grafu.vocabulary import PartLabel

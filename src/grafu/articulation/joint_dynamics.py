@@ -6,7 +6,7 @@ opens within three seconds when it is pulled with 20 N. Lids and flaps are held 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import final
 
 import numpy as np
@@ -16,6 +16,7 @@ from grafu.articulation.catch import Catch, CatchConfig, catch_of
 from grafu.articulation.counterbalance import GRAVITY, Counterbalance, CounterbalanceConfig, Holding, held
 from grafu.articulation.coupled_weight import coupled_center
 from grafu.articulation.mass import MassProperties
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.config_checks import require_positive, require_ratios
 

@@ -1,10 +1,10 @@
 """The range of a joint, and how the values of one joint follow from those of another. It moves nothing."""
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import ArticulationError
 
 

@@ -5,7 +5,7 @@ others, or a pedestal may hang above the floor because its glides were left out.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -19,6 +19,7 @@ from grafu.articulation.kinematics import REST, link_poses
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.stability import Stability, StabilityConfig, stability_of
 from grafu.articulation.sweep import rest_to_full
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box, OrientedBox
 from grafu.geometry.budget import require_time

@@ -6,7 +6,6 @@ faces once, times a sheet's thickness. Nothing counts for more than the box arou
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import inf
 from typing import final
 
@@ -14,6 +13,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Link
 from grafu.articulation.build_material import DEFAULT_MASS_CONFIG, MassConfig, builds_of
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, cross, freeze_arrays, renumbered
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.components import Patches, patches_of

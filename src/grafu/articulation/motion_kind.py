@@ -5,13 +5,14 @@ How a joint moves, in which unit its value counts and what formats call it is in
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import degrees, radians
 from types import MappingProxyType
 from typing import Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import Mat4, Points, Scalars, Vec3
 from grafu.geometry.axis import Axis

@@ -1,7 +1,7 @@
 """The physics of an object, computed once for all formats: frames, masses, shapes, resistance of joints."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 from typing import TypeVar, final
 from weakref import WeakKeyDictionary
@@ -28,6 +28,7 @@ from grafu.articulation.level_feet import LevelFeetConfig, level_feet
 from grafu.articulation.mass import MassProperties, mass_of_link, moments_of, moments_of_box
 from grafu.articulation.open_together import met_at_rest, near_at_rest
 from grafu.articulation.rolling_wheels import RollingConfig, on_flats, with_load_on_wheels
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.budget import WhileTimeLasts, present_budget, within
 from grafu.visible import ShortRepr

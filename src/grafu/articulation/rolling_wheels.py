@@ -5,7 +5,7 @@ drawn with a corner at its lowest point would roll off that corner by itself; a 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
@@ -15,6 +15,7 @@ from grafu.articulation.counterbalance import GRAVITY
 from grafu.articulation.floor_clearance import carrying_links, floor_below
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.solids import ConvexSolid

@@ -4,14 +4,14 @@ A door on concealed hinges turns and shifts at once. Simulators get one revolute
 add the shift. It changes no joint.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
+from grafu.dataclass import dataclass
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import ArrayValue, Scalars, Vec3, freeze_arrays
+from grafu.shapes import Float
 
 
 @final

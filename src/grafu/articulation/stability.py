@@ -6,7 +6,6 @@ that of the weight. Friction does not help: a piece that slides before it tips i
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import inf
 from typing import final
 
@@ -20,6 +19,7 @@ from grafu.articulation.grip_point import grip_point
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.sweep import all_open, values_before
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, Points, Vec3
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.transform import transform_points

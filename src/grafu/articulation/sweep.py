@@ -4,13 +4,13 @@ A joint moves only while the joints named in its `after` are fully open: doors f
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.kinematics import with_coupled
+from grafu.dataclass import dataclass
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import ArrayValue, Scalars, frozen_array
 

@@ -4,11 +4,11 @@ Such a piece is no body of its own: it weighs little, collides with nothing and 
 cannot have. It is only shown to move. It changes no joint.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import ArrayValue, Mat4, Scalars, freeze_arrays
 from grafu.geometry.axis import Axis

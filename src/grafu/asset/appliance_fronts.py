@@ -4,13 +4,14 @@ Whole appliances are far thicker, and what is named door besides needs no such g
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.appliance_names import appliances
 from grafu.asset.part import Frame, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_ratios
 from grafu.vocabulary import PartLabel
 

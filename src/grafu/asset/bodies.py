@@ -7,7 +7,7 @@ and stay where they are; their joints are kept apart as the annotation's small j
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.articulation.articulated_object import Coupling
@@ -17,6 +17,7 @@ from grafu.asset.drafts import PartDraft
 from grafu.asset.labels import is_control, is_piece, label_of
 from grafu.asset.names import unique_ids, words
 from grafu.asset.part import AnnotatedJoint, Annotation, Part, PartSource
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis

@@ -1,10 +1,10 @@
 """What a moving body is where no name tells: a sliding door or a drawer, a lever, a rotor or a door."""
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

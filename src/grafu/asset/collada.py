@@ -6,7 +6,7 @@ cameras and lights are left out. The library is an extra (`grafu[formats]`).
 
 import io
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, final
 from urllib.parse import unquote
@@ -20,6 +20,7 @@ from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import library_call, parse_xml
 from grafu.asset.scene_nodes import Chain, SceneNode
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat4

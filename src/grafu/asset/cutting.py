@@ -6,7 +6,7 @@ What the input states about its motions is not asked: the parts are the same wit
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
@@ -19,12 +19,13 @@ from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.asset.standing import spelled
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.creases import back_of
-from grafu.segmentation.division import FacePiece, divided
+from grafu.segmentation.division import FacePiece, MeshShells, divided
 from grafu.segmentation.lids import lid_of_chest, lid_of_washer
 from grafu.segmentation.surface_config import CreaseConfig
 from grafu.vocabulary import PartLabel
@@ -81,10 +82,11 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     whole = [part.label.is_movable for part in reading.parts]
     materials = [_materials(part) for part in reading.parts]
     loose = [part.label in _LYING and part.carried_by is None for part in reading.parts]
-    cuts = divided(meshes, open_to, whole, materials, loose)
+    shells = MeshShells.of(meshes)
+    cuts = divided(meshes, open_to, whole, materials, loose, shells=shells)
     if not any(whole):
-        cuts = with_drawn_fronts(cuts, reading.parts, meshes, open_to, materials)
-    cuts |= handles_on_plates(cuts, meshes, open_to, materials)
+        cuts = with_drawn_fronts(cuts, reading.parts, meshes, open_to, materials, shells=shells)
+    cuts |= handles_on_plates(cuts, meshes, open_to, materials, shells=shells)
     if is_chest(name) and not any(whole) and count_fronts(cuts) <= 1:
         cuts = lid_of_chest(meshes, open_to) or cuts  # its front wall is a plate, too
     if is_washer(name) and not any(whole):

@@ -4,13 +4,14 @@ A leaf has a rail at its bottom, below its pane. The frame of a door in a wall h
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.labels import is_opening, is_piece
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box, overlap_across
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.raycast import RayCaster, covered_ratio

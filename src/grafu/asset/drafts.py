@@ -9,7 +9,7 @@ one part; handles among them ride on it. Every other node with a mesh is a part 
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import final
 
@@ -21,6 +21,7 @@ from grafu.asset.names import unique_ids
 from grafu.asset.part import Part, PartSource
 from grafu.asset.scene_nodes import Chain, SceneNode, with_split_meshes_whole
 from grafu.asset.split_meshes import split_objects
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios

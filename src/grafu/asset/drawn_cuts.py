@@ -1,17 +1,17 @@
 """Which objects are cut where fronts and handles are drawn on their surfaces; `segmentation` finds these."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.creases import drawn_fronts, drawn_handles, uv_islands
-from grafu.segmentation.division import FacePiece
+from grafu.segmentation.division import FacePiece, MeshShells
 
 Cuts = dict[int, list[FacePiece]]
 
@@ -53,6 +53,7 @@ def with_drawn_fronts(
     open_to: Sequence[bool],
     materials: Sequence[Indices],
     config: DrawnCutConfig = DrawnCutConfig(),
+    shells: MeshShells | None = None,
 ) -> Cuts:
     """Returns the cuts with those where fronts are drawn, if these are several more; by islands of UVs where no others.
 
@@ -63,13 +64,14 @@ def with_drawn_fronts(
         open_to: which of them may be cut.
         materials: the number of the surface of each face.
         config: where they are looked for.
+        shells: those of the meshes, where they are known.
     """
     if count_fronts(cuts) > 1 or not _is_nearly_one(meshes, config):
         return cuts
-    drawn = drawn_fronts(meshes, open_to, materials)
+    drawn = drawn_fronts(meshes, open_to, materials, shells=shells)
     found = {**cuts, **drawn} if not cuts or count_fronts(drawn) > count_fronts(cuts) + 1 else cuts
     if not found and any(surface.uv is not None for part in parts for surface in part.surfaces):
-        return drawn_fronts(meshes, open_to, [_islands(part) for part in parts])
+        return drawn_fronts(meshes, open_to, [_islands(part) for part in parts], shells=shells)
     return found
 
 
@@ -79,13 +81,14 @@ def handles_on_plates(
     open_to: Sequence[bool],
     materials: Sequence[Indices],
     config: DrawnCutConfig = DrawnCutConfig(),
+    shells: MeshShells | None = None,
 ) -> Cuts:
     """Returns the cuts of plates that are left on which handles are drawn; see `with_drawn_fronts`."""
     left = [may and k not in cuts for k, may in enumerate(open_to)]
     sides = [np.sort(mesh.box.size) for mesh in meshes]
     plates = [may and bool(size[0] <= config.thick * size[1]) for may, size in zip(left, sides, strict=True)]
     faces = sum(len(mesh.faces) for mesh, is_plate in zip(meshes, plates, strict=True) if is_plate)
-    return drawn_handles(meshes, plates, materials) if faces <= config.faces else {}
+    return drawn_handles(meshes, plates, materials, shells=shells) if faces <= config.faces else {}
 
 
 def _is_nearly_one(meshes: Sequence[TriangleMesh], config: DrawnCutConfig) -> bool:

@@ -1,12 +1,13 @@
 """Parts that are named after doors and drawers alike (`door_and_drawers`): their shape tells which of them each is."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_ratios
 from grafu.vocabulary import PartLabel
 

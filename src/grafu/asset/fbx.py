@@ -5,7 +5,7 @@ Names, hierarchies, pivots, units, axes, diffuse colours and images are read; sk
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path, PureWindowsPath
 from typing import final
 
@@ -19,6 +19,7 @@ from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scene_nodes import Chain, SceneNode
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import euler_matrix, from_rotation

@@ -8,13 +8,13 @@ that are still in use, and Assimp opens files by itself.
 import struct
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
 
 import numpy as np
 
 from grafu.asset.options import Limits
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 
 MAGIC = b"Kaydara FBX Binary  \x00"

@@ -4,7 +4,7 @@ Object frame: metres, Z up, front -Y, standing on z = 0, centred in x and y. Up 
 (`standing`); no joint is asked. A piece that stands askew in its file is turned about its vertical.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -17,6 +17,7 @@ from grafu.asset.resting import stands_on_another_side
 from grafu.asset.scale import Estimate, ScaleConfig, estimate_scale, is_normalised, likely_unit
 from grafu.asset.seen_side import most_shown_side
 from grafu.asset.standing import HeadingConfig, UpVotes, decide_front, front_votes, up_votes, vector
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box

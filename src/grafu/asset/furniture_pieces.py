@@ -5,7 +5,7 @@ What is one piece, `grafu.segmentation.furniture_pieces` states.
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import takewhile
 from typing import final
 
@@ -15,6 +15,7 @@ from grafu.asset.loose import faces_of_part
 from grafu.asset.names import safe_id, spoken
 from grafu.asset.part import Annotation, Frame, Part
 from grafu.asset.reading import Reading
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, UnreadableAsset
 from grafu.geometry.box import Box
 from grafu.segmentation.furniture_pieces import ALONE, FLOOR_OR_WALL, SceneShells, furniture_pieces

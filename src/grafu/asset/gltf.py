@@ -1,7 +1,6 @@
 """glTF scenes: nodes with meshes are parts, in the scene's coordinates. It settles no frame."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
@@ -15,6 +14,7 @@ from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scene_nodes import Chain, SceneNode
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import from_rotation, quaternion_matrix

@@ -10,7 +10,7 @@ import binascii
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, final
 from urllib.parse import unquote_to_bytes
@@ -20,6 +20,7 @@ import numpy as np
 from grafu.asset.gltf_meshopt import MeshoptError, unpack
 from grafu.asset.json_files import JsonObject, object_of, parse_json
 from grafu.asset.resources import ModelFiles
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Texture
 

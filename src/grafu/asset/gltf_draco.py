@@ -4,7 +4,6 @@ What the compressed bytes declare is compared with what the document declares, a
 The library is an extra (`grafu[formats]`).
 """
 
-from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from grafu.asset.gltf_buffers import GltfFile
 from grafu.asset.json_files import JsonObject
 from grafu.asset.scan_files import library_call
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 
 EXTENSION = "KHR_draco_mesh_compression"

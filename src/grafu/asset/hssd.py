@@ -3,7 +3,7 @@
 The parts are cut from the GLB's few large meshes along the annotated triangles. It settles no frame.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import final
 
@@ -26,6 +26,7 @@ from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import Annotation, Part
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface, selected
 from grafu.geometry.box import Box

@@ -5,7 +5,6 @@ Coordinates are the GLB's: metres, Y up. It reads no meshes and settles no label
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeGuard, final
 
@@ -14,6 +13,7 @@ import numpy as np
 from grafu.articulation.motion_kind import kind_named
 from grafu.asset.json_files import finite, read_json
 from grafu.asset.resources import ModelFiles
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis

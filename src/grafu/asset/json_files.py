@@ -11,13 +11,14 @@ import math
 import os
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, Final, final, overload
 
 from grafu.asset.options import Limits
 from grafu.asset.regular_files import TooManyBytes, read_regular
 from grafu.asset.resources import ModelFiles, reason_of
+from grafu.dataclass import dataclass
 from grafu.errors import AssetTooLarge, UnreadableAsset
 
 Damaged = Callable[[str], UnreadableAsset]

@@ -9,12 +9,12 @@ a rail, `door_handle` a handle, `opening_on_hinge_1_door` a door. Words that mea
 """
 
 import re
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final, final
 
 from grafu.asset.languages import word_set
 from grafu.asset.names import OF, singular, spoken
+from grafu.dataclass import dataclass
 from grafu.vocabulary import PartLabel
 
 # Each row: a label and the phrases that give it. A phrase is words that adjoin (`drawer rail` also matches plurals);

@@ -4,19 +4,19 @@ The lasso and the eye span a cone of planes. A face that the lasso crosses is cu
 crosses; each piece is inside or outside by its middle.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 import shapely
-from jaxtyping import Bool, Float
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, attribute_rows, from_attributes
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.face_cuts import NOTHING, split_by_planes
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.shapes import Bool, Float
 
 Corner = tuple[float, float, float]
 Triangles = Float[np.ndarray, "n 3 k"]  # rows of corner attributes, of which the first three are the position

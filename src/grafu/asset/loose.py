@@ -4,13 +4,14 @@ A mesh that holds the handles of several doors and drawers becomes a part for ea
 """
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.names import unique_ids
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, selected
 from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box

@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Int
 
 from grafu.asset.obj_parser import ObjData, parse_obj, triangulate
 from grafu.asset.reading import MeshFile, MeshPiece
@@ -18,6 +17,7 @@ from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Points, first_of_each
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Int
 
 
 def read_mtl(name: str, beside: Path, files: ModelFiles) -> tuple[dict[str, Material], list[str]]:

@@ -5,7 +5,6 @@ as those of a URDF. The library is an extra (`grafu[sim]`).
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
 
@@ -20,6 +19,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.asset.robot_document import RobotDocument, RobotJoint, spaced
 from grafu.asset.scan_files import library_call
 from grafu.asset.urdf_shapes import numbers
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import from_rotation

@@ -4,13 +4,14 @@ Included files are sought like all files of a model. What is multiplied (`<repli
 """
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, final
 
 from grafu.asset.options import check_parts
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import parse_xml
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 
 SHOWN_GROUPS = 3  # as in MuJoCo's viewer: models keep collision shapes in group 3 and above

@@ -1,13 +1,14 @@
 """What is named after a fitting of a door or drawer, but is one: `drawer_lock` is the drawer with the lock."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_ratios
 from grafu.vocabulary import PartLabel
 

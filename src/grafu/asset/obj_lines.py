@@ -1,12 +1,12 @@
 """The lines of a Wavefront OBJ by kind, found without an object for each: files have millions. It reads no values."""
 
 import re
-from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
 
 from grafu.asset.options import Tally
+from grafu.dataclass import dataclass
 
 OTHER, VERTEX, TEXTURE, NORMAL, FACE, STATE = range(6)
 _SPACE, _BREAK = 32, 10

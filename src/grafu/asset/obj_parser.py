@@ -5,13 +5,13 @@ Polygons become triangles: fans for convex ones, ear clipping for the others.
 
 import warnings
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.asset.obj_lines import FACE, NORMAL, STATE, TEXTURE, VERTEX, ObjLines, lines_of
 from grafu.asset.options import Limits, Tally
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 
 

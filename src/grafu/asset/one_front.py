@@ -3,7 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
@@ -13,6 +13,7 @@ from grafu.asset.cutting import is_divided, turn_of
 from grafu.asset.part import Frame
 from grafu.asset.pieces import in_words, with_pieces
 from grafu.asset.reading import Reading
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
 from grafu.segmentation.joining import joined_objects

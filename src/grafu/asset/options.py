@@ -3,10 +3,11 @@
 What a model holds is added up as it is found, before anything is built of it.
 """
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from pathlib import Path
 from typing import Any, Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, AssetTooLarge
 from grafu.visible import ShortRepr
 

@@ -1,7 +1,7 @@
 """What every reader returns: an asset of parts in the object frame. It reads no files."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Final, Literal, final
 
@@ -10,6 +10,7 @@ import numpy as np
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.labels import label_of
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array

@@ -6,7 +6,7 @@ makers' `mobility.urdf` is read by what it states.
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import final
@@ -25,6 +25,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.asset.standing import spelled
 from grafu.asset.urdf import CONVENTION as URDF_CONVENTION
 from grafu.asset.urdf import UrdfBodies, read_bodies
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3

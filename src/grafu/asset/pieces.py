@@ -8,7 +8,7 @@ say.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -17,6 +17,7 @@ from grafu.asset.grips import face_area, pieces_before
 from grafu.asset.labels import is_piece
 from grafu.asset.names import spoken
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers

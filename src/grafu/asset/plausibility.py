@@ -5,7 +5,7 @@ A word is evidence: a `drawer` that holds the rest of the object is its body, a 
 (`drawer_stairs`, `drawer_sprocket`) is believed where the part is a plate at the outside.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
@@ -14,6 +14,7 @@ from grafu.asset.labels import is_appliance, sense_of
 from grafu.asset.languages import word_set
 from grafu.asset.names import spoken
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios

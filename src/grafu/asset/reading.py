@@ -4,13 +4,14 @@ A mesh file holds named pieces with surfaces. Faces without area and parts witho
 shape is changed. At last parts and annotation are mapped to the object frame.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, final
 
 import numpy as np
 
 from grafu.asset.part import Annotation, AssetKind, Frame, Part, moved_joints
 from grafu.asset.pieces import with_attached
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mask, cross
 from grafu.geometry.mesh import TriangleMesh

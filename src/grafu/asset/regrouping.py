@@ -4,7 +4,7 @@ What the input states about motions stays where its part does: a joint of a part
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from typing import final
 
@@ -12,6 +12,7 @@ from grafu.asset.lasso_cut import Lasso, inside_lasso
 from grafu.asset.loose import shells_of
 from grafu.asset.part import Annotation, Asset, Part
 from grafu.asset.pieces import with_pieces
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError, did_you_mean
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box

@@ -9,13 +9,13 @@ import os
 import struct
 import warnings
 import zlib
-from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from typing import Final, Literal, final
 
 from grafu.asset.options import Limits, Tally, how_to_allow
 from grafu.asset.regular_files import TooManyBytes, read_regular
+from grafu.dataclass import dataclass
 from grafu.errors import AssetTooLarge, UnreadableAsset
 from grafu.geometry.appearance import Texture
 

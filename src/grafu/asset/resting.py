@@ -4,13 +4,13 @@ Coordinates are the input's; directions are spelled like `-Y`. No label and no j
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.asset.options import DIRECTIONS
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, extremes
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import merge_meshes

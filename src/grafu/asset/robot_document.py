@@ -5,7 +5,7 @@ shapes are then read as those of a URDF.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, final
 
@@ -18,6 +18,7 @@ from grafu.asset.part import AssetKind
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf import bodies_of_robot
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import invert, roll_pitch_yaw

@@ -5,7 +5,6 @@ estimate is their weighted mean on a logarithmic scale, so scaling the input sca
 """
 
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final, final
 
@@ -14,6 +13,7 @@ import numpy as np
 from grafu.asset.names import singular, spoken
 from grafu.asset.part import Part
 from grafu.asset.reading import Furniture
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import median
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers

@@ -2,10 +2,10 @@
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final
 
 from grafu.asset.split_meshes import is_one_mesh
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 
 Chain = tuple[tuple[int, str], ...]

@@ -4,7 +4,6 @@ Poses are resolved here, frame by frame; links and shapes are then read as those
 `model://NAME/meshes/door.dae` lead into the model's own folder. Models that a file includes are left out, with a note.
 """
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
 
@@ -17,6 +16,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.asset.robot_document import RobotDocument, RobotJoint
 from grafu.asset.scan_files import parse_xml
 from grafu.asset.urdf_shapes import numbers
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import euler_matrix, from_rotation, quaternion_matrix

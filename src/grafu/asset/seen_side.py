@@ -4,18 +4,18 @@ Coordinates are the input's; directions are spelled like `-Y`. No label and no j
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Float, Int
 
 from grafu.asset.options import DIRECTIONS
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.shapes import Float, Int
 
 
 @final

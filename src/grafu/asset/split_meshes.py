@@ -2,7 +2,7 @@
 
 glTF keeps a mesh of several materials in one object, as primitives. Tools that know no primitives part it:
 
-* trimesh: `drawer_1b6a32`, `drawer_5b6346`: six hexadecimal digits, drawn by chance.
+* trimesh: `drawer_1b6a32`, `drawer_5b6346`: six hexadecimal digits, drawn by chance, letters among them; no numbers.
 * Sketchfab: `Door_Wood_0`, `Door_Glass_0`: each with the name of its material.
 * Assimp: `drawer_1-0`, `drawer_1-1`; three.js: `drawer_1_1`, `drawer_1_2`. Doors that the user numbered are
   called so as well: pieces of one mesh touch, and either the mesh has a number of its own before theirs, or no two of
@@ -12,19 +12,20 @@ glTF keeps a mesh of several materials in one object, as primitives. Tools that 
 """
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from itertools import combinations, takewhile
 from typing import Final, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 
 Surfaces = tuple[Surface, ...]
 _BY_CHANCE: Final = re.compile(r"_[0-9a-f]{6}")
+_WITH_CHANCE: Final = re.compile(r"(.+)_[0-9a-f]{6}")
 _NUMBER: Final = re.compile(r"[-_.]?\d+")
 _FIRST: Final = re.compile(r"(.+)-0")
 _SIGNS: Final = re.compile(r"[^0-9a-z]+")
@@ -64,7 +65,7 @@ def is_one_mesh(
         return False
     endings = [piece[len(name) :] for piece in names]
     if all(map(_BY_CHANCE.fullmatch, endings)):
-        return any(sign.isdigit() for ending in endings for sign in ending)
+        return _has(endings, str.isdigit) and _has(endings, str.isalpha)
     if all(_is_material(ending, surfaces) for ending, surfaces in zip(endings, pieces, strict=True)):
         return True
     if not all(map(_NUMBER.fullmatch, endings)):
@@ -75,20 +76,33 @@ def is_one_mesh(
 
 
 def split_objects(names: Sequence[str], pieces: Sequence[Surfaces]) -> dict[int, tuple[str, int]]:
-    """Returns the pieces of one mesh among objects that no node stands over, as Assimp names and orders them.
+    """Returns the pieces of one mesh among objects that no node stands over, as Assimp and trimesh name and order them.
 
     By the place of the first: the name of the mesh, and how many pieces follow one another, it counted in.
     """
     found: dict[int, tuple[str, int]] = {}
-    for start, first in enumerate(names):
-        named = _FIRST.fullmatch(first)
-        if named is None:
-            continue
-        numbered = (f"{named[1]}-{k}" == name for k, name in enumerate(names[start:]))
-        count = sum(1 for _ in takewhile(bool, numbered))
-        if is_one_mesh(named[1], names[start : start + count], pieces[start : start + count]):
-            found[start] = named[1], count
+    place = 0
+    while place < len(names):
+        stem, count = _row_of_pieces(names[place:])
+        if count > 1 and is_one_mesh(stem, names[place : place + count], pieces[place : place + count]):
+            found[place] = stem, count
+        place += max(count, 1)
     return found
+
+
+def _row_of_pieces(names: Sequence[str]) -> tuple[str, int]:
+    """Returns the name of the mesh that the first names may be pieces of, and how many do; the first alone: 0 or 1."""
+    if (named := _FIRST.fullmatch(names[0])) is not None:
+        numbered = (f"{named[1]}-{k}" == name for k, name in enumerate(names))
+        return named[1], sum(1 for _ in takewhile(bool, numbered))
+    if (named := _WITH_CHANCE.fullmatch(names[0])) is not None:
+        alike = (bool(m := _WITH_CHANCE.fullmatch(name)) and m[1] == named[1] for name in names)
+        return named[1], sum(1 for _ in takewhile(bool, alike))
+    return names[0], 0
+
+
+def _has(endings: Sequence[str], is_such: Callable[[str], bool]) -> bool:
+    return any(is_such(sign) for ending in endings for sign in ending)
 
 
 def _is_material(ending: str, surfaces: Surfaces) -> bool:

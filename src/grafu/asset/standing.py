@@ -4,7 +4,6 @@ No joint is asked. Coordinates are the input's; directions are spelled like `-Y`
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from grafu.asset.options import DIRECTIONS
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive

@@ -6,7 +6,7 @@ not. Every count is compared with the bytes that are there before memory is take
 
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Final, final
 
@@ -17,6 +17,7 @@ from grafu.asset.mesh_files import linear_channel, named_texture, surface_of_cor
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface
 

@@ -8,7 +8,7 @@ import re
 import zipfile
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from io import BytesIO
 from pathlib import Path
 from typing import Any, Final, final
@@ -22,6 +22,7 @@ from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import parse_xml
 from grafu.asset.scene_nodes import Chain, SceneNode
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat4

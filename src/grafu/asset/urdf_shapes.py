@@ -7,7 +7,7 @@ the URDF, or the folder that the user gave. Where neither is known and the URDF 
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, final
@@ -20,6 +20,7 @@ from grafu.asset.json_files import spelled
 from grafu.asset.mesh_files import MESH_SUFFIXES, read_mesh_file
 from grafu.asset.resources import MISSING, OUTSIDE, ModelFiles, Sought
 from grafu.asset.scan_files import parse_xml
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Mat4

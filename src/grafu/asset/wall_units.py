@@ -4,13 +4,13 @@ The first of these is that its name states it, the second that the input drew it
 that could stand is no evidence: many floor units are drawn without their feet. One that falls backwards is.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.asset.names import spoken, words
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 
 _PHRASES = tuple(

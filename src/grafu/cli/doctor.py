@@ -4,12 +4,12 @@ import argparse
 import platform
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 from importlib.util import find_spec
 from time import perf_counter
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.version import __version__
 
 _DESCRIPTION = """\

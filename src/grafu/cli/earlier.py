@@ -1,11 +1,12 @@
 """What earlier runs wrote: for a run that goes on from there, and for the page of all models. It changes nothing."""
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, final
 
 from grafu.asset.options import Limits
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, ExportError, OptionError
 from grafu.export.files import require_free
 from grafu.export.marker import Marker, read_marker

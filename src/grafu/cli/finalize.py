@@ -8,7 +8,6 @@ code is 0, or 2.
 
 import json
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
@@ -17,6 +16,7 @@ from pydantic import TypeAdapter
 from grafu.asset.json_files import read_own
 from grafu.cli.job import Failed, Job, JobOptions, Listener, run_job
 from grafu.cli.verb import one_line
+from grafu.dataclass import dataclass
 from grafu.errors import FunctionalizationError, OptionError
 from grafu.export.blend.process import packed
 from grafu.export.formats import exporter_for

@@ -251,7 +251,8 @@ def _exit_code(results: "list[JobResult]") -> int:
 
     failed = [result for result in results if isinstance(result, Failed)]
     for failure in failed:
-        complain(failure.why if len(results) == 1 else f"{failure.job.input}: {failure.why}")
+        names_its_input = len(results) == 1 or failure.why.startswith(str(failure.job.input))
+        complain(failure.why if names_its_input else f"{failure.job.input}: {failure.why}")
     if not failed:
         return 0
     return 2 if len(results) == 1 and failed[0].users_fault else 1

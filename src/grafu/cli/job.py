@@ -5,15 +5,16 @@ What goes wrong comes back as a value, so that one bad input never stops the oth
 
 from collections import defaultdict
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar, final
 
-from grafu.cli.light_start import without_collecting
 from grafu.cli.limit_options import too_large
 from grafu.cli.verb import internal_fault, one_line
+from grafu.collecting import without_collecting
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, ExportError, FunctionalizationError
 from grafu.export.formats import DEFAULT_FORMATS
 from grafu.export.output_names import InputPlaces, output_name, same_place, told_apart, with_ending
@@ -242,12 +243,9 @@ def _motions(job: Job) -> "MotionSource | ForeignMotions":
 
 def _config(options: JobOptions) -> "PipelineConfig":
     from grafu.pipeline.pipeline_config import PipelineConfig
+    from grafu.templates.gallery import own_handles
 
-    if options.templates is None:
-        return PipelineConfig(options.settings)
-    from grafu.templates.user import load_handles
-
-    return PipelineConfig(options.settings, load_handles(options.templates))
+    return PipelineConfig(options.settings, own_handles(options.templates))
 
 
 def _require_free(job: Job) -> None:

@@ -12,7 +12,6 @@ from typing import Final
 
 from grafu.cli.argument_parser import ArgumentParser
 from grafu.cli.input_options import join_directions
-from grafu.cli.light_start import without_shape_checks
 from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb, unread
 from grafu.processes.lifetime import end_requests_heard, keep_private
@@ -70,8 +69,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: Sequence[str] | None) -> int:
-    if arguments is None:
-        without_shape_checks()
     words = _asked(join_directions(sys.argv[1:] if arguments is None else arguments))
     parser = build_parser(words)
     if not words:

@@ -1,10 +1,11 @@
 """What is stated of one input as it ends: a line of JSON, a line for people, and its stages. It decides nothing."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, final
 
 from grafu.cli.job import Failed, JobResult, Succeeded
 from grafu.cli.stage_bar import stage_words
+from grafu.dataclass import dataclass
 from grafu.pipeline.words import counted
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
 It runs in a process with limits, on whichever machine, prints nothing, and may be run again: the results are the same.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import final
 
@@ -14,6 +14,7 @@ from grafu.cli.verb import one_line
 from grafu.cluster.result_upload import Upload, fetch_result, upload_at, upload_result
 from grafu.cluster.storage import fetch
 from grafu.cluster.urls import Place, Url
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError, FunctionalizationError
 from grafu.processes.lifetime import scratch_folder
 

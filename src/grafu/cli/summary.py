@@ -2,7 +2,6 @@
 
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
@@ -12,6 +11,7 @@ from rich.table import Table
 from grafu.articulation.motion_kind import motion_kind
 from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
 from grafu.cli.terminal import plain_table, wide_console
+from grafu.dataclass import dataclass
 from grafu.pipeline.report_schema import FaultRecord, JointRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import fixed_by_user, parts_without_joint, verdict_of
 from grafu.pipeline.words import Colour, FaultKind, counted, cut_in_words, hardware_in_words, listed, percent

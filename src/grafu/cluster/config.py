@@ -1,8 +1,8 @@
 """Settings of runs on several machines and of what is fetched from URLs."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError
 
 

@@ -9,13 +9,14 @@ import socket
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import ceil
 from time import monotonic
 from typing import Any, Final, Generic, TypeAlias, TypeVar, final
 
 from grafu.cluster.config import ClusterConfig
 from grafu.cluster.storage import without_secrets
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError
 from grafu.processes.lifetime import keep_private, started_by_main_thread
 from grafu.processes.limits import Ending, Outcome, ProcessLimits

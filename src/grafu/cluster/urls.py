@@ -1,11 +1,11 @@
 """A URL of a model, or of a folder of results: `s3://bucket/models/cab.glb`. It opens nothing."""
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias, final
 from urllib.parse import unquote
 
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError
 
 _URL = re.compile(r"(?P<scheme>[A-Za-z][A-Za-z0-9+.-]+)://(?P<rest>.*)", re.S)

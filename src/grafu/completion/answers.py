@@ -4,12 +4,12 @@ Rules and network share it; it decides nothing itself but that a door which laps
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, final
 
 from grafu.completion.rows import slides_past
 from grafu.completion.rule_scene import RuleScene
 from grafu.completion.votes import Ranking
+from grafu.dataclass import dataclass
 from grafu.geometry.budget import present_budget
 from grafu.graph.completion import Decision, Question
 from grafu.graph.edges import Edge

@@ -5,7 +5,7 @@ before. Edges that the input states are kept as they are.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.completion.answers import Motions, move_parts
@@ -19,6 +19,7 @@ from grafu.completion.rule_scene import RuleScene
 from grafu.completion.selection import borders_of, choose_hinge, choose_parent, choose_rails
 from grafu.completion.slots import NewPart, weighed
 from grafu.completion.view import GraphView
+from grafu.dataclass import dataclass
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Slide
 from grafu.graph.edit import with_edges

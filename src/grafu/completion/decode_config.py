@@ -1,8 +1,8 @@
 """The thresholds of the decode, each with its reason. It decides nothing."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel

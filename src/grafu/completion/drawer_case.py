@@ -3,11 +3,11 @@
 Rays are cast on the meshes.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios

@@ -3,12 +3,12 @@
 Names tell which these are. It builds nothing.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 from grafu.asset.appliance_names import is_drop_down
 from grafu.asset.part import Asset
 from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion

@@ -11,17 +11,18 @@ Everything is the same for the same points, and for one part alone as for many.
 What the network states about one graph, as plain arrays.
 """
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import final
 
 import numpy as np
-from jaxtyping import Float, Float32, Float64, Int64
 
 from grafu.completion.name_codes import name_codes
 from grafu.completion.visibility import visibility_of
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Points, freeze_arrays
 from grafu.graph.arrays import KindSet, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.shapes import Float, Float32, Float64, Int64
 
 
 @final

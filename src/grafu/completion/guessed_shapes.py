@@ -5,16 +5,15 @@ Rays are cast on the meshes.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple, final
 
 import numpy as np
-from jaxtyping import Bool
 
 from grafu.asset.part import Asset
 from grafu.completion.drawer_case import is_front_only, is_without_case
 from grafu.completion.ways_out import rest_of
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Scalars
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
@@ -23,6 +22,7 @@ from grafu.geometry.raycast import RayCaster, open_ratios
 from grafu.graph.edges import SignedAxis
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import code_to_direction, signed_axis
+from grafu.shapes import Bool
 from grafu.vocabulary import PartLabel
 
 _UP: SignedAxis = 5

@@ -3,13 +3,13 @@
 A handle beside the hinge would open nothing, and an upright bar at a side is pulled sideways. It builds nothing.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border, upright_borders
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion

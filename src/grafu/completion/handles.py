@@ -1,12 +1,12 @@
 """Whose handle is whose: every handle goes to the door or drawer that it sits on. It looks at boxes alone."""
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.completion.config import RuleConfig
 from grafu.completion.rule_scene import NodeBoxes
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision

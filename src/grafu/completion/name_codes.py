@@ -11,9 +11,9 @@ from itertools import chain
 from zlib import crc32
 
 import numpy as np
-from jaxtyping import Int64
 
 from grafu.asset.names import CAMEL
+from grafu.shapes import Int64
 
 NAME_CODES = 32
 """How many pieces of a name are read, whole words first."""

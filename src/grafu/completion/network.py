@@ -12,7 +12,6 @@ Labels that the input states are kept, whatever the network states.
 """
 
 import numpy as np
-from jaxtyping import Bool, Int
 
 from grafu.completion.answers import decision_of
 from grafu.completion.decode import complete_decoded, decode_graph
@@ -31,6 +30,7 @@ from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Contact, ends_of
 from grafu.graph.edit import relabelled
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed
+from grafu.shapes import Bool, Int
 from grafu.vocabulary import PartLabel
 
 Group = Int[np.ndarray, " _"]  # numbers of nodes

@@ -3,16 +3,17 @@
 Border and sign of a hinge stand in one table: in the mirror the sign turns or stays by the border. It decides nothing.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, final
 
 import numpy as np
-from jaxtyping import Float, Int64
 
 from grafu.completion.features import Scores
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.graph.motion import mirror_face, mirror_hinge
+from grafu.shapes import Float, Int64
 
 
 @final

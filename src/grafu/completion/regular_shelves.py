@@ -5,12 +5,12 @@ missing is three times as high as the others. It asks the boxes alone, and no ne
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.completion.decode_config import RegularConfig
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import PartLabel

@@ -3,13 +3,13 @@
 Vertices tell their shape. It builds nothing.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.completion.rehang import hung_on, likelier_side, stands_on_a_level_border
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.motion import plane_axes

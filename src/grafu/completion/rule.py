@@ -10,7 +10,6 @@ unlabelled, a plate that closes the front is a door and a box that reaches the f
 It looks at boxes alone: which of two plates is a false front, no box can tell.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -21,6 +20,7 @@ from grafu.completion.doors import hang_door, slide_door
 from grafu.completion.drawers import run_drawer
 from grafu.completion.handles import attach_handles
 from grafu.completion.rule_scene import RuleScene, offset_ratio, overlap_ratio
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import SignedAxis

@@ -1,13 +1,13 @@
 """What the rules ask of a graph again and again: the static body, its size, who may carry, whose handle is whose."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
 from grafu.completion.config import RuleConfig
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Scalars
 from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode

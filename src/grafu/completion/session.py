@@ -13,12 +13,12 @@ from types import ModuleType
 from typing import Any, final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.completion.features import SCORE_NAMES, FeatureConfig, GraphFeatures, Scores
 from grafu.errors import WeightsError
 from grafu.graph.arrays import EDGE_CODES, LABELS, NULL
 from grafu.processes.lifetime import keep_private
+from grafu.shapes import Float
 from grafu.vocabulary import PieceKind
 
 

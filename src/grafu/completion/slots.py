@@ -3,7 +3,6 @@
 Shelves that a regular row lacks become new parts, too.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -15,6 +14,7 @@ from grafu.completion.regular_shelves import missing_shelves
 from grafu.completion.selection import parent_ratios
 from grafu.completion.view import GraphView
 from grafu.completion.votes import ranking_of
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.touching import near_pairs
 from grafu.graph.arrays import LABEL_CODES

@@ -1,10 +1,11 @@
 """What is only guessed to be a door, and is too thick for one, is a drawer where it reaches back as one does."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 from grafu.asset.part import Asset
 from grafu.completion.guessed_shapes import is_thick
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_ratios
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail

@@ -1,17 +1,17 @@
 """A graph beside its probabilities, and what selecting among parts asks repeatedly."""
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
-from jaxtyping import Int64
 
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.probabilities import Probabilities
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices, Scalars
 from grafu.graph.arrays import HINGE
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
+from grafu.shapes import Int64
 from grafu.vocabulary import PartLabel
 
 

@@ -6,7 +6,8 @@ A front and a shelf may have one shape; a front is seen from the front, and has 
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Bool, Float32, Int64
+
+from grafu.shapes import Bool, Float32, Int64
 
 DIRECTIONS = 6  # the viewer stands at -X, +X, -Y, +Y, -Z, +Z
 VISIBILITY_NUMBERS = 3 * DIRECTIONS

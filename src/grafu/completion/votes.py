@@ -1,11 +1,11 @@
 """Weighted votes for a fixed list of choices, and their ranking."""
 
 from collections.abc import Hashable, Sequence
-from dataclasses import dataclass
 from typing import Generic, TypeVar, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Scalars
 
 Choice = TypeVar("Choice", bound=Hashable)

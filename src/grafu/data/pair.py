@@ -3,10 +3,11 @@
 What one model of a data set is, as a network is taught with it: two graphs and a few words.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import as_contacts

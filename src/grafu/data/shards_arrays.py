@@ -11,13 +11,12 @@ Coding what was decoded changes nothing.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final, get_args
 
 import numpy as np
-from jaxtyping import Bool, Float, Int, Int32, UInt8, UInt16, UInt32
 
 from grafu.data.pair import Record
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
@@ -26,6 +25,7 @@ from grafu.graph.arrays import KIND_CODES, KIND_OF, LABEL_CODES, LABELS, NONE
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.piece_facts import FactCodes, fact_codes, facts_of
+from grafu.shapes import Bool, Float, Int, Int32, UInt8, UInt16, UInt32
 from grafu.synth.specimen import Defect, DefectKind
 from grafu.vocabulary import EdgeKind
 

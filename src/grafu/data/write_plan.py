@@ -7,7 +7,7 @@ The digest tells another generator, whatever its version states. This module wri
 
 import json
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any, Literal, final
@@ -21,6 +21,7 @@ from grafu.data.pair import record_of
 from grafu.data.shards import MODELS_PER_SHARD
 from grafu.data.shards_arrays import ABSENT, ModelArrays, record_to_arrays
 from grafu.data.stream import shard_paths
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import write_whole
 from grafu.graph.arrays import LABELS

@@ -6,9 +6,10 @@ The header names the files of each split and the type of each figure.
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Final, final
 
+from grafu.dataclass import dataclass
 from grafu.dataset.figures import COLUMNS, MOTION_FIELDS, MOVING_TYPES, ColumnKind, Row
 from grafu.dataset.layout import BUNDLE, INDEX, METADATA, SPLITS
 from grafu.errors import OptionError

@@ -1,8 +1,8 @@
 """How finely two models are compared, and how near two are that must not lie in different splits."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 
 

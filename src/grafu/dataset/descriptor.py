@@ -11,10 +11,10 @@ from itertools import product
 from typing import Final, TypeAlias
 
 import numpy as np
-from jaxtyping import Float, Int
 
 from grafu.dataset.config import DescriptorConfig
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float, Int
 
 Triangles: TypeAlias = Float[np.ndarray, "n 3 3"]
 Grid: TypeAlias = Float[np.ndarray, "across deep up facing"]

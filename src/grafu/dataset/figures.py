@@ -5,9 +5,9 @@ Lengths are metres, angles radians, masses kilograms, as in `report.json`.
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, Final, Literal, TypeAlias, final
 
+from grafu.dataclass import dataclass
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.verdict import verdict_of
 from grafu.vocabulary import JointType

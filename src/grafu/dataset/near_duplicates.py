@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from hashlib import blake2b
 
 import numpy as np
-from jaxtyping import Float32, Int
 
 from grafu.dataset.config import DescriptorConfig
+from grafu.shapes import Float32, Int
 
 Descriptors = Float32[np.ndarray, "models numbers"]
 

@@ -8,7 +8,6 @@ import json
 import os
 import tarfile
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from io import BytesIO
 from itertools import groupby
@@ -17,6 +16,7 @@ from types import MappingProxyType
 from typing import Any, Final, final
 
 from grafu.asset.regular_files import TooManyBytes, is_within, read_regular
+from grafu.dataclass import dataclass
 from grafu.dataset.layout import BUNDLE, FIGURES, INDEX, METADATA, SPLITS
 from grafu.errors import OptionError, UnreadableAsset, did_you_mean
 

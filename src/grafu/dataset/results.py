@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from hashlib import blake2b
 from pathlib import Path
 from typing import Final, final
@@ -11,6 +10,7 @@ from grafu.articulation.articulated_object import VisualRole
 from grafu.asset.json_files import read_own
 from grafu.asset.regular_files import MARKER
 from grafu.asset.resources import reason_of
+from grafu.dataclass import dataclass
 from grafu.dataset.descriptor import Descriptor, describe
 from grafu.errors import ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.files import ExportFiles

@@ -5,13 +5,13 @@ All near-duplicates of a group lie in one split: that of the least hash in the g
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from hashlib import blake2b
 from itertools import accumulate
 from pathlib import Path
 from typing import Final, final
 
 from grafu.asset.json_files import parse_json, read_own
+from grafu.dataclass import dataclass
 from grafu.dataset.layout import INDEX, SPLITS
 from grafu.errors import OptionError, UnreadableAsset
 

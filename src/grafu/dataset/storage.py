@@ -6,12 +6,12 @@ A shard is a tar file with nothing in it of when and by whom it was made: the sa
 import tarfile
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from typing import Final, final
 
 from grafu.asset.regular_files import MARKER
+from grafu.dataclass import dataclass
 from grafu.dataset.figures import Row
 from grafu.dataset.layout import BUNDLE, FIGURES, METADATA, json_line
 from grafu.export.marker import Marker

@@ -9,7 +9,6 @@ First each result is looked through and described; then all are grouped, given t
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
 from itertools import chain
@@ -19,6 +18,7 @@ from typing import Final, Literal, Protocol, TypeVar, final, runtime_checkable
 import numpy as np
 
 from grafu.data.stream import ordered_map
+from grafu.dataclass import dataclass
 from grafu.dataset.card import UNKNOWN_LICENSE, SplitTally, card, require_license
 from grafu.dataset.descriptor import Descriptor, geometric_hash
 from grafu.dataset.figures import Row, figures_of, in_order

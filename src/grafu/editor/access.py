@@ -4,9 +4,10 @@ Every answer, refusals too, forbids the page to reach anything else, to be frame
 """
 
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
-from dataclasses import dataclass
 from secrets import compare_digest
 from typing import Any, Final, final
+
+from grafu.dataclass import dataclass
 
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]

@@ -9,10 +9,10 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from threading import Condition, Lock
 from typing import Any, Final, Protocol, final, runtime_checkable
 
+from grafu.dataclass import dataclass
 from grafu.editor.building import GIVE_WAY, Order
 from grafu.errors import NotBuilt
 

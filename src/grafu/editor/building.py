@@ -12,7 +12,7 @@ import signal
 import sys
 from _thread import interrupt_main
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 from hashlib import blake2b
 from pathlib import Path
 from queue import Queue
@@ -25,6 +25,7 @@ from grafu.api.saving import files_of, report_before_saving
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.load import load_asset
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.editor.shown import Shown
 from grafu.errors import ExportError, FunctionalizationError
 from grafu.export.files import write_files

@@ -3,10 +3,11 @@
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, final
 
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, choice_in_words
 from grafu.pipeline.decisions import Key

@@ -1,8 +1,8 @@
 """What was chosen one step after another, with undo and redo without limit. It is a value."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.pipeline.settings import Settings
 
 

@@ -1,9 +1,10 @@
 """What choices may be about: the parts, joints, handles and compartments of the last build."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.editor.rooms import Room
 from grafu.joints.motion_choice import MotionChoice
 from grafu.vocabulary import PartLabel

@@ -1,10 +1,11 @@
 """What the page shows of the last build, and what choices may be about then."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, final
 
+from grafu.dataclass import dataclass
 from grafu.editor.known import Known
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.pipeline.report_schema import Report

@@ -4,7 +4,6 @@ import asyncio
 import json
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from contextlib import asynccontextmanager
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, Final, final
@@ -17,6 +16,7 @@ from starlette.routing import Route
 
 from grafu.api.saving import MODEL_PAGE
 from grafu.asset.json_files import read_own
+from grafu.dataclass import dataclass
 from grafu.editor.access import Guarded
 from grafu.editor.builder import BuildProcess, Builds
 from grafu.editor.building import FILES

@@ -6,10 +6,11 @@ All of it runs on the server's event loop; only what the builder does runs in a 
 import asyncio
 import json
 from collections.abc import AsyncIterator, Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, final
 
+from grafu.dataclass import dataclass
 from grafu.editor.builder import Answer, Builds
 from grafu.editor.building import FILES, STATE, Order
 from grafu.editor.choices import with_choice

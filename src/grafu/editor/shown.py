@@ -1,7 +1,6 @@
 """What the page of an editor shows of a build besides its view and tables: what can be chosen of what, and how far."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final, final
 
@@ -10,6 +9,7 @@ import numpy as np
 from grafu.additions.interior.making import named_in
 from grafu.additions.interior.turned import compartments_of
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.editor.rooms import Room, rooms_on
 from grafu.errors import OptionError
 from grafu.geometry.transform import invert, transform_points

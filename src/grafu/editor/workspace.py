@@ -2,12 +2,13 @@
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import final
 
 from grafu.asset.load import detect
 from grafu.asset.options import LoadOptions
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, ExportError, OptionError, UnreadableAsset
 from grafu.export.files import ExportFiles, require_free, write_files
 from grafu.export.output_names import output_name, same_place, why_not_apart

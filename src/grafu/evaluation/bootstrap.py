@@ -1,11 +1,12 @@
 """A mean and its 95 % confidence interval: a percentile bootstrap over objects. Tables are written elsewhere."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 from scipy import stats
+
+from grafu.dataclass import dataclass
 
 RESAMPLES = 10_000
 SEED = 20_250_601

@@ -5,7 +5,6 @@ body can be grasped where it has no handle.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from hashlib import sha256
 from typing import final
 
@@ -16,6 +15,7 @@ from grafu.additions.interior.request import NOTHING, CompartmentChoice
 from grafu.additions.interior.turned import compartments_of, furnish_scene
 from grafu.additions.step import Addition, StepResult
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.evaluation.moving_parts import MovingPart
 from grafu.geometry.transform import invert, transform_points
 from grafu.judging.coverage import coverage_ratio

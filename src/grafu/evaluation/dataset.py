@@ -7,7 +7,7 @@ furniture that is made on the spot.
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import count
 from pathlib import Path
@@ -20,6 +20,7 @@ from grafu.asset.mesh_files import MESH_SUFFIXES
 from grafu.asset.part import ROBOTS, Asset, Part
 from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.layout import LayoutKind
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, OptionError, UnreadableAsset
 from grafu.evaluation.dataset_decided import files_of_decided, is_decided, read_decided
 from grafu.evaluation.dataset_release import is_release, read_release_model, release_models

@@ -4,11 +4,11 @@ The features are the supplement's: how many parts, of which category, how connec
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.graph.edges import Contact
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.vocabulary import PartLabel

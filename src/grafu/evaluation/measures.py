@@ -1,11 +1,11 @@
 """What a method made of each part that counts: its motion, collisions, widest gap and opening. It draws no table."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import isfinite
 from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.dataclass import dataclass
 from grafu.evaluation.moving_parts import MovingPart
 from grafu.metrics.collision import (
     STRICT,

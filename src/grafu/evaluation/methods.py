@@ -4,7 +4,7 @@ Only the annotation sees the annotation. Labels are hidden at random, the same o
 measures nothing.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Final, final
@@ -14,6 +14,7 @@ import numpy as np
 from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError, did_you_mean
 from grafu.evaluation.config_file import read_config
 from grafu.evaluation.llm.baselines import EDITS, GRAPH

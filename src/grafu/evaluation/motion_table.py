@@ -7,9 +7,9 @@ The paper's own rows (its table Quantitative evaluation, its masking table and i
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final, final
 
+from grafu.dataclass import dataclass
 from grafu.evaluation.figures import over_objects, over_parts
 from grafu.evaluation.results import PartOutcome, Results
 from grafu.evaluation.table import Cell, Column, ResultTable

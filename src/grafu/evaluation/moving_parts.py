@@ -6,7 +6,7 @@ Hinges and slides that a door or drawer was drawn with are its hardware: they ma
 """
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 from typing import final
 
@@ -15,6 +15,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.joints.make_plan import plan_from_annotation

@@ -1,11 +1,11 @@
 """One task from model to row: read, make, measure. A failure is a row with its error, never the end of a run."""
 
-from dataclasses import dataclass
 from functools import lru_cache
 from time import perf_counter
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.errors import FunctionalizationError, NotRun
 from grafu.evaluation.completeness import completeness_of
 from grafu.evaluation.dataset import ModelRef, category_of, given_model, load_model

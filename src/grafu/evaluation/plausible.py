@@ -4,13 +4,13 @@ It asks no annotation how the part truly moves: another door of the same cabinet
 are taken as they are; nothing is mended.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.evaluation.measures import OPENS, joints_by_part
 from grafu.evaluation.moving_parts import MovingPart, usual_opening
 from grafu.geometry.arrays import Points

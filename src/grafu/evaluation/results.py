@@ -1,9 +1,10 @@
 """What a run found out, as values that tables are made of: each part that counts with what each method made of it."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.evaluation.llm.chat import Usage
 from grafu.evaluation.records import (
     CompletenessRecord,

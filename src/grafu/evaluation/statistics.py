@@ -6,7 +6,6 @@ held against the 5 to 95 % range of the fractions of as many synthetic models, d
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from math import comb
 from pathlib import Path
 from typing import Literal, final
@@ -14,6 +13,7 @@ from typing import Literal, final
 import numpy as np
 
 from grafu.asset.load import load_asset
+from grafu.dataclass import dataclass
 from grafu.errors import FunctionalizationError
 from grafu.evaluation.statistics_measures import ModelMeasures, measure_model
 from grafu.graph.annotated import annotated_edges

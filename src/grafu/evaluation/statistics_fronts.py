@@ -5,12 +5,12 @@ judged is the geometry and the edges; a part is a door where the graph hangs it 
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Literal, final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.box import Box
 from grafu.graph.functional_graph import FunctionalGraph, PartNode

@@ -6,7 +6,6 @@ Lengths are fractions of the object's largest side, so that the unknown scale of
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from statistics import median
 from types import MappingProxyType
 from typing import final
@@ -14,6 +13,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.evaluation.statistics_fronts import MeasuredFront, boxes_of, doors_of, drawers_of, lacks_top
 from grafu.graph.edges import ends_of
 from grafu.graph.edit import without_nodes

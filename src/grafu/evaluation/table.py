@@ -7,9 +7,9 @@ import csv
 import io
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final, Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.evaluation.bootstrap import Figure
 
 Kind = Literal["text", "count", "ratio", "number"]

@@ -5,7 +5,6 @@ A task has a key that states what determines it. None is done here.
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from glob import escape
 from hashlib import sha256
@@ -15,6 +14,7 @@ from typing import Final, final
 from grafu.asset.options import Limits
 from grafu.asset.resources import ModelFiles
 from grafu.completion.session import SHIPPED_WEIGHTS
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, OptionError, did_you_mean
 from grafu.evaluation.dataset import ModelRef, files_of_model
 from grafu.evaluation.distribution import TRAINING_COUNT, TRAINING_SEED

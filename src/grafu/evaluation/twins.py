@@ -5,7 +5,6 @@ part is a reasonable motion of it. It compares no predictions.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from typing import final
 
@@ -13,6 +12,7 @@ import numpy as np
 
 from grafu.asset.edit import centred, scaled, yawed
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.evaluation.moving_parts import MovingPart, counted_parts
 from grafu.geometry.arrays import Points
 from grafu.geometry.mesh import merge_meshes

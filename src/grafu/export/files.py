@@ -9,13 +9,14 @@ import os
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.regular_files import MARKER
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError
 from grafu.export.marker import Marker, read_marker
 from grafu.export.output_names import same_place

@@ -4,11 +4,11 @@ It imports nothing heavy: an exporter is imported when it is used. It writes no 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias, final
 
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError, did_you_mean
 from grafu.geometry.budget import has_time
 from grafu.processes.limits import give_back_unused

@@ -9,7 +9,7 @@ exports no animation, and the Khronos validator reports hints on its files.
 import json
 import struct
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from typing import Any, final
 
 import numpy as np
@@ -20,6 +20,7 @@ from grafu.articulation.grasp_frame import GraspFrame
 from grafu.articulation.kinematics import link_origins
 from grafu.articulation.sweep import JointTrack, cycle_tracks, opening_tracks
 from grafu.articulation.swing import Swing
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles
 from grafu.export.gltf_buffer import GltfBuffer

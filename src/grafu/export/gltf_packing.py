@@ -5,13 +5,13 @@ decoded at once: Draco changes the order of vertices, and accessors describe wha
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from importlib.util import find_spec
 from math import ceil, log2
 from typing import Any, Final, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError
 from grafu.export.gltf_buffer import GltfBuffer, narrowed
 from grafu.geometry.config_checks import require_positive

@@ -8,13 +8,14 @@ file that the marker does not list.
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final, final
 
 from grafu.asset.json_files import read_own_json
 from grafu.asset.regular_files import MARKER
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, ExportError
 
 SCHEMA: Final = "grafu.output/1"

@@ -7,7 +7,7 @@ The XML is written here: MuJoCo's `MjSpec` writes MJCF too, but needs MuJoCo (99
 """
 
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Final, final
 
 import numpy as np
@@ -20,6 +20,7 @@ from grafu.articulation.mass import MassProperties
 from grafu.articulation.open_together import open_together
 from grafu.articulation.physics import PhysicsConfig, physics_of
 from grafu.articulation.sweep import JointValues
+from grafu.dataclass import dataclass
 from grafu.export.files import ExportFiles
 from grafu.export.mjcf_catches import MjcfCatches
 from grafu.export.mjcf_materials import MjcfMaterials, drawn_meshes

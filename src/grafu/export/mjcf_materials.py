@@ -7,7 +7,7 @@ MuJoCo's own renderer has no use for them.
 
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from io import BytesIO
 from typing import final
 
@@ -15,6 +15,7 @@ import numpy as np
 from PIL import Image
 
 from grafu.articulation.articulated_object import Visual
+from grafu.dataclass import dataclass
 from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import ObjFolder
 from grafu.geometry.appearance import Material, Surface, Texture

@@ -5,13 +5,13 @@ of an object are the same for every format that names them: visuals whole, conve
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.articulation.physics import PhysicsModel
+from grafu.dataclass import dataclass
 from grafu.export.names import NameBook
 from grafu.export.output_names import file_safe
 from grafu.export.shading import corner_normals

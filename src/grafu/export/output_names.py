@@ -9,7 +9,7 @@ import os
 import re
 import unicodedata
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from hashlib import blake2b
 from itertools import chain
 from pathlib import Path
@@ -127,8 +127,9 @@ def name_that_is_safe(name: str, given: str) -> str:
 def told_apart(paths: Sequence[Path], names: Sequence[str]) -> tuple[str, ...]:
     """Returns the names of inputs' results: what several share gives way to what names them otherwise.
 
-    These are the stems of the files, or else the names of the folders that hold them. Where neither tells them apart,
-    or one is the name of another input, nothing is changed.
+    These are the stems of the files, or else the names of the folders that hold them, or else both and as many of the
+    folders above as it takes (`a_same_cabinet` of `a/same/cabinet.glb`). Where none tells them apart, or one is that
+    of another input, nothing is changed.
     """
     alike: dict[str, list[int]] = defaultdict(list)
     for k, name in enumerate(names):
@@ -139,6 +140,7 @@ def told_apart(paths: Sequence[Path], names: Sequence[str]) -> tuple[str, ...]:
         for others, taken in (
             ([_own_name(file) for file in files], alike.keys() - {shared}),
             ([_folder_of(file).name for file in files], alike.keys()),
+            *((names_above, alike.keys()) for names_above in _with_folders(files)),
         ):
             fresh = {same_place(other) for other in others}
             if len(fresh) == len(places) and not fresh & taken and not any(map(_why_refused, others)):
@@ -146,6 +148,13 @@ def told_apart(paths: Sequence[Path], names: Sequence[str]) -> tuple[str, ...]:
                     found[k] = _mended(other)
                 break
     return tuple(found)
+
+
+def _with_folders(files: Sequence[Path]) -> Iterator[list[str]]:
+    """Yields the names of inputs behind the names of the folders that hold them: of one, of two, and so on."""
+    above = [[file.stem if not os.path.isdir(file) else file.name, *(at.name for at in file.parents)] for file in files]
+    for count in range(2, min(map(len, above))):
+        yield ["_".join(reversed(names[:count])) for names in above]
 
 
 def _own_name(path: Path) -> str:

@@ -5,13 +5,14 @@ makes of it. Looks, names and what must open first it cannot say.
 """
 
 import io
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Final, Literal, final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.asset.foreign.particulate import UP_ROTATIONS, normalisation
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles, not_coupled
 from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array

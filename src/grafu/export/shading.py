@@ -1,11 +1,11 @@
 """Normals for files that need them: kept where a surface has them, else smooth up to a crease angle."""
 
-from dataclasses import dataclass
 from typing import Final, final
 from weakref import finalize
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, Scalars, cross
 from grafu.geometry.components import linked, welded

@@ -6,12 +6,12 @@ the authors' loader makes it, so that a range may run from 0 to below 0. Looks i
 
 import json
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any, Final, Literal, final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError
 from grafu.export.files import ExportFiles, not_coupled
 from grafu.export.obj import ObjFolder

@@ -6,7 +6,7 @@ root link's frame is the object frame (metres, Z up, front -Y). Where it is stat
 """
 
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Final, final
 
 import numpy as np
@@ -17,6 +17,7 @@ from grafu.articulation.collision_shapes import CollisionShape
 from grafu.articulation.joint_dynamics import JointDynamics
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.physics import PhysicsConfig, physics_of
+from grafu.dataclass import dataclass
 from grafu.export.files import ExportFiles
 from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import MESHES, collision_name, obj_set

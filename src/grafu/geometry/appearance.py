@@ -4,15 +4,16 @@ Some faces of a surface, and several surfaces of one material as one, keep their
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property, lru_cache
 from typing import Any, Literal, final
 
 import numpy as np
-from jaxtyping import Float, UInt8
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Mat4, Points, frozen_array, renumbered
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.shapes import Float, UInt8
 
 
 @final

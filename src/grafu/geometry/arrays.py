@@ -8,7 +8,8 @@ from hashlib import blake2b
 from typing import Any, ClassVar
 
 import numpy as np
-from jaxtyping import Bool, Float, Int, Integer
+
+from grafu.shapes import Bool, Float, Int, Integer
 
 Vec3 = Float[np.ndarray, "3"]
 Vec2 = Float[np.ndarray, "2"]

@@ -1,11 +1,11 @@
 """A line in space with a sense: the axis of a joint."""
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat4, Points, Scalars, Vec3, frozen_array
 from grafu.geometry.transform import is_mirror, rotation_about, transform_direction, transform_points, translation
 

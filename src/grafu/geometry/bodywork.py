@@ -5,19 +5,20 @@ coordinates, normals and colours of the face that it comes from. Sheets are clip
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import manifold3d
 import numpy as np
-from jaxtyping import Bool, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, joined, selected
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.components import patches_of, welded
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.geometry.solids import ConvexSolid, subtract
+from grafu.shapes import Bool, Int
 
 _NOTHING = 1e-12  # of a patch's volume: what the boolean takes away by rounding
 

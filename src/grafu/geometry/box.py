@@ -1,16 +1,16 @@
 """Axis-aligned and oriented boxes: extents, gaps, faces, the thin axis."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from math import hypot, isfinite
 from typing import Final, final
 
 import numpy as np
-from jaxtyping import Float
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, extremes, frozen_array
 from grafu.geometry.transform import from_rotation
+from grafu.shapes import Float
 
 _AT_HIGH: Final = np.array([[bool((k >> axis) & 1) for axis in range(3)] for k in range(8)])  # of each corner
 

@@ -3,13 +3,13 @@
 A solid is here its box alone; `box_frames` states which meshes are boxes.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat4, Scalars, freeze_arrays
+from grafu.shapes import Bool, Float
 
 Rows = Float[np.ndarray, "n 3"]
 Rotations = Float[np.ndarray, "n 3 3"]

@@ -9,11 +9,11 @@ the budget holds, results do not depend on it.
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
 from math import inf
 from time import monotonic, process_time
 from typing import Generic, ParamSpec, TypeVar, final
 
+from grafu.dataclass import dataclass
 from grafu.errors import TooComplex
 
 T = TypeVar("T")

@@ -3,20 +3,21 @@
 To build one takes longer than most questions that are put to it.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import count
 from typing import final
 from weakref import finalize
 
 import fcl
 import numpy as np
-from jaxtyping import Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.components import repeated_faces
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.remembered import RememberedByContent
 from grafu.geometry.transform import translation
+from grafu.shapes import Int
 
 _numbers = count()
 LARGE = 5_000  # faces

@@ -4,14 +4,14 @@ What is left of a triangle is represented by the box around each of its pieces. 
 reaches is free; a slanted triangle counts as a little more than it is, one that lies across an axis exactly.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Float, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Points, freeze_arrays
 from grafu.geometry.box import Box
+from grafu.shapes import Float, Int
 
 _MOST_SPLITS = 40  # halvings: a triangle of 1 km comes down to less than a micrometre in each of its sides
 

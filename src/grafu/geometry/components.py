@@ -6,12 +6,11 @@ only touch stay apart.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import (
     ArrayValue,
     Faces,
@@ -26,6 +25,7 @@ from grafu.geometry.arrays import (
     row_keys,
 )
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
+from grafu.shapes import Bool, Float, Int
 
 _OF_PIECE = 0x7F4A7C159E3779B9  # an odd multiplier of no pattern, as in `row_keys`
 BoxEnds = Float[np.ndarray, "n 2 3"]  # lowest and highest corner of each of n boxes

@@ -10,15 +10,15 @@ leave no more triangles than the outline of what is left needs.
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import manifold3d
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices, Points, vec3
 from grafu.geometry.budget import require_room, require_time
+from grafu.shapes import Bool, Float, Int
 
 _ROUNDED = 1e-7  # outlines come with corners rounded to 1e-8: triangles thinner than that may be turned over
 

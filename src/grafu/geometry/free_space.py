@@ -4,9 +4,9 @@ A stack of boxes is an array: for each box its low corner, then its high corner.
 """
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
 from grafu.geometry.arrays import Indices, Points, Vec3
+from grafu.shapes import Bool, Float, Int
 
 Bounds = Float[np.ndarray, "_ 2 3"]
 CellBounds = Int[np.ndarray, "_ 2 3"]

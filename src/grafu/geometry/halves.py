@@ -1,10 +1,10 @@
 """A mesh cut in two by a plane: open surfaces stay open, and attributes are not kept."""
 
 import numpy as np
-from jaxtyping import Int
 
 from grafu.geometry.arrays import Vec3, renumbered
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Int
 
 _ON_PLANE = 1e-8  # metres
 

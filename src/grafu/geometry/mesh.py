@@ -4,12 +4,12 @@ Heavy queries live in `raycast`, `intersection` and `solids`.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import (
     ArrayValue,
     Faces,
@@ -77,11 +77,17 @@ class TriangleMesh(ArrayValue):
     @property
     def triangles(self) -> np.ndarray:
         """The corners of each face, (faces, 3, 3); not cached for large meshes, they take more than the mesh."""
-        return self._triangles if len(self.faces) <= _CACHED_FACES else frozen_array(self.vertices[self.faces])
+        return self._triangles if len(self.faces) <= _CACHED_FACES else self._gathered
 
     @cached_property
     def _triangles(self) -> np.ndarray:
-        return frozen_array(self.vertices[self.faces])
+        return self._gathered
+
+    @property
+    def _gathered(self) -> np.ndarray:
+        corners = self.vertices[self.faces]
+        corners.setflags(write=False)
+        return corners
 
     @cached_property
     def area(self) -> float:

@@ -6,7 +6,6 @@ first two.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import product
 from typing import final
 
@@ -14,14 +13,15 @@ import numpy as np
 from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from embreex.rtcore import EmbreeDevice
-from jaxtyping import Bool, Float, Float32, Int, Int32
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays, median
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import repeated_faces
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.remembered import RememberedByContent
+from grafu.shapes import Bool, Float, Float32, Int, Int32
 
 _REMEMBERED = 150_000  # faces of Embree's scenes kept by content: 30 MB
 _LARGE = 50_000  # faces: scenes of larger meshes are not kept

@@ -4,15 +4,15 @@ Distances are taken all at once, without a tree: they are for tens of points and
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Points, Scalars, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 
 Triangles = Float[np.ndarray, "m 3 3"]
 Distances = Float[np.ndarray, "n m"]

@@ -6,14 +6,13 @@ before. What several solids take of one triangle goes at once: one after another
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import final
 
 import manifold3d
 import numpy as np
-from jaxtyping import Bool, Float
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, attribute_rows, from_attributes
 from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, Scalars, cross, frozen_array
 from grafu.geometry.box import Box
@@ -21,6 +20,7 @@ from grafu.geometry.budget import require_time
 from grafu.geometry.directions import directions_around
 from grafu.geometry.face_cuts import NOTHING, left_over
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+from grafu.shapes import Bool, Float
 
 _REMEMBERED = 8192  # hulls, of at most ...
 _REMEMBERED_POINTS = 64  # ... so many points: a swept triangle with play has 48

@@ -4,10 +4,10 @@ Every mesh is closed, its faces outward, as long as it does not cross itself.
 """
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.geometry.arrays import Faces, Points, Vec3
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 
 Rings = Float[np.ndarray, "k n 3"]
 Section = Float[np.ndarray, "m 2"]

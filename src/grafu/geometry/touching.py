@@ -6,12 +6,12 @@ that are near settles it too.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices, Mask, cross
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_room

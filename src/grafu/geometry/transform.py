@@ -8,9 +8,9 @@ from math import atan2, cos, hypot, pi, remainder, sin, sqrt
 from typing import Final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.geometry.arrays import Mat3, Mat4, Points, Scalars, Vec3
+from grafu.shapes import Float
 
 
 def transform_points(T: Mat4, points: Points) -> Points:

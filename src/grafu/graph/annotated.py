@@ -5,13 +5,13 @@ nearest to the pin of a door, or to each flank of a drawer; those that touch the
 """
 
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis

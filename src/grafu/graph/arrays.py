@@ -6,16 +6,16 @@ another is left out.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Literal, final
 
 import numpy as np
-from jaxtyping import Bool, Float64, Int64
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, paper_edges
+from grafu.shapes import Bool, Float64, Int64
 from grafu.vocabulary import EdgeKind, PartLabel
 
 KindSet = Literal["paper", "all"]

@@ -1,8 +1,9 @@
 """What a completion returns: the graph before and after, the confidence of each decision, and what was refused."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError
 from grafu.graph.edges import Hinge, MotionEdge, Turn
 from grafu.graph.functional_graph import FunctionalGraph

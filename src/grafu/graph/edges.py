@@ -9,10 +9,10 @@ rotation axis along it (1 is positive), `SignedAxis` one of -X, +X, -Y, +Y, -Z, 
 lines in space and back.
 """
 
-from dataclasses import dataclass
 from typing import ClassVar, Literal, final, get_args
 
 from grafu.articulation.articulated_object import Coupling
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError
 from grafu.vocabulary import EdgeKind, JointType
 

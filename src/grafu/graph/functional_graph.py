@@ -4,12 +4,13 @@ The paper's three attributes of a node are its label, its box and its points. It
 """
 
 from collections.abc import Iterable, Mapping, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import assert_never, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.sampling import PointCloud

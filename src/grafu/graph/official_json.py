@@ -4,11 +4,12 @@ Numbers keep the unit of the file. What our graph cannot hold is left out and na
 labelled leaves a contact, a second edge between two parts gives way.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError
 from grafu.geometry.box import Box
 from grafu.geometry.transform import quaternion_matrix

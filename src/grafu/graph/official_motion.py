@@ -4,11 +4,11 @@ The codes are those of the releases' JSON files. It reads no files.
 """
 
 import re
-from dataclasses import dataclass
 from typing import Any, cast, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.graph.edges import AxisSign, Edge, Hinge, HingeBorder, Rail, SignedAxis
 from grafu.graph.functional_graph import FunctionalGraph, PartNode

@@ -4,7 +4,6 @@ Boxes are regressed, so a motion stays the code that was predicted, to be decode
 was predicted from lies beside the file, its boxes are taken. It matches nothing with an asset.
 """
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
 
@@ -12,6 +11,7 @@ from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPar
 from grafu.asset.json_files import read_json
 from grafu.asset.options import Limits, LoadOptions
 from grafu.asset.resources import ModelFiles
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, GraphError, UnreadableAsset
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

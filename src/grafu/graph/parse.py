@@ -6,10 +6,10 @@ touch things that they only surround. Here the boxes choose the pairs and the di
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, final
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.sampling import PointCloud, sample_surfaces
 from grafu.geometry.touching import near_pairs, touching_pairs
 from grafu.graph.edges import Contact

@@ -1,13 +1,14 @@
 """What is known of a whole piece of furniture beside its functional graph, and the same as codes."""
 
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple, final
 
 import numpy as np
-from jaxtyping import Int64
 
+from grafu.dataclass import dataclass
 from grafu.graph.arrays import NONE
+from grafu.shapes import Int64
 from grafu.vocabulary import PieceKind
 
 STATIC = ""

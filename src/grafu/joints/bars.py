@@ -1,11 +1,11 @@
 """Slim straight bars among the shells of a mesh: their ends and widths. They are any bars: arms, stays, rods, rails."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.components import connected_parts
 from grafu.geometry.mesh import TriangleMesh

@@ -1,11 +1,12 @@
 """The places of a table behind a leaf that hangs, and which bodies there have the shape of what carries it raised."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

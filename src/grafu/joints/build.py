@@ -5,9 +5,10 @@ gets its joint; what it cuts into is left out of account, and the report states 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.config_checks import at_scale
 from grafu.joints.clearance.carve import Path, obstruction

@@ -1,8 +1,8 @@
 """How much play a path gets, and what of a drawer or a leaf belongs to the case or the frame."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

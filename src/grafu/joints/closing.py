@@ -6,13 +6,14 @@ but for the runners that it is drawn on, leaves it as it is drawn.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, median
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale

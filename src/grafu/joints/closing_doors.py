@@ -6,13 +6,14 @@ drawn is closed, at whatever angle: fronts of corner cabinets.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import atan2, pi
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.intersection import SweptBody

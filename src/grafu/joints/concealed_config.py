@@ -1,8 +1,8 @@
 """Where concealed hinges stand. Lengths are metres on furniture of usual size, in its scale on others (`at_scale`)."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.visible import ShortRepr
 

@@ -4,10 +4,10 @@ Lengths are metres on furniture of usual size (see `at_scale`); those marked (ex
 largest side, because the measures that they answer to are (docs/metrics.md).
 """
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.fold_config import FoldConfig

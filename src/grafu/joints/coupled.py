@@ -1,12 +1,12 @@
 """Joints that follow others: how far both can go together, and when they cannot be coupled. It builds no hardware."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Coupling
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.budget import require_time
 from grafu.geometry.intersection import MeshCollider, SweptBody

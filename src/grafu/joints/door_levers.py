@@ -5,13 +5,12 @@ end which is nearer to the door's free edge. A bar that is held at both ends is 
 """
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.articulation.articulated_object import ArticulatedObject, Coupling, Joint, Link, Visual, VisualRole
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
@@ -21,6 +20,7 @@ from grafu.graph.edges import Hinge, Slide
 from grafu.joints.lever_config import LeverConfig
 from grafu.joints.plan import JointRequest
 from grafu.scene.border import part_axes
+from grafu.shapes import Float
 
 SOURCE = "rule"
 """`JointRequest.source` of a lever and its bolt: their shape tells."""

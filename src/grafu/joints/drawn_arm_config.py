@@ -1,9 +1,9 @@
 """Which parts of the input are arms or stays of a flap. Lengths are metres on furniture of usual size."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

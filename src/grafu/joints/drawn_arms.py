@@ -4,7 +4,7 @@ They are part of the leaf's mechanism: no obstacle to it, and no furniture that 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from grafu.articulation.articulated_object import Coupling
 from grafu.asset.names import spoken
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.config_checks import at_scale

@@ -4,14 +4,14 @@ They carry the door, and tell which border it turns about, whatever the source o
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from typing import TypeAlias, final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, median, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
@@ -26,6 +26,7 @@ from grafu.joints.nesting import bodies_of
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.border import SNAP, BorderFrame, border_frame, part_axes
 from grafu.scene.scene import Scene
+from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 _Shells: TypeAlias = Callable[[str], Sequence[TriangleMesh]]

@@ -5,13 +5,14 @@ are built; where none are, they stay in place if the leaf clears them, and are l
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody

@@ -1,8 +1,8 @@
 """What counts as a support of a table's drop leaf, as one configuration."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

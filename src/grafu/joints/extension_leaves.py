@@ -5,7 +5,7 @@ is a level board near the top is such a leaf; without annotation only what is ca
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
 from typing import final
 
@@ -14,6 +14,7 @@ import numpy as np
 from grafu.articulation.articulated_object import Coupling
 from grafu.asset.names import spoken
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios

@@ -1,9 +1,9 @@
 """Which leaves fold, how far, and the track above them. Lengths are metres on furniture of usual size (`at_scale`)."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

@@ -6,13 +6,13 @@ or lies on the top of the case behind them.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Scalars, median, vec3
 from grafu.geometry.box import Box
@@ -27,6 +27,7 @@ from grafu.joints.hinge.pivot import upright_disc
 from grafu.joints.support_block import METAL, Footing, block
 from grafu.scene.border import BorderFrame, border_frame
 from grafu.scene.scene import Scene
+from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 _POSES = 9  # of the leaves, in which nothing of them may cut into the track

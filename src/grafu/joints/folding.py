@@ -7,13 +7,14 @@ each moves by itself. Left and right are as seen from in front. Of two leaves ab
 """
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Coupling
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis

@@ -1,9 +1,9 @@
 """Sizes of hinges and pivots. Lengths are metres on furniture of usual size, in its scale on others (`at_scale`)."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_finite, require_positive, require_ratios
 from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.drawn_config import DrawnConfig

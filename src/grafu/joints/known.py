@@ -6,13 +6,14 @@ kept as a change of any scene. Without a cache nothing is noted, and all is work
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, Final, Generic, TypeVar, cast, final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.joints.hinge.neighbours import path_box_of
 from grafu.processes.cache import Cache, content_key

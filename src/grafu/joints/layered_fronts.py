@@ -3,12 +3,13 @@
 Each part was guessed to be a door or a drawer of its own; they move as one.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.joints.plan import JointRequest, RealizationPlan

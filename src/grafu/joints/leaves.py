@@ -1,12 +1,12 @@
 """Upright boards as leaves of a folding door: which stand beside one another in one plane, which meet in a corner."""
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh

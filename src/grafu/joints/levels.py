@@ -6,11 +6,12 @@ with its carrier.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from typing import final
 
 from grafu.articulation.articulated_object import Coupling
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.budget import within
 from grafu.geometry.transform import invert

@@ -1,9 +1,9 @@
 """What counts as the lever of a door."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

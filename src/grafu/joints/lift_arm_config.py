@@ -1,9 +1,9 @@
 """The arms of parallel lifts: where they are tried, how large they are. Lengths: metres on furniture of usual size."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

@@ -5,7 +5,6 @@ they fit is found by sweeps of arms and flap. Everything is in the object frame 
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import cos, pi, sin
 from typing import final
@@ -16,6 +15,7 @@ from shapely.geometry.base import BaseGeometry
 
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.articulation.swing import Swing
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.axis import Axis

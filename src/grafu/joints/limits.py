@@ -1,13 +1,13 @@
 """The widest opening free of collision, found by sweeping real meshes."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, Scalars, frozen_array
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

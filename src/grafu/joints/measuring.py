@@ -4,12 +4,13 @@ A joint that cannot be measured within its fraction of the time is not delivered
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.budget import within
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.transform import translation

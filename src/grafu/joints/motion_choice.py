@@ -3,7 +3,6 @@
 Sides are those of the object frame: the front looks along -Y, the left lies at -X, so they are one's own before it.
 """
 
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError, did_you_mean
 from grafu.geometry.arrays import Mat3, Vec3, median, vec3
 from grafu.geometry.axis import Axis

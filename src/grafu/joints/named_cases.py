@@ -1,11 +1,11 @@
 """The case of a chest whose parts all bear its name: `drawer_box`, `drawer_top`, `drawer_bottom`."""
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.joints.framed_leaves import relabelled

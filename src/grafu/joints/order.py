@@ -6,10 +6,11 @@ only as far as it blocks no open neighbour, unless a wider opening was chosen.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.articulation.kinematics import all_before
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.intersection import MeshCollider, SweptBody

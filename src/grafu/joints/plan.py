@@ -1,13 +1,14 @@
 """What is asked for: joints to build, with initial axes, and choices about them. The requester makes no difference."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from math import isfinite, radians
 from typing import final
 
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import MotionKind, motion_kind
+from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.refusal import Refusal

@@ -1,13 +1,14 @@
 """Round doors of washing machines and dryers: a disc before the front panel is the door, and the panel stays."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 import shapely
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.joints.framed_leaves import relabelled

@@ -4,12 +4,13 @@ They are found by boxes and contacts, so fronts that stand turned about Z stay a
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

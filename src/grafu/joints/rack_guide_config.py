@@ -1,8 +1,8 @@
 """Sizes of the guides that are added for a rack that nothing holds; lengths are metres on furniture of usual size."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

@@ -1,11 +1,11 @@
 """Guides for racks: a strip on either wall, beside the outermost wires, where nothing that is drawn holds them."""
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh

@@ -1,12 +1,13 @@
 """Racks of dishwashers and ovens: wire baskets and grids behind a door that drops. They slide out once it is open."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios

@@ -1,9 +1,9 @@
 """What counts as a drawer, and sizes of rails; lengths are metres on furniture of usual size (`at_scale`)."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.joints.rack_guide_config import RackGuideConfig
 from grafu.joints.rail_footing_config import RailFootingConfig

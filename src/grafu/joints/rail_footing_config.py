@@ -1,8 +1,8 @@
 """Sizes of what stands between a rail and what carries it."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_ratios
 
 

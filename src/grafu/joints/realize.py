@@ -5,7 +5,7 @@ those that carry them. One part that cannot be built does not cost the others th
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import perf_counter
 from typing import final
 
@@ -19,6 +19,7 @@ from grafu.articulation.articulated_object import (
     VisualRole,
 )
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.bvh import forget_large_shapes
 from grafu.joints.build import Built

@@ -1,10 +1,10 @@
 """The hardware that was placed for a joint, and the outcome of each request: installed with its figures, or refused."""
 
-from dataclasses import dataclass
 from typing import final
 
 from grafu.articulation.articulated_object import Visual
 from grafu.articulation.slip import Slip
+from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.refusal import Refusal
 from grafu.vocabulary import JointType, MechanismClass

@@ -4,7 +4,6 @@ Nothing else is taken for one: a pair of doors that is taken for a folding one w
 """
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise, product
 from typing import final
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from grafu.asset.names import spoken
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box

@@ -1,11 +1,12 @@
 """Small parts made to fit what they stand on: how far they move freely, and what must go of them for that."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, selected
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.box import Box

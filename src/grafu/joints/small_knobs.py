@@ -6,7 +6,7 @@ and every knob of a drawer.
 """
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import pi
 from typing import final
@@ -16,6 +16,7 @@ import shapely
 
 from grafu.articulation.articulated_object import Joint, Visual, VisualRole
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis

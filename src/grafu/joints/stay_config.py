@@ -1,9 +1,9 @@
 """Where stays hold lids and flaps. Lengths are metres on furniture of usual size, in its scale on others."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.visible import ShortRepr
 

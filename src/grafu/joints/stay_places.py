@@ -4,11 +4,11 @@ The plane is that of the border frame: the leaf fills x from 0 and y up to its i
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Scalars, Vec2, freeze_arrays
 from grafu.joints.stay_config import StayConfig
 

@@ -5,13 +5,14 @@ point at one another in every pose. It is no joint and no constraint; what holds
 joint (`articulation.counterbalance`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Link, Visual, VisualRole
 from grafu.articulation.swing import Swing
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Scalars, Vec3, vec3
 from grafu.geometry.axis import Axis

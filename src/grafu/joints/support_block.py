@@ -5,13 +5,12 @@ how much of a leaf lies on one.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat3, Points, Vec3
 from grafu.geometry.axis import Axis
@@ -24,6 +23,7 @@ from grafu.joints.config import BlockConfig
 from grafu.joints.hinge_config import FootingConfig
 from grafu.joints.plan import JointRequest
 from grafu.scene.scene import Scene
+from grafu.shapes import Float
 from grafu.templates.template import HingeSize, SnapPlane
 from grafu.vocabulary import PartLabel
 

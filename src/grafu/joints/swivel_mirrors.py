@@ -1,7 +1,7 @@
 """Mirrors between two posts swivel about the level line between these: found by name, and by what holds them."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import radians
 from typing import final
 
@@ -10,6 +10,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.names import spoken
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

@@ -5,7 +5,7 @@ A flap with a bin stops well before it is level: what lies in the bin would fall
 """
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import radians
 from typing import final
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from grafu.asset.names import spoken
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios

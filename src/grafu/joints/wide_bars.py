@@ -5,12 +5,13 @@ upright, or short and near its free edge.
 """
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion

@@ -1,8 +1,8 @@
 """What counts as a window, and how its leaves move."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_ratios
 
 

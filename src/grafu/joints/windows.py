@@ -7,7 +7,6 @@ handle. Leaves that lap in two planes slide.
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.asset.part import Asset, Part
 from grafu.geometry.box import Box
@@ -19,6 +18,7 @@ from grafu.joints.framed_leaves import SOURCE, FramedLeaves, nearer_to_back, rel
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.window_config import WindowConfig
+from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 _WIDTH, _DEPTH, _UP = 0, 1, 2

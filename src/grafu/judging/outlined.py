@@ -8,10 +8,10 @@ from typing import Any, final
 import numpy as np
 import shapely
 import trimesh
-from jaxtyping import Float
 
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 
 ALIKE = 0.999  # cosine between normals of one face
 CARRIED = 0.3  # fraction of an edge that must rest on something

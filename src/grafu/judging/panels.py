@@ -10,13 +10,13 @@ and half of all faces but the front be covered. What a drawer takes of a room, w
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from typing import Any, Literal, final
 
 import numpy as np
 import trimesh
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios

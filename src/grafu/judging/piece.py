@@ -4,10 +4,11 @@ All is in the object frame: metres, Z up, front -Y.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

@@ -7,17 +7,17 @@ from the body alone. What stands up through a top is no part of it.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import median
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.shapes import Bool, Float, Int
 
 Field = Float[np.ndarray, "x y"]
 Mask = Bool[np.ndarray, "x y"]

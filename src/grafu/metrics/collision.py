@@ -13,7 +13,6 @@ belongs to the body that it is anchored to; a hinge that floats beside its door 
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -21,6 +20,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, VisualRole
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import rest_to_full
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes

@@ -6,13 +6,13 @@ left without a hinge is wrong.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Int64
 from scipy.optimize import linear_sum_assignment
 
+from grafu.dataclass import dataclass
 from grafu.graph.arrays import (
     ATTACHED,
     CONTACT,
@@ -28,6 +28,7 @@ from grafu.graph.arrays import (
 )
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.shapes import Bool, Int64
 
 NEAR = 0.1  # of the object's largest side: an added part farther off is not the one that is missing
 _DISTANCE_WEIGHT = 2.0  # against 1 for another label: the paper's weights of the assignment

@@ -5,12 +5,12 @@ the axis lies on, so that a pin moved from the panel's middle to its corner stil
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.vocabulary import JointType

@@ -4,12 +4,14 @@ Parts' points stand in a table of their own, and nodes point into it: several co
 rows, so that each part's points are encoded once. Predictions are logits and boxes by slot and by pair of slots.
 """
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import final
 
 import torch
-from jaxtyping import Bool, Float, Float32, Int64
 from torch import Tensor
+
+from grafu.dataclass import dataclass
+from grafu.shapes import Bool, Float, Float32, Int64
 
 
 @final

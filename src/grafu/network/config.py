@@ -1,10 +1,11 @@
 """The sizes and choices of the network: the paper's numbers by default, each departure named with its reason."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.graph.arrays import EDGE_CODES, LABELS, KindSet
 
 LABEL_COUNT = len(LABELS)  # 13 categories and `unknown`

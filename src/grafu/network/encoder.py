@@ -7,7 +7,6 @@ edges, then edges are updated from their nodes.
 from typing import final
 
 import torch
-from jaxtyping import Bool, Float, Int64
 from torch import Tensor, nn
 
 from grafu.network.batch import GraphBatch
@@ -15,6 +14,7 @@ from grafu.network.config import GraFuConfig, PairFeatures
 from grafu.network.layers import EdgeAttention, PairLinear, perceptron
 from grafu.network.points import PointEncoder
 from grafu.network.vocabulary import CategoryEmbedding
+from grafu.shapes import Bool, Float, Int64
 
 EDGE_TERMS = 8
 FACE_TERMS = 12

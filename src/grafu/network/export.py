@@ -14,7 +14,6 @@ from typing import final
 import numpy as np
 import onnx
 import torch
-from jaxtyping import Float32, Int64
 from torch import Tensor, nn
 from torch.nn.functional import pad
 
@@ -24,6 +23,7 @@ from grafu.network.config import LABEL_COUNT
 from grafu.network.encoder import NAME_CODES, VISIBILITY_NUMBERS
 from grafu.network.grafu import GraFu
 from grafu.network.stored import HALF, name_weights
+from grafu.shapes import Float32, Int64
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
 INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names")

@@ -8,7 +8,6 @@ slots as nodes, and K more.
 from typing import NamedTuple, final
 
 import torch
-from jaxtyping import Bool, Float
 from torch import Tensor, nn
 from torch.nn.functional import pad
 
@@ -17,6 +16,7 @@ from grafu.network.config import GraFuConfig
 from grafu.network.encoder import WIDENING, GraphEncoder, pair_term_count, pair_terms
 from grafu.network.heads import FactHeads, MotionHeads, PairHeads, SlotAnswers, SlotHeads, no_facts
 from grafu.network.layers import Attention, masked_mean, perceptron
+from grafu.shapes import Bool, Float
 
 
 @final

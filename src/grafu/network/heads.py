@@ -7,7 +7,6 @@ Motions are classes (paper, Motion Parameters).
 from typing import NamedTuple, final
 
 import torch
-from jaxtyping import Bool, Float
 from torch import Tensor, nn
 from torch.nn.functional import gelu, pad, softplus
 
@@ -15,6 +14,7 @@ from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS
 from grafu.network.config import GraFuConfig
 from grafu.network.layers import PairLinear, attention_weights, perceptron
 from grafu.network.vocabulary import as_labels, category_count
+from grafu.shapes import Bool, Float
 from grafu.vocabulary import PieceKind
 
 WIDTH = 128

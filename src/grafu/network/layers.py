@@ -10,9 +10,10 @@ from itertools import pairwise
 from typing import final
 
 import torch
-from jaxtyping import Bool, Float
 from torch import Tensor, nn
 from torch.nn.functional import scaled_dot_product_attention
+
+from grafu.shapes import Bool, Float
 
 
 def perceptron(*widths: int) -> nn.Sequential:

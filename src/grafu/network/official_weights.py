@@ -12,7 +12,6 @@ stage of points is [feature | position]. Layers without biases get zeros.
 import json
 import warnings
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from pickle import UnpicklingError
 from typing import Any, final
@@ -20,6 +19,7 @@ from typing import Any, final
 import torch
 from torch import Tensor, nn
 
+from grafu.dataclass import dataclass
 from grafu.errors import WeightsError
 from grafu.network.config import OFFICIAL, GraFuConfig
 from grafu.network.grafu import GraFu

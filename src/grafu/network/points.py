@@ -10,11 +10,11 @@ from itertools import pairwise
 from typing import final
 
 import torch
-from jaxtyping import Bool, Float, Int64
 from torch import Tensor, nn
 
 from grafu.network.config import GraFuConfig
 from grafu.network.layers import perceptron
+from grafu.shapes import Bool, Float, Int64
 
 FIRST_STAGE = (3, 32, 64)  # widths of the stages and of the head
 SECOND_STAGE = (67, 64, 128)

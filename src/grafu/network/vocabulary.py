@@ -6,11 +6,11 @@ The authors' code lists a countertop apart from a top panel, and `rail` and `hin
 from typing import Final, final
 
 import torch
-from jaxtyping import Float, Int64
 from torch import Tensor, nn
 
 from grafu.graph.arrays import LABEL_CODES, LABELS
 from grafu.network.config import GraFuConfig, Vocabulary
+from grafu.shapes import Float, Int64
 from grafu.vocabulary import PartLabel
 
 OFFICIAL_WORDS: Final = (

@@ -1,14 +1,17 @@
 """The confidence of motions: what was decided about parts, and the runner-up, in words. It decides nothing."""
 
 from collections.abc import Set
+from typing import TYPE_CHECKING
 
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import BORDERS, SIGNS, Hinge
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import AXIS_NAMES, border_to_face, opening_face
-from grafu.pipeline.report_schema import GuessRecord
 from grafu.pipeline.words import percent
 from grafu.vocabulary import PartLabel
+
+if TYPE_CHECKING:
+    from grafu.pipeline.report_schema import GuessRecord
 
 _SIDES = dict(zip(AXIS_NAMES, ("left", "right", "front", "back", "bottom", "top"), strict=True))
 _ASKED = {
@@ -36,7 +39,7 @@ def certainty_words(completion: GraphCompletion, part: str) -> list[str]:
     return [_words(d, completion.completed, hinge) for d in sorted(asked, key=lambda d: order.index(d.question))]
 
 
-def guesses_of(completion: GraphCompletion, stated: Set[str] = frozenset()) -> tuple[GuessRecord, ...]:
+def guesses_of(completion: GraphCompletion, stated: Set[str] = frozenset()) -> "tuple[GuessRecord, ...]":
     """Returns the decisions that motions rest on: how parts move, and which are taken for doors and drawers, or nearly.
 
     What is `stated` of parts is no guess. Sides are seen from the front, as in `certainty_words`.
@@ -56,7 +59,9 @@ def _is_of_motion(decision: Decision, moving: Set[str]) -> bool:
     return decision.question in _OF_MOTION and decision.part in moving and decision.score < _STATED
 
 
-def _guess(decision: Decision, graph: FunctionalGraph, hinge: Hinge | None) -> GuessRecord:
+def _guess(decision: Decision, graph: FunctionalGraph, hinge: Hinge | None) -> "GuessRecord":
+    from grafu.pipeline.report_schema import GuessRecord
+
     return GuessRecord(
         part=decision.part,
         question=decision.question,

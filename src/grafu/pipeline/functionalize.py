@@ -1,7 +1,7 @@
 """The paper's pipeline as one function: graph, completion, plan, what is missing, joints. It touches no files."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, final
 
@@ -9,6 +9,7 @@ from grafu.additions.step import Addition, StepResult
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.part import Asset
 from grafu.asset.regrouping import regrouped
+from grafu.dataclass import dataclass
 from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.completion import GraphCompletion

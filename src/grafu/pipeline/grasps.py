@@ -8,8 +8,8 @@ from grafu.articulation.grasp_search import GraspHint, with_grasps
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.realize import Realized
 from grafu.joints.report import LIFT_ARMS, RealizationReport
-from grafu.pipeline.report_schema import Grasp
 from grafu.pipeline.stages import Stages
+from grafu.pipeline.words import Grasp
 from grafu.processes.cache import NO_CACHE, Cache
 
 _ON_FLOOR = 0.01  # metres: what ends lower stands on the floor

@@ -5,13 +5,14 @@ parts stands.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple, final
 
 from grafu.additions.step import StepResult
 from grafu.asset.part import Asset
 from grafu.completion.static_guesses import with_static
+from grafu.dataclass import dataclass
 from grafu.graph.completion import GraphCompletion
 from grafu.joints.closing import closed_plan
 from grafu.joints.folding import Fold

@@ -1,13 +1,14 @@
 """What each source of motions does: how it completes a graph and plans what to build, and which one is used."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import final
 
 from grafu.asset.part import Asset
 from grafu.completion.session import has_shipped_weights
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph

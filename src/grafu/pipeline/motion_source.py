@@ -1,10 +1,10 @@
 """Where a motion comes from, as one choice of the user's. It imports nothing heavy, so that the command starts fast."""
 
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError
 
 

@@ -1,9 +1,10 @@
 """What the user chose for a run, and the configurations of the stages that no setting reaches."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.graph.parse import ParsingConfig
 from grafu.joints.config import RealizationConfig
 from grafu.pipeline.settings import Settings

@@ -30,7 +30,6 @@ from grafu.pipeline.report_schema import (
     NOT_ADDED,
     AddedRecord,
     ClearanceRecord,
-    Grasp,
     GraspFrameRecord,
     JointRecord,
     MotionRecord,
@@ -40,6 +39,7 @@ from grafu.pipeline.report_schema import (
 )
 from grafu.pipeline.standing import base_record
 from grafu.pipeline.verdict import verdict_of
+from grafu.pipeline.words import Grasp
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.version import __version__
 from grafu.vocabulary import PartLabel

@@ -12,7 +12,7 @@ from grafu.graph.completion import Question
 from grafu.joints.report import LIFT_ARMS
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report_record import BaseRecord, CaughtRecord, ReportRecord, schema_field
-from grafu.pipeline.words import Colour, FaultKind
+from grafu.pipeline.words import Colour, FaultKind, Grasp
 from grafu.refusal import Asked, Reason
 from grafu.vocabulary import JointType, MechanismClass, PartLabel, PieceKind
 
@@ -20,7 +20,6 @@ Vector = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
 Row = tuple[FiniteFloat, FiniteFloat, FiniteFloat, FiniteFloat]
 Ratio = Annotated[float, Field(ge=0, le=1)]
 NOT_ADDED: Final = "not added"
-Grasp = Literal["handle", "recess", "edge", "itself", "driven", "none"]
 
 
 class InputRecord(ReportRecord):

@@ -4,7 +4,6 @@ It changes nothing and runs nothing.
 """
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
@@ -13,6 +12,7 @@ from pydantic import ValidationError
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.json_files import read_own
 from grafu.asset.options import LoadOptions
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.export.glb_object import read_glb_object
 from grafu.pipeline.report_schema import Report

@@ -5,13 +5,11 @@ nothing.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, is_dataclass, replace
+from dataclasses import field, is_dataclass, replace
 from enum import Enum
 from functools import cache
 from pathlib import Path
 from typing import Any, final
-
-from pydantic import TypeAdapter, ValidationError
 
 from grafu.additions.config import AdditionConfig
 from grafu.additions.handle.config import HandleChoice
@@ -21,6 +19,7 @@ from grafu.articulation.catch_kind import CatchKind
 from grafu.asset.json_files import parse_json
 from grafu.asset.options import LoadOptions
 from grafu.asset.regrouping import Regroup, Regrouping
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, OptionError
 from grafu.joints.motion_choice import MotionChoice
 from grafu.joints.plan import AUTOMATIC, JointChoice
@@ -141,6 +140,8 @@ def settings_from_json(data: object) -> Settings:
     if not isinstance(data, dict) or data.get("schema") != SCHEMA:
         found = data.get("schema") if isinstance(data, dict) else type(data).__name__
         raise OptionError(f"settings must be a JSON object with `schema` {SCHEMA}: got {found!r}")
+    from pydantic import ValidationError
+
     given = {name: value for name, value in data.items() if name != "schema"}
     try:
         settings = _adapter().validate_python(given)
@@ -170,6 +171,8 @@ def _plain(value: Any) -> Any:
 @cache
 def _adapter() -> Any:
     """Returns pydantic's reader and writer of settings; beartype cannot check its type."""
+    from pydantic import TypeAdapter
+
     return TypeAdapter(Settings)
 
 

@@ -1,12 +1,13 @@
 """What shape and names alone show of how parts move, whatever was predicted."""
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING, PREDICTED
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph

@@ -1,10 +1,10 @@
 """A word with sizes, as options state it: `oval,thickness=3cm,front=0`; which words there are, others know."""
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 from math import isfinite
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError, did_you_mean
 from grafu.geometry.lengths import metres_of
 

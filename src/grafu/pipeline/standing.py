@@ -1,6 +1,7 @@
 """How a piece stands: what holds it, why, and what tips it over; for the report. It makes and writes nothing."""
 
 from math import isfinite
+from typing import TYPE_CHECKING
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.base import BaseKind
@@ -8,10 +9,11 @@ from grafu.articulation.physics import physics_known
 from grafu.articulation.stability import Stability, stability_of
 from grafu.asset.part import Asset
 from grafu.asset.wall_units import hangs_on_wall
-from grafu.pipeline.report_record import BaseRecord, StabilityRecord
-from grafu.pipeline.report_schema import Report
 from grafu.pipeline.settings import Settings
-from grafu.pipeline.verdict import with_notes
+
+if TYPE_CHECKING:
+    from grafu.pipeline.report_record import BaseRecord, StabilityRecord
+    from grafu.pipeline.report_schema import Report
 
 _DIGITS = 4
 
@@ -21,20 +23,24 @@ def base_of(asset: Asset, settings: Settings) -> BaseKind | None:
     return settings.base or (BaseKind.WALL if hangs_on_wall(asset) else None)
 
 
-def base_record(asset: Asset, articulated: ArticulatedObject) -> BaseRecord:
+def base_record(asset: Asset, articulated: ArticulatedObject) -> "BaseRecord":
     """Returns what holds a piece, and why."""
+    from grafu.pipeline.report_record import BaseRecord
+
     evidence, base = hangs_on_wall(asset), articulated.base
     if base is None:
         return BaseRecord(kind=BaseKind.FIXED, why="by default")
     return BaseRecord(kind=base, why=evidence if base is BaseKind.WALL and evidence else "as asked for")
 
 
-def with_stability(report: Report, articulated: ArticulatedObject) -> Report:
+def with_stability(report: "Report", articulated: ArticulatedObject) -> "Report":
     """Returns the report with what tips the piece over, where masses and shapes were worked out for a format.
 
     Of a piece that is to stand freely and does not bear the usual pulls a note states it; of one that by default is
     fixed, where as drawn it leans or falls.
     """
+    from grafu.pipeline.verdict import with_notes
+
     physics = physics_known(articulated)
     if physics is None or report.base is None:
         return report
@@ -47,7 +53,9 @@ def with_stability(report: Report, articulated: ArticulatedObject) -> Report:
     return with_notes(stated, *_notes(record)) if leans else stated
 
 
-def _record(found: Stability) -> StabilityRecord:
+def _record(found: Stability) -> "StabilityRecord":
+    from grafu.pipeline.report_record import StabilityRecord
+
     return StabilityRecord(
         mass=round(found.mass, _DIGITS),
         margin=round(found.margin, _DIGITS),
@@ -59,14 +67,14 @@ def _record(found: Stability) -> StabilityRecord:
     )
 
 
-def _notes(record: BaseRecord) -> tuple[str, ...]:
+def _notes(record: "BaseRecord") -> tuple[str, ...]:
     found = record.stability
     if found is None:
         return ("it does not stand by itself: too little of it touches the floor",)
     return () if found.weight_needed == 0 else (stability_words(found),)
 
 
-def stability_words(found: StabilityRecord) -> str:
+def stability_words(found: "StabilityRecord") -> str:
     """Returns in a sentence what tips a piece over, and what it needs."""
     if found.closed_margin is not None and found.closed_margin < 0:
         tips = (

@@ -1,10 +1,10 @@
 """Which joints of a report need attention: ok, warning or error, as in its verdict. It judges nothing."""
 
 from collections.abc import Collection
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.pipeline.report_schema import NOT_ADDED, FaultRecord, Report
 from grafu.pipeline.verdict import fixed_by_user, parts_without_joint, verdict_of
 from grafu.pipeline.words import Colour, FaultKind

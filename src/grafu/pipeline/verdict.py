@@ -5,12 +5,12 @@ It reads the figures of a report and measures nothing. A part that the user fixe
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import prod
 from typing import final
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.reading import tells_of_lost_mesh
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.joints.motion_choice import TURNING_SIDES
 from grafu.pipeline.report_schema import (

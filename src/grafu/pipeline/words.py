@@ -2,9 +2,13 @@
 
 from collections.abc import Iterable
 from enum import StrEnum
+from typing import Literal
 
 from grafu.joints.report import LIFT_ARMS
 from grafu.vocabulary import MechanismClass
+
+Grasp = Literal["handle", "recess", "edge", "itself", "driven", "none"]
+"""What a hand or a drive moves a part by."""
 
 
 class Colour(StrEnum):

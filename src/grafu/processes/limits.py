@@ -8,10 +8,11 @@ import gc
 import os
 import sys
 from contextlib import suppress
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Final, Generic, TypeVar, final
+
+from grafu.dataclass import dataclass
 
 _SPARE: Final = 2**30  # bytes that may be asked for and never be touched
 _MUCH: Final = 600 * 10**6  # bytes: a process that holds less is not worth the time of looking for what is unused

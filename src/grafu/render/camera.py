@@ -1,14 +1,14 @@
 """A pinhole camera: where it stands, what it sees, how it is moved to see a whole box. It draws nothing."""
 
-from dataclasses import dataclass
 from math import cos, radians, sin, tan
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Vec3, freeze_arrays, vec3
 from grafu.geometry.box import Box
+from grafu.shapes import Float
 
 Directions = Float[np.ndarray, "n 3"]
 

@@ -5,13 +5,13 @@ develops them. Pixels are looked at once, in their middle; those on a border, or
 Light is found for the middles of pixels and smoothed over each surface.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Literal, final
 
 import numpy as np
-from jaxtyping import Float32, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import extremes, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
@@ -19,6 +19,7 @@ from grafu.render.camera import Camera
 from grafu.render.light import key_direction, key_ratio, shade, sky_ratio
 from grafu.render.pixel_window import Grid, PixelWindow, bend_and_step, box_mean, smoothed, surfaces_of
 from grafu.render.ray_scene import Hits, Rays, RayScene, Values
+from grafu.shapes import Float32, Int
 
 Met = Float32[np.ndarray, "hits 3"]  # where rays met something
 Samples = Float32[np.ndarray, "_ _ 4"]

@@ -1,9 +1,9 @@
 """Where the nodes of a graph stand in its picture: where their parts stand, pushed apart. It draws nothing."""
 
 import numpy as np
-from jaxtyping import Bool, Float
 
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.shapes import Bool, Float
 
 Places = Float[np.ndarray, "n 2"]
 

@@ -6,13 +6,14 @@ pin and the rotation axis, or the direction of the slide, as signed axes of the 
 """
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from html import escape
 from typing import final
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from grafu.dataclass import dataclass
 from grafu.graph.edges import Contact, Edge, MotionEdge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import AXIS_NAMES, border_to_face, border_to_signed_axis

@@ -6,12 +6,12 @@ Radiance is linear RGB. Random directions come from one fixed table in a 4x4 pat
 from math import radians
 
 import numpy as np
-from jaxtyping import Float32
 
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.directions import directions_around
 from grafu.render.camera import Camera
 from grafu.render.ray_scene import Hits, Rays, RayScene, Values
+from grafu.shapes import Float32
 
 Rgb = Float32[np.ndarray, "n 3"]
 Pattern = np.ndarray  # one number in 0..15 per ray: its place in the 4x4 pattern

@@ -10,7 +10,6 @@ from dataclasses import replace
 from io import BytesIO
 
 import numpy as np
-from jaxtyping import UInt8
 from PIL import Image, ImageDraw, ImageFont
 
 from grafu.articulation.articulated_object import ArticulatedObject, Visual, VisualRole
@@ -22,6 +21,7 @@ from grafu.render.camera import Camera, three_quarter_view
 from grafu.render.exposure import SIDE, Exposure, PictureStyle, Samples
 from grafu.render.light import displayed
 from grafu.render.ray_scene import RayScene
+from grafu.shapes import UInt8
 from grafu.vocabulary import PartLabel
 
 Picture = UInt8[np.ndarray, "_ _ 4"]

@@ -4,14 +4,14 @@ A pixel that lies on none shows one plain surface: one sample stands for all of 
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import product
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float32, Int
 
+from grafu.dataclass import dataclass
 from grafu.render.ray_scene import Hits, Rays
+from grafu.shapes import Bool, Float32, Int
 
 Grid = np.ndarray  # values of the pixels of a window, in rows and columns
 Vectors = Float32[np.ndarray, "*_ 3"]

@@ -4,19 +4,19 @@ Everything is 32-bit: pictures need no more and twice as much would be slow.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from io import BytesIO
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float32, Int, Int32
 from PIL import Image
 
 from grafu.articulation.articulated_object import Visual
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.budget import require_time
 from grafu.geometry.raycast import embree_scene
+from grafu.shapes import Bool, Float32, Int, Int32
 
 Rays = Float32[np.ndarray, "n 3"]
 Values = Float32[np.ndarray, " n"]

@@ -7,11 +7,12 @@ Run as `python -m grafu.render.thumbnails FOLDER`: there go, for each template, 
 
 import sys
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import final
 
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.dataclass import dataclass
 from grafu.export.blend.process import packed
 from grafu.export.whole_file import whole_file
 from grafu.graph.serialize import dump_json

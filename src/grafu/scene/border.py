@@ -5,11 +5,12 @@ opening axis, right-handed. The origin lies on the hinge border's front edge at 
 0 <= x <= width, -thickness <= y <= 0, |z| <= length / 2.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

@@ -6,11 +6,12 @@ lower left corner of the box around the moving body in these axes, on its foremo
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Points, Vec3, freeze_arrays, vec3
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.mesh import TriangleMesh, merge_meshes

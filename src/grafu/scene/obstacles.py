@@ -1,12 +1,13 @@
 """What a moving part may run into, found by boxes: most of it is far away, and what is not asked for is not read."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider

@@ -5,13 +5,14 @@ on the meshes that stayed the same.
 """
 
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property, partial
 from typing import Concatenate, ParamSpec, TypeVar, cast, final
 
 from grafu.articulation.articulated_object import Visual
 from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

@@ -4,9 +4,9 @@ Inputs come in any unit: lengths are fractions of an object's largest side, or m
 something still touches. Other numbers are fractions of what their line states.
 """
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.segmentation.surface_config import CreaseConfig, JoiningConfig
 from grafu.visible import ShortRepr

@@ -8,12 +8,12 @@ changes, has each front as a patch, with the edges that it has.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Faces, Indices, Vec3
 from grafu.geometry.components import linked, welded
 from grafu.geometry.mesh import TriangleMesh
@@ -24,6 +24,7 @@ from grafu.segmentation.hidden_fronts import outline
 from grafu.segmentation.surface_config import CreaseConfig
 from grafu.segmentation.surroundings import within
 from grafu.segmentation.view import ShellsView, view_of
+from grafu.shapes import Bool, Float, Int
 
 OfFaces = Int[np.ndarray, " faces"]
 _SAME_UV = 1e-4  # of a texture's side: coordinates nearer to each other are one point of it
@@ -38,6 +39,7 @@ def drawn_fronts(
     open_to: Sequence[bool],
     materials: Sequence[Indices],
     config: SegmentationConfig = SegmentationConfig(),
+    shells: MeshShells | None = None,
 ) -> dict[int, list[FacePiece]]:
     """Returns for each mesh on which fronts are drawn what it is cut into, as it is seen from its best side.
 
@@ -48,23 +50,25 @@ def drawn_fronts(
         open_to: which of them may be cut.
         materials: for each mesh the number of each face's material.
         config: the thresholds.
+        shells: those of the meshes, where they are known.
     """
     if not any(len(mesh.faces) and is_open for mesh, is_open in zip(meshes, open_to, strict=True)):
         return {}
+    whole = shells or MeshShells.of(meshes)
     surfaces = [CreasedSurface.of(mesh, m, config.creases) for mesh, m in zip(meshes, materials, strict=True)]
     most = 0.0
     pieces: dict[int, list[FacePiece]] = {}
     for turn in range(4):
         axes = axes_from(turn)
         patches = [surface.patches(axes[2], config.creases) for surface in surfaces]
-        shells = MeshShells.of(meshes, patches)
-        view = view_of(shells.mesh, shells.shell, shells.owner, axes)
-        found = fronts_by_object(view, np.asarray(open_to)[shells.owner], [False] * len(meshes), config)
+        parted = whole.parted(patches)
+        view = view_of(parted.mesh, parted.shell, parted.owner, axes)
+        found = fronts_by_object(view, np.asarray(open_to)[parted.owner], [False] * len(meshes), config)
         clear = found.clear(config.division)
         area = sum(outline(view, front) for fronts in clear.values() for front in fronts)
         if area > most:
             most = area
-            pieces = FoundFronts(_trimmed(clear, view, config.creases), {}, turn=turn).pieces(shells)
+            pieces = FoundFronts(_trimmed(clear, view, config.creases), {}, turn=turn).pieces(parted)
         if pieces:
             break  # the front is most likely at -Y: other sides count only where it shows none
     return {k: [replace(p, is_sheet=p.role == "front") for p in found] for k, found in sorted(pieces.items())}
@@ -75,14 +79,17 @@ def drawn_handles(
     plates: Sequence[bool],
     materials: Sequence[Indices],
     config: SegmentationConfig = SegmentationConfig(),
+    shells: MeshShells | None = None,
 ) -> dict[int, list[FacePiece]]:
     """Returns for each plate with a handle drawn on its surface, or two, that plate without them, and these.
 
-    They stand out farther than mouldings do. See `drawn_fronts`; `plates` tells which meshes may be such.
+    They stand out farther than mouldings do. See `drawn_fronts`; `plates` tells which meshes may be such, `shells` are
+    those of all.
     """
     if not any(plates):
         return {}
     kept, found = np.asarray(plates), dict[int, list[FacePiece]]()
+    whole = shells or MeshShells.of(meshes)
     surfaces = {k: CreasedSurface.of(meshes[k], materials[k], config.creases) for k in np.flatnonzero(kept).tolist()}
     for turn in range(4):
         axes = axes_from(turn)
@@ -91,11 +98,11 @@ def drawn_handles(
             patches[k] = surface.patches(axes[2], config.creases)
         if not any(patch.any() for patch in patches):
             continue
-        shells = MeshShells.of(meshes, patches)
-        view = view_of(shells.mesh, shells.shell, shells.owner, axes)
-        single = fronts_by_object(view, kept[shells.owner], [False] * len(meshes), config).with_handles
+        parted = whole.parted(patches)
+        view = view_of(parted.mesh, parted.shell, parted.owner, axes)
+        single = fronts_by_object(view, kept[parted.owner], [False] * len(meshes), config).with_handles
         single = {k: front for k, front in single.items() if _stand_out(view, front, config.creases)}
-        found |= FoundFronts({}, single).pieces(shells)
+        found |= FoundFronts({}, single).pieces(parted)
         if found:
             break
     return found

@@ -4,13 +4,13 @@ It asks geometry alone.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cache
 from typing import Final, Literal, final
 
 import numpy as np
-from jaxtyping import Bool, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices, Mat3, Vec3
 from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -21,6 +21,7 @@ from grafu.segmentation.hidden_fronts import hides, is_flush, is_one_with_handle
 from grafu.segmentation.lying import lying_on_fronts
 from grafu.segmentation.surroundings import Scale, overlaps
 from grafu.segmentation.view import MaskOfShells, OfShells, SeenFaces, ShellsView
+from grafu.shapes import Bool, Int
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
 Faces = Int[np.ndarray, " _"]
@@ -54,14 +55,21 @@ class MeshShells:
     owner: OfShells
 
     @classmethod
-    def of(cls, meshes: Sequence[TriangleMesh], materials: Sequence[Indices] | None = None) -> "MeshShells":
-        """Returns the shells of some meshes; with the material of each face, these are parted by material too."""
+    def of(cls, meshes: Sequence[TriangleMesh]) -> "MeshShells":
+        """Returns the shells of some meshes."""
         shell = shell_numbers(*meshes)
-        if materials is not None:
-            pairs = np.column_stack([shell, np.concatenate(materials)])
-            shell = np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1).astype(np.int64)
         of = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
         return cls(merge_meshes(meshes), shell, of[np.unique(shell, return_index=True)[1]])
+
+    def parted(self, numbers: Sequence[Indices]) -> "MeshShells":
+        """Returns the shells parted by a number of each face, mesh after mesh: that of its material, or of its patch.
+
+        No number is negative.
+        """
+        number = np.concatenate(numbers)
+        pair = self.shell * (int(number.max(initial=0)) + 1) + number
+        _, first, shell = np.unique(pair, return_index=True, return_inverse=True)
+        return MeshShells(self.mesh, shell.reshape(-1).astype(np.int64), self.owner[self.shell[first]])
 
 
 def divided(
@@ -71,6 +79,7 @@ def divided(
     materials: Sequence[Indices] | None = None,
     lying: Sequence[bool] | None = None,
     config: SegmentationConfig = SegmentationConfig(),
+    shells: MeshShells | None = None,
 ) -> dict[int, list[FacePiece]]:
     """Returns for each mesh that is cut what it is cut into.
 
@@ -81,9 +90,10 @@ def divided(
         materials: for each mesh the number of each face's material: a handle welded to a front is known by it.
         lying: which of them may be handles, and are parted by the fronts that they lie on; None: all that may be cut.
         config: the thresholds.
+        shells: those of the meshes, where they are known.
     """
     may = np.asarray(open_to, dtype=bool)
-    shells = MeshShells.of(meshes)
+    shells = shells or MeshShells.of(meshes)
     loose = may if lying is None else np.asarray(lying, dtype=bool)
 
     @cache
@@ -94,7 +104,7 @@ def divided(
     pieces = found.pieces(shells)
     if materials is not None:
         left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
-        parted = MeshShells.of(meshes, materials) if left.any() else shells
+        parted = shells.parted(materials) if left.any() else shells
         single = _from_the_best_side(seen_from, parted, (left, np.zeros_like(left)), whole, config).with_handles
         pieces |= FoundFronts({}, single).pieces(parted)
     return dict(sorted(pieces.items()))

@@ -1,11 +1,12 @@
 """Fronts with what belongs to them: panes, mouldings and liners, the boards of a drawer, handles. It asks no names."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.components import linked
 from grafu.segmentation.config import SegmentationConfig

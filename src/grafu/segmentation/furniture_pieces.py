@@ -5,12 +5,12 @@ two where each has two sides of its own and the plane between them cuts no objec
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Final, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices, Mask
 from grafu.geometry.box import Box
 from grafu.geometry.components import linked, shell_numbers

@@ -5,12 +5,12 @@ above them, or hardly each other, and so are not joined. What hangs on a front a
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
-from jaxtyping import Bool, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
 from grafu.geometry.components import shell_numbers
@@ -22,6 +22,7 @@ from grafu.segmentation.division import MeshShells, axes_from
 from grafu.segmentation.fronts import fronts_among
 from grafu.segmentation.surface_config import JoiningConfig
 from grafu.segmentation.view import SeenFaces
+from grafu.shapes import Bool, Int
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
 ObjectOfFaces = Int[np.ndarray, " _"]

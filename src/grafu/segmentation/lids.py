@@ -4,11 +4,11 @@ Both are known by their names alone. A washing machine that has a door in front 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.division import FacePiece, MeshShells, axes_from, split

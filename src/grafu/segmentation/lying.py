@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 
 import numpy as np
-from jaxtyping import Bool
 
 from grafu.geometry.arrays import Indices
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.fronts import SHEET, FrontShells
 from grafu.segmentation.surroundings import Scale
 from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
+from grafu.shapes import Bool
 
 
 def lying_on_fronts(

@@ -3,10 +3,10 @@
 Lengths are fractions of an object's largest side, or of that of the whole.
 """
 
-from dataclasses import dataclass
 from math import radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 
 

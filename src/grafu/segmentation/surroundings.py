@@ -1,10 +1,10 @@
 """What stands around one shell as it is seen: before it, behind it, beside it. It asks no names and finds no fronts."""
 
-from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.segmentation.config import CandidateConfig
 from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
 

@@ -3,16 +3,16 @@
 Coordinates are those of the viewer: x to the right, y up, z towards the viewer.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Indices, Mat3, Points, cross, freeze_arrays
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.raycast import RayCaster
+from grafu.shapes import Bool, Float, Int
 
 OfShells = Int[np.ndarray, " shells"]
 MaskOfShells = Bool[np.ndarray, " shells"]

@@ -3,7 +3,6 @@
 It writes nothing: the caller does.
 """
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, final
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from grafu.articulation.base import BaseKind
 from grafu.articulation.motion_kind import motion_kind
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.mesh import TriangleMesh
 from grafu.pipeline.report_schema import Report

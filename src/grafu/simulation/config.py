@@ -1,8 +1,8 @@
 """What a result must do in a simulator: pulls, times, and what counts as opened, closed and at rest."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

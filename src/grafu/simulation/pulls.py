@@ -1,10 +1,11 @@
 """One joint pulled open and pushed shut by a hand at its grip, and a cube dropped into a drawer."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster

@@ -2,12 +2,12 @@
 
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError, UnreadableAsset
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.mesh import TriangleMesh

@@ -1,10 +1,10 @@
 """What the generator returns: furniture as an artist models it, and its ground truth. It draws nothing at random."""
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError
 from grafu.graph.edit import as_contacts, relabelled, without_contacts, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph

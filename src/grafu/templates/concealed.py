@@ -9,7 +9,6 @@ inner face of the case's side, a plane of constant x. Links and the arm's nose r
 own mesh has no hollow.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from math import radians
 from typing import final
@@ -18,6 +17,7 @@ import numpy as np
 from shapely.geometry import LineString, box
 from shapely.geometry.base import BaseGeometry
 
+from grafu.dataclass import dataclass
 from grafu.errors import TemplateError
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Scalars, vec3

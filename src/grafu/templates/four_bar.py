@@ -4,14 +4,14 @@ Lengths are metres. The plane's coordinates are those of whoever uses it; the co
 no solids.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
+from grafu.dataclass import dataclass
 from grafu.errors import TemplateError
 from grafu.geometry.arrays import Scalars
+from grafu.shapes import Float
 
 Point = tuple[float, float]
 Plane = Float[np.ndarray, "n 2"]

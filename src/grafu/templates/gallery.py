@@ -100,16 +100,24 @@ def open_gallery(folder: Path | None) -> Gallery:
     return builtin_gallery().extended(load_gallery(folder))
 
 
+def own_handles(folder: Path | None) -> dict[str, HandleTemplate]:
+    """Returns the user's own handles in `folder` by id; without a folder none.
+
+    Raises:
+        TemplateError: if a handle in the folder is at fault.
+    """
+    if folder is None:
+        return {}
+    from grafu.templates.user import load_handles
+
+    return load_handles(folder)
+
+
 def open_handles(folder: Path | None) -> dict[str, HandleTemplate]:
     """Returns all handles by id, the user's own in `folder` first; one of theirs replaces a built-in one of its name.
 
     Raises:
         TemplateError: if a handle in the folder is at fault.
     """
-    built_in = {template.id: template for template in HANDLES}
-    if folder is None:
-        return built_in
-    from grafu.templates.user import load_handles
-
-    own = load_handles(folder)
+    built_in, own = {template.id: template for template in HANDLES}, own_handles(folder)
     return {**own, **{name: template for name, template in built_in.items() if name not in own}}

@@ -10,7 +10,6 @@ How a pose stays clean and connected, by construction (R is the barrel's radius;
 * Everything stays within the hinge's length along the pin, pin heads and finials included.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from typing import final
@@ -20,6 +19,7 @@ from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
+from grafu.dataclass import dataclass
 from grafu.errors import TemplateError
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Vec3, vec3

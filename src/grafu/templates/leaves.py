@@ -5,13 +5,13 @@ s runs from the pin to the leaf's far edge, t along the pin. No third dimension.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 from shapely.geometry import Polygon
 from shapely.ops import unary_union
 
+from grafu.dataclass import dataclass
 from grafu.geometry.mesh import TriangleMesh
 from grafu.templates.solids import disc, rectangle, turned
 from grafu.templates.template import HingeSize

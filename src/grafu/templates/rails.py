@@ -11,7 +11,6 @@ How a pose stays clean and connected, by construction (frames: `template.py`; t 
   [-h/2 - `shelf_thickness`, -h/2]. Its support plane is the shelf's upper face, z = -h/2, x in [t, t + shelf_width].
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import final
 
@@ -20,6 +19,7 @@ from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
+from grafu.dataclass import dataclass
 from grafu.errors import TemplateError
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 
 import mapbox_earcut
 import numpy as np
-from jaxtyping import Float
 from shapely.geometry import MultiPolygon, Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import orient
@@ -17,6 +16,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat3, Mat4, Vec3
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import from_rotation
+from grafu.shapes import Float
 
 STEEL = Material("brushed steel", (0.56, 0.57, 0.58, 1.0), metallic=1.0, roughness=0.38)
 NICKEL = Material("satin nickel", (0.66, 0.61, 0.53, 1.0), metallic=1.0, roughness=0.3)

@@ -10,21 +10,21 @@ points from the template to the part that its end is mounted on (supplement, Tem
     P       leaf along +Y, n = -X   leaf along +X, n = -Y     the leaves line an inner corner
 
 Rail frame, closed: +X points from the wall to the drawer, +Z up, and the drawer slides out along -Y. The origin is the
-centre of the static snap plane (n = -X, at x = 0); the dynamic snap plane has n = +X, at x = thickness. This is the
-rail on one side of the drawer; the other is its mirror image.
+centre of the static snap plane (n = -X, x = 0); the dynamic one has n = +X, x = thickness. The other rail mirrors it.
 
 Handle frame: the foot plane is y = 0 and the origin its middle; +X runs along the handle's long side, -Y points away
-from the front that the handle lies on, +Z is up. So a drawer that faces -Y takes a handle as it is, and a door turns it
-upright about Y where `turns` states that this makes sense (a cup or a drop handle hangs level everywhere).
+from the front that the handle lies on, +Z is up. A drawer that faces -Y takes a handle as it is; a door turns it about
+Y where `turns` states that.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import ClassVar, Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import OptionError, TemplateError, did_you_mean
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Mat4, Vec3, freeze_arrays

@@ -12,7 +12,7 @@ import csv
 import io
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from functools import lru_cache
 from statistics import fmean, stdev
 from types import MappingProxyType
@@ -20,6 +20,7 @@ from typing import Literal, final, get_args
 
 from grafu.data.corruption.corrupt import VARIANTS
 from grafu.data.pair import GraphPair
+from grafu.dataclass import dataclass
 from grafu.metrics.graph_accuracy import GraphAccuracy
 from grafu.training.config import TrainingConfig
 from grafu.training.departures import DEPARTURES, taken_back, without_departures

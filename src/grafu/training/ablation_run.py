@@ -13,13 +13,14 @@ import multiprocessing
 from collections import deque
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import final
 
 from grafu.asset.json_files import finite, read_own_json
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, ExportError, FunctionalizationError, UnreadableAsset
 from grafu.export.whole_file import write_whole
 from grafu.processes.allocator import keep_freed_memory

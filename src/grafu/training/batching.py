@@ -5,7 +5,7 @@ The batches of a run are a function of its source, its config and the batch's nu
 
 from collections.abc import Generator, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -13,6 +13,7 @@ import torch
 
 from grafu.completion.name_codes import NAME_CODES
 from grafu.completion.visibility import VISIBILITY_NUMBERS, visibility_of
+from grafu.dataclass import dataclass
 from grafu.graph.arrays import NULL
 from grafu.network.batch import GraphBatch
 from grafu.training.config import TrainingConfig

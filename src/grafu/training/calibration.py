@@ -9,13 +9,13 @@ from copy import deepcopy
 from typing import NamedTuple
 
 import torch
-from jaxtyping import Bool, Float, Int64
 from torch import Tensor, nn
 from torch.nn import functional
 
 from grafu.graph.arrays import ALONG, HINGE, NONE, UNKNOWN
 from grafu.network.batch import Predictions
 from grafu.network.grafu import GraFu
+from grafu.shapes import Bool, Float, Int64
 from grafu.training.batching import TrainingBatch
 from grafu.training.criterion import Choices, hinge_targets, nests, of_moving, parents
 from grafu.training.loss_config import LossConfig

@@ -5,7 +5,7 @@ DIR/best.pt    the weights that did best in validation, their config and figures
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from pickle import UnpicklingError
 from typing import Any, TypeVar, final
@@ -16,6 +16,7 @@ from torch import Tensor
 from torch.optim.swa_utils import AveragedModel
 
 from grafu.asset.json_files import read_own_json
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, ExportError, UnreadableAsset
 from grafu.export.whole_file import whole_file
 from grafu.graph.arrays import EDGE_CODES

@@ -1,12 +1,13 @@
 """Everything that a training run is asked to do, and the runs that have names: `base`, `tune`, `paper`, ..."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from types import MappingProxyType
 from typing import Literal, final
 
 from grafu.completion.features import FeatureConfig
 from grafu.data.corruption.config import PAPER as PAPER_CORRUPTION
+from grafu.dataclass import dataclass
 from grafu.network.config import PAPER as PAPER_NETWORK
 from grafu.network.config import GraFuConfig
 from grafu.training.loss_config import PAPER as PAPER_LOSS

@@ -5,16 +5,16 @@ kinds of edges and exclusive choices (Per-pair Loss), of true hinges and rails t
 over marked entries, so that padding and what is unknown never count.
 """
 
-from dataclasses import dataclass
 from typing import NamedTuple, final
 
 import torch
-from jaxtyping import Bool, Float, Int64
 from torch import Tensor
 from torch.nn import functional
 
+from grafu.dataclass import dataclass
 from grafu.graph.arrays import ALONG, ATTACHED, DOOR, DRAWER, HANDLE, HINGE, NONE, NULL, UNKNOWN
 from grafu.network.batch import Predictions
+from grafu.shapes import Bool, Float, Int64
 from grafu.training.loss_config import BoxError, LossConfig
 from grafu.training.matcher import SlotTruth, match_slots, slot_truth
 from grafu.training.targets import TargetBatch

@@ -1,10 +1,11 @@
 """Where `base` departs from the paper, field by field, and the run that takes one departure back. It trains nothing."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final, final
 
+from grafu.dataclass import dataclass
 from grafu.training.config import BASE, PAPER, TrainingConfig
 
 _SIZES: Final = ("steps", "precision")

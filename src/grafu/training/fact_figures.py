@@ -1,14 +1,15 @@
 """How right the network is about the whole piece: what moves as one, what is drawn ajar, what it is."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import final
 
 import torch
-from jaxtyping import Bool, Float
 from torch import Tensor
 
+from grafu.dataclass import dataclass
 from grafu.graph.arrays import NONE
 from grafu.network.batch import Predictions
+from grafu.shapes import Bool, Float
 from grafu.training.criterion import of_moving
 from grafu.training.matcher import SlotTruth
 

@@ -8,7 +8,7 @@ DIR/train.csv, DIR/validation.csv, DIR/tensorboard/   see `grafu.training.logboo
 import json
 from collections.abc import Generator, Mapping
 from contextlib import closing
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 from pathlib import Path
 from time import monotonic
 from typing import final
@@ -16,6 +16,7 @@ from typing import final
 import torch
 from torch import Tensor, nn
 
+from grafu.dataclass import dataclass
 from grafu.errors import ExportError
 from grafu.export.whole_file import write_whole
 from grafu.network.grafu import GraFu

@@ -1,8 +1,9 @@
 """The weights and choices of the losses, with the paper's numbers (supplement, Loss Function). It computes nothing."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.graph.arrays import EDGE_CODES
 from grafu.visible import ShortRepr
 

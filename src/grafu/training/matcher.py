@@ -4,17 +4,17 @@ An input node's slot is pinned to the node that it is, unless the configuration 
 answers are then laid out by slot: what each slot, and each pair of slots, should have said.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 import torch
-from jaxtyping import Bool, Float, Float32, Int64
 from scipy.optimize import linear_sum_assignment
 from torch import Tensor
 
+from grafu.dataclass import dataclass
 from grafu.graph.arrays import NONE, NULL, UNKNOWN
 from grafu.network.batch import Predictions
+from grafu.shapes import Bool, Float, Float32, Int64
 from grafu.training.loss_config import ClassCost, LossConfig
 from grafu.training.targets import TargetBatch
 

@@ -11,13 +11,11 @@ was cut goes on with the very batches that it would have had.
 
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
 from functools import partial
 from itertools import count, islice
 from typing import Literal, final
 
 import numpy as np
-from jaxtyping import Float32, Float64, Int64
 
 from grafu.completion.features import FeatureConfig, graph_features, object_frame
 from grafu.completion.name_codes import name_codes
@@ -25,8 +23,10 @@ from grafu.data.corruption.config import CorruptionConfig
 from grafu.data.corruption.corrupt import fold, masked_pair
 from grafu.data.pair import GraphPair
 from grafu.data.stream import ordered_map
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import KindSet, graph_arrays
+from grafu.shapes import Float32, Float64, Int64
 from grafu.training.source import Source
 from grafu.training.targets import GraphTargets, graph_targets
 

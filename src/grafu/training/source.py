@@ -4,7 +4,6 @@ A source answers for every number 0, 1, 2, ... with one natural pair; the same n
 process. Synthetic furniture never repeats; a folder is gone through again and again, each time in another order.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Protocol, final, runtime_checkable
@@ -17,6 +16,7 @@ from grafu.data.pair import GraphPair, record_of, record_pair
 from grafu.data.shards import ShardReader
 from grafu.data.stream import shard_paths
 from grafu.data.write_plan import made_with
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, OptionError, UnreadableAsset
 from grafu.synth.generate import make_specimen
 

@@ -6,18 +6,19 @@ heap with those that it drops. With sizes in steps a few dozen are made once.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import final
 
 import numpy as np
 import torch
-from jaxtyping import Bool, Float32, Float64, Int64
 from torch import Tensor
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, freeze_arrays
 from grafu.graph.arrays import NONE, NULL, UNKNOWN, KindSet, graph_arrays
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.piece_facts import NOT_KNOWN, PieceFacts, fact_codes
+from grafu.shapes import Bool, Float32, Float64, Int64
 
 SLOT_STEP = 4  # graphs of a batch have so many nodes, or a multiple
 ROW_STEP = 64  # and their points as many rows

@@ -10,13 +10,13 @@ import signal
 import threading
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from types import FrameType
 from typing import final
 
 import torch
 from torch import Tensor, distributed, nn
 
+from grafu.dataclass import dataclass
 from grafu.processes.lifetime import END_REQUESTS
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)

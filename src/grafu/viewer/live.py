@@ -3,11 +3,11 @@
 The same tables and the same view as in `report.html`; what corrects a fault is a button that acts, not one that copies.
 """
 
-from dataclasses import dataclass
 from typing import Any, final
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.graph.completion import GraphCompletion
 from grafu.pipeline.report_schema import Report
 from grafu.pipeline.verdict import verdict_of

@@ -3,11 +3,11 @@
 A vertex is 8 bytes: three unsigned 16-bit fractions of the mesh's box and a normal as two signed bytes (octahedral).
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.export.shading import corner_normals
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Points, extremes, first_of_each

@@ -7,7 +7,6 @@ larger than a screen shows.
 import re
 from base64 import b64decode, b64encode
 from collections.abc import Sequence
-from dataclasses import dataclass
 from io import BytesIO
 from typing import final
 
@@ -18,6 +17,7 @@ from grafu.articulation.articulated_object import ArticulatedObject, Visual, Vis
 from grafu.asset.edit import as_static_object
 from grafu.asset.part import Asset
 from grafu.asset.scan_files import library_call
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Texture
 from grafu.geometry.budget import require_time
 from grafu.processes.limits import give_back_unused

@@ -4,12 +4,12 @@ It is one file without a network; its links lead to the models' own pages beside
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import final
 from urllib.parse import quote
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import median
 from grafu.viewer.pictures import MIME, THUMBNAIL, data_uri
 from grafu.viewer.run_table import LIGHTS, WORDS, Cell, Run, RunColumn, RunFigure, RunRow, RunTable

@@ -5,10 +5,10 @@ A run's table has one row per input, and the figures of all. It reads no files.
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final, Literal, final
 
 from grafu.articulation.motion_kind import motion_kind
+from grafu.dataclass import dataclass
 from grafu.pipeline.report_schema import Report, VerdictRecord
 from grafu.pipeline.verdict import verdict_of
 from grafu.pipeline.words import Colour, FaultKind, listed

@@ -6,12 +6,12 @@ scripts beside this module read it, docs/pages.md describes it.
 
 import zlib
 from base64 import b64encode
-from dataclasses import dataclass
 from typing import Any, final
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual
 from grafu.articulation.sweep import opening_stages
 from grafu.articulation.swing import Swing
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis

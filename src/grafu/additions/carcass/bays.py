@@ -4,13 +4,13 @@ All is measured in a view: x to the right as seen from the side to which the fro
 label is asked: a wall is what a ray to the side meets.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, Vec3, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.components import clustered

@@ -7,7 +7,7 @@ The room that boards have in a carcass, in a view: walls about a spot, what a bo
 """
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import final
 
@@ -19,6 +19,7 @@ from grafu.additions.carcass.missing_panels import MissingPanel, panels_missing
 from grafu.additions.closed_scene import ClosedScene, closed_scene
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Addition, added_part, free_ids
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Scalars, Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.cells import meeting, pieces_in

@@ -1,9 +1,9 @@
 """What counts as a carcass that lacks its back or bottom, and how the boards that close it are sized."""
 
-from dataclasses import dataclass
 from math import cos, radians
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.visible import ShortRepr
 

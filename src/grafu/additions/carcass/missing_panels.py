@@ -5,20 +5,20 @@ part of the height under them, between walls on both sides, is looked at. Whethe
 around pipes, say) cannot be known; it is reported all the same.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool
 
 from grafu.additions.carcass.bays import Bay, FrontsView, find_bays, find_views
 from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene, closed_scene
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.config_checks import at_scale
 from grafu.joints.plan import RealizationPlan
 from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.scene import Scene
+from grafu.shapes import Bool
 from grafu.vocabulary import PartLabel
 
 RAY_GRID = np.linspace(0.12, 0.88, 13)

@@ -1,8 +1,8 @@
 """What counts as solid behind a front, and the compartment that is cut into it."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.visible import ShortRepr
 

@@ -6,7 +6,7 @@ more until its rear.
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -16,6 +16,7 @@ from grafu.additions.carcass.config import CarcassConfig
 from grafu.additions.closed_scene import ClosedScene
 from grafu.additions.compartment.config import SolidBodyConfig
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Points, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh

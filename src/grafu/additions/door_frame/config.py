@@ -1,8 +1,8 @@
 """The frame that a door of a building gets where none is drawn."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.visible import ShortRepr
 

@@ -5,13 +5,13 @@ their outer faces, their height, their length.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.drawer_box.verdict import RAY_START, BoardName, BoxVerdict
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh

@@ -6,7 +6,7 @@ of the case, and none moves on its own.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -28,6 +28,7 @@ from grafu.additions.step import (
     added_part,
     free_ids,
 )
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.cells import pieces_in, spans_of
 from grafu.geometry.config_checks import at_scale

@@ -1,8 +1,8 @@
 """What counts as a drawer's box, and how the boards that are added are sized."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.visible import ShortRepr
 

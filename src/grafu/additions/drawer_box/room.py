@@ -5,13 +5,13 @@ the one that makes the best box is taken, then widened to what limits it exactly
 runners, a drawer below, a bar at the back are all triangles.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.additions.drawer_box.config import DrawerBoxConfig
 from grafu.additions.drawer_box.verdict import RAY_START
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Points, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.cells import Pieces, largest_rectangles, meeting, nearest_depths, pieces_in, spans_of

@@ -5,12 +5,13 @@ where rays meet it on its side of the drawer: the bottom from above, sides and b
 everywhere and lack nothing; flat trays and pull-out boards have no walls and want none.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, final
 
 import numpy as np
 
 from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import median, vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster

@@ -5,7 +5,7 @@ material of the front. Nothing is added outside the old part, so that every moti
 """
 
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -16,6 +16,7 @@ from grafu.additions.grip.place import levelled, spots
 from grafu.additions.grip.shape import GripCut, cutters, grip_frame, lining, tilted, union
 from grafu.additions.likeness import surface_like
 from grafu.asset.part import Part, PartSource
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import ArrayValue, Points, Vec3, freeze_arrays
 from grafu.geometry.bodywork import CutOut, cut_out

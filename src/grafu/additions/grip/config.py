@@ -1,9 +1,10 @@
 """Sizes of recessed grips. Lengths are metres, made for hands, and capped by fractions of the front."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.visible import ShortRepr
 

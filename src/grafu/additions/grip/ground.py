@@ -1,23 +1,24 @@
 """What a front is made of at a spot, by lines straight into it: how thick, how even, and what stands around it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.additions.grip.config import GroundConfig
 from grafu.additions.grip.shape import GripFrame
 from grafu.additions.likeness import OPAQUE_ALPHA
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mask, Scalars, freeze_arrays
 from grafu.geometry.bodywork import Bodywork
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, mesh_near, triangle_bounds
 from grafu.geometry.raycast import Crossings, line_crossings
 from grafu.scene.scene import Scene
+from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 ASIDE = 1e-4 * np.sqrt(2.0)

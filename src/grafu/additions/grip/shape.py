@@ -7,19 +7,20 @@ the object frame. It is a `grafu.scene.front.Front`, turned. A door is gripped o
 edge, a sliding door at the edge that trails when it opens.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.additions.grip.config import GripConfig, GripKind, GripProfile, GripSize, GripSizes
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
 from grafu.scene.front import Front
+from grafu.shapes import Float
 
 
 @final

@@ -1,9 +1,9 @@
 """The sizes and places of handles. Lengths are metres on furniture of a common size (`grafu.scene.scene`)."""
 
-from dataclasses import dataclass
 from typing import Literal, final, get_args
 
 from grafu.additions.grip.config import GripProfile
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.visible import ShortRepr
 

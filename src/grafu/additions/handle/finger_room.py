@@ -3,15 +3,15 @@
 It measures on the relief of a front and decides nothing about the front as a whole.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
 from grafu.additions.handle.grasp_config import FingerRoomConfig, GraspConfig
 from grafu.additions.handle.relief import Grid, Relief
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mask, Points, Vec3, vec3
+from grafu.shapes import Bool, Float, Int
 
 Cells = Bool[np.ndarray, "n m"]
 Step = tuple[int, int]

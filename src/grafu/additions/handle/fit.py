@@ -6,7 +6,7 @@ Whether a new handle stays clear of everything: along the path of its moving bod
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import final
 
@@ -17,6 +17,7 @@ from grafu.additions.handle.relief import Relief
 from grafu.additions.handle.spots import Spot
 from grafu.additions.likeness import OPAQUE_ALPHA
 from grafu.articulation.kinematics import all_before
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import Box

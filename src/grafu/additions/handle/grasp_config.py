@@ -1,8 +1,8 @@
 """What counts as room for fingers, and as a grip. Lengths are metres on furniture of a common size (`scene.scale`)."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_at_most_one, require_positive, require_ratios
 from grafu.visible import ShortRepr
 

@@ -6,11 +6,9 @@ Cells that lie together on a relief, and their extents.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Literal, final
 
 import numpy as np
-from jaxtyping import Int
 
 from grafu.additions.handle.finger_room import (
     STEPS,
@@ -24,8 +22,10 @@ from grafu.additions.handle.finger_room import (
 )
 from grafu.additions.handle.grasp_config import GraspConfig, GripConfidences
 from grafu.additions.handle.relief import Relief
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Indices, Vec3, freeze_arrays, median
 from grafu.scene.front import Side
+from grafu.shapes import Int
 
 CellRows = Int[np.ndarray, "k 2"]
 

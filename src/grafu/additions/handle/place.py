@@ -4,7 +4,6 @@ A handle that finds no place is refused with a reason; nothing that can be grasp
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import final
 
 from grafu.additions.handle.config import HandleConfig
@@ -15,6 +14,7 @@ from grafu.additions.handle.spots import Extent, Spot, spots_on
 from grafu.additions.handle.style import HandleStyle, Sibling, choose_style, named_template, siblings_of
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Addition, Grasp, added_part, free_ids
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.mesh import TriangleMesh

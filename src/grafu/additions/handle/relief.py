@@ -5,21 +5,21 @@ hardware and the floor belong to the surroundings.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.additions.handle.grasp_config import ReliefConfig
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.scene.front import Front, body_members, front_of
 from grafu.scene.scene import Scene
+from grafu.shapes import Float
 
 Grid = Float[np.ndarray, "n m"]
 

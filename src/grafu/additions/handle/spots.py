@@ -4,7 +4,6 @@ It casts no rays.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.relief import Relief
 from grafu.additions.handle.style import Sibling
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.scene.front import Side
 

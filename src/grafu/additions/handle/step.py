@@ -4,7 +4,7 @@ A front that cannot be grasped gets a handle, and where none fits a grip. It dec
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import final
 
 from grafu.additions.grip.carve import Carved, carve_grip
@@ -15,6 +15,7 @@ from grafu.additions.handle.grasp_config import GraspConfig
 from grafu.additions.handle.place import add_handles, bodies_without
 from grafu.additions.handle.relief import Reliefs
 from grafu.additions.step import Changes, Grasp, StepRequest, StepResult
+from grafu.dataclass import dataclass
 from grafu.joints.plan import MotionRole
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.scene.scene import Scene

@@ -1,11 +1,11 @@
 """Which handle a model gets: like the others that it has, or a named or default template. It places nothing."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import final
 
 from grafu.additions.handle.config import HandleConfig
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import median
 from grafu.geometry.box import Box

@@ -6,7 +6,6 @@ Shelves and dividers that the completed graph expects, each brought into the com
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import final
 
@@ -15,6 +14,7 @@ import numpy as np
 from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.step import PanelHint
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.refusal import Asked, Reason, Refusal
 from grafu.vocabulary import PartLabel

@@ -5,7 +5,7 @@ none.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -14,6 +14,7 @@ from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.faces import Face, FaceFinder
 from grafu.additions.interior.occupied import Taken, taken_cells
 from grafu.additions.interior.rooms import FRONTS, LID, find_rooms, inside_cells_of, odd_rooms
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.free_space import Grid
 from grafu.scene.scene import Scene

@@ -3,9 +3,9 @@
 Lengths are metres on furniture of usual size; a model in another scale gets panels in its own (`grafu.scene.scene`).
 """
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.joints.config import RealizationConfig
 from grafu.scene.scale import metre_on

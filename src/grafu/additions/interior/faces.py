@@ -3,13 +3,13 @@
 It decides nothing: what makes such a box a compartment is asked elsewhere.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.additions.interior.config import RoomConfig
 from grafu.additions.interior.occupied import is_drawer
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import mesh_near

@@ -4,7 +4,7 @@ A panel that finds no place is refused with the reason; what stands is never cha
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import radians, tan
 from typing import final
 
@@ -26,6 +26,7 @@ from grafu.additions.interior.panels import WallRays, clearing_of
 from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, InteriorKind, InteriorRequest
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import Addition, PanelHint, added_part, free_ids
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.raycast import RayCaster
 from grafu.refusal import Asked, Reason, Refusal

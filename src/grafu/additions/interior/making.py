@@ -4,7 +4,7 @@ Each is tried near its place until it stands free of all that is there and moves
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -14,6 +14,7 @@ from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.outline import FreeSpace
 from grafu.additions.interior.panels import Clearing, PanelPlace, WallRays, cut_panel, moved_to
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.refusal import Asked, Reason, Refusal

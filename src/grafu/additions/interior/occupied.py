@@ -4,21 +4,21 @@ Doors take only the place where they hang closed: that they swing free is checke
 whole travel, its rails, and all behind it, which can be reached only through it.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float
 
 from grafu.additions.interior.config import RoomConfig, Sizes
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays, median
 from grafu.geometry.box import Box
 from grafu.geometry.free_space import Grid, cells_met, points_on
 from grafu.geometry.mesh import TriangleMesh
 from grafu.scene.scene import MovingBody, Scene
+from grafu.shapes import Bool, Float
 from grafu.vocabulary import PartLabel
 
 POINT_SPACING = 0.9

@@ -5,13 +5,11 @@ before what moves. Where nothing ends it, it is open, and a panel stays behind t
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
 import shapely
-from jaxtyping import Bool, Float
 from shapely.geometry import Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
@@ -19,11 +17,13 @@ from grafu.additions.interior.compartments import Compartment, inside_cells
 from grafu.additions.interior.config import InteriorConfig, Sizes
 from grafu.additions.interior.panels import PanelPlace
 from grafu.additions.top.section import offset, polygons_in, section, slab_mesh, without_slivers
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.free_space import Grid, cell_boxes
 from grafu.geometry.mesh import TriangleMesh
 from grafu.refusal import Reason, Refusal
 from grafu.scene.scene import Scene
+from grafu.shapes import Bool, Float
 from grafu.vocabulary import PartLabel
 
 REGION_CELLS = 2.5

@@ -5,7 +5,7 @@ A panel is a prism. Its ends follow walls that are straight, also where they run
 Whether a panel stands free: at rest of all parts and hardware, and of everything that moves along its whole path.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import final
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from grafu.additions.interior.compartments import Compartment
 from grafu.additions.interior.config import InteriorConfig, Sizes
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.free_space import SomePoints

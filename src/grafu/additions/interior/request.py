@@ -6,10 +6,11 @@ trays on a post instead.
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
 from typing import final
+
+from grafu.dataclass import dataclass
 
 MOST_PANELS = 20
 """Most panels of one kind in one compartment; more is a typing error."""

@@ -11,13 +11,14 @@ needs. So the space under a table is not inside (no floor, no door), nor that be
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple, final
 
 import numpy as np
 
 from grafu.additions.interior.config import RoomConfig, Sizes
 from grafu.additions.interior.occupied import Taken
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.free_space import Bounds, Grid, OneBox, cell_boxes, maximal_empty_boxes, without
 

@@ -5,7 +5,7 @@ axes, or not at all.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import final
 
 from grafu.additions.interior.compartments import Compartment, find_compartments
@@ -15,6 +15,7 @@ from grafu.additions.interior.request import NO_CHOICES, CompartmentChoice, Inte
 from grafu.additions.step import PanelHint, StepRequest, StepResult
 from grafu.articulation.articulated_object import Visual
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import heading_of

@@ -4,7 +4,7 @@ It asks no network; a predicted top's box may settle a close call. It changes no
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import shapely
@@ -49,6 +49,7 @@ from grafu.additions.top.section import (
 from grafu.additions.top.sloping import rim_and_slab
 from grafu.additions.top.views import Views, outer_body, views_of
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.plan import JointRequest

@@ -1,10 +1,10 @@
 """When furniture counts as topless, and the slab that it is given. Lengths are metres on furniture of usual size."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import Literal, final
 
 from grafu.additions.top.slope_config import SLOPE, SlopeConfig
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.visible import ShortRepr
 

@@ -6,17 +6,17 @@ that enclose the cell, on all four sides, or on three where the front is open. W
 that nothing else joins is open too. Nothing here knows of labels.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.additions.top.config import OpeningConfig, TopConfig
 from grafu.additions.top.height_map import CellMask, Grid, Heights, islands, without_narrow
 from grafu.additions.top.supports import levels_of, spanned_at
 from grafu.additions.top.views import Views
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, frozen_array, median
+from grafu.shapes import Float
 
 Opening = tuple[float, CellMask]
 """The height of a rim, metres, and the cells that one looks into past it."""

@@ -3,7 +3,6 @@
 It knows how moving bodies move, not how their joints will be built: those come later and respect the slab.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -13,6 +12,7 @@ from shapely.geometry.base import BaseGeometry
 from grafu.additions.top.config import CutoutConfig, TopConfig
 from grafu.additions.top.roles import Closed
 from grafu.additions.top.section import EMPTY, offset, polygons_in, section_lines
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec2
 from grafu.geometry.transform import transform_points
 

@@ -1,14 +1,14 @@
 """How high furniture reaches above each cell of the floor, from triangles alone. It judges nothing."""
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Indices, Scalars, Vec2, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.components import linked
+from grafu.shapes import Bool, Float, Int
 
 Heights = Float[np.ndarray, "x y"]
 """The highest surface above each cell, metres; minus infinity where there is none."""

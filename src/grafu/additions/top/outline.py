@@ -4,12 +4,11 @@ Rectangles stay rectangles, L-shaped, cut-off and bowed outlines keep their shap
 through the top (backs, posts, towers, a basin's rim) is left out of it.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 import shapely
-from jaxtyping import Float
 from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
@@ -29,8 +28,10 @@ from grafu.additions.top.section import (
 )
 from grafu.additions.top.views import Views
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 
 ALONG_AXES = 1.02
 """Area of the rectangle along the axes, over that of the smallest one, up to which it is taken instead (ratio)."""

@@ -4,19 +4,19 @@ It asks the plan, and the labels where the plan is silent.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.additions.closed_scene import closed_part
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.plan import JointRequest
 from grafu.scene.scale import floor_under
+from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 COVERING_LABELS = (PartLabel.TOP_PANEL, PartLabel.SHELF)  # these cover whatever moves them

@@ -11,13 +11,13 @@ from collections.abc import Iterable
 import manifold3d
 import numpy as np
 import shapely
-from jaxtyping import Float
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import orient
 
 from grafu.additions.top.config import TopShape
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 
 Segments = Float[np.ndarray, "k 2 2"]
 Fewer = Float[np.ndarray, "f 2 2"]

@@ -3,13 +3,11 @@
 What leans and moves, such as the flap of a secretaire, closes such a rim itself. So does any board in the plane.
 """
 
-from dataclasses import dataclass
 from math import cos, degrees
 from typing import final
 
 import numpy as np
 import shapely
-from jaxtyping import Float
 from shapely.geometry import Polygon
 
 from grafu.additions.top.config import TopConfig
@@ -17,10 +15,12 @@ from grafu.additions.top.outline import overhanging
 from grafu.additions.top.roles import Roles, triangles_of
 from grafu.additions.top.section import polygons_in, section, slab_mesh, with_corners
 from grafu.additions.top.slope_config import SlopeConfig
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.shapes import Float
 
 TOUCH = 1e-5
 """Depth to which a top may touch what moves, metres on furniture of usual size."""

@@ -6,7 +6,7 @@ top panels and are static are taken away.
 """
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 from grafu.additions.step import Changes, Deficiency, DeficiencyKind, StepRequest, StepResult, free_ids
@@ -15,6 +15,7 @@ from grafu.additions.top.config import TopConfig
 from grafu.asset.languages import word_set
 from grafu.asset.names import singular, spoken
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.joints.plan import JointRequest, MotionRole
 from grafu.refusal import OF_GUESSES, Asked, Reason, Refusal

@@ -5,7 +5,6 @@ stand around most of its footprint with nothing of about their height between th
 joints are not read: two pieces of one height may have lain under one top, or may be built so.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -16,6 +15,7 @@ from shapely.geometry.base import BaseGeometry
 from grafu.additions.top.config import SupportConfig, TopConfig
 from grafu.additions.top.height_map import CellMask, Grid, grown, islands, without_narrow
 from grafu.additions.top.views import Views
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import median
 
 ALONG_AXES = 1.05

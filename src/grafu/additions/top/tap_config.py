@@ -1,8 +1,8 @@
 """The thresholds by which a wash basin with a tap is known, each with its unit. It decides nothing."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive, require_ratios
 
 

@@ -7,18 +7,19 @@ face is seen as far as three of its four points are (its middle and half way to 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Float
 
 from grafu.additions.top.config import TopConfig
 from grafu.additions.top.height_map import CellMask, Grid, Heights, grown, heights_of
 from grafu.additions.top.roles import Roles, triangles_of
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
+from grafu.shapes import Bool, Float
 from grafu.vocabulary import PartLabel
 
 VIEW_CELLS = 96

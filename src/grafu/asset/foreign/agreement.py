@@ -3,22 +3,22 @@
 Bodies are compared, not parts: what a prediction moves as one, and all that it leaves still. It chooses no frame.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from grafu.asset.foreign.motions import ForeignMotions, ForeignPart
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, Points, Scalars
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.transform import invert, scale_of, transform_points
+from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 Boxes = Float[np.ndarray, "_ 2 3"]  # low and high corners

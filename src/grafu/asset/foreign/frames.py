@@ -4,7 +4,6 @@ Likelier ones come first. It weighs nothing: `grafu.asset.foreign.agreement` doe
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import permutations, product
 from typing import final
 
@@ -13,6 +12,7 @@ import numpy as np
 from grafu.asset.foreign.motions import ForeignMotions
 from grafu.asset.foreign.particulate import UP_ROTATIONS
 from grafu.asset.part import Frame
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, frozen_array
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.transform import from_rotation, is_mirror, rotation_matrix, scale_of

@@ -7,7 +7,7 @@ little odd, and so is what comes out behind. It mends no joint.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -17,6 +17,7 @@ from grafu.asset.foreign.agreement import Agreement, AgreementConfig, Comparison
 from grafu.asset.foreign.frames import FrameGuess, drawn_together, fitted_frames, known_frames, tilted_frames
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, JointFrame
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis

@@ -4,12 +4,12 @@ It reads no files and matches nothing: an asset's own parts come in with `grafu.
 """
 
 from collections.abc import Set
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, Protocol, final, runtime_checkable
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError
 from grafu.geometry.arrays import ArrayValue, Mat4, frozen_array
 from grafu.geometry.axis import Axis

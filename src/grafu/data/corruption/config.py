@@ -1,8 +1,10 @@
 """How inputs are corrupted: which strategies how often, and by how much. It corrupts nothing itself."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, final, get_args
+
+from grafu.dataclass import dataclass
 
 StrategyName = Literal[
     "drop_handles",

@@ -4,7 +4,7 @@ The two graphs of one model become one pair: they say which nodes are the same p
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -17,6 +17,7 @@ from grafu.data.furfun.layout import FurFunLayout, find_layout
 from grafu.data.furfun.points import PointFolder
 from grafu.data.furfun.split import Split, read_split, split_models
 from grafu.data.pair import NATURAL, GraphPair
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, GraphError
 from grafu.graph.edges import Contact, Edge, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, is_allowed

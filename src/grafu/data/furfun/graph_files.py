@@ -1,13 +1,14 @@
 """One graph file of a release to one graph with points, and what its JSON states beyond it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import final
 
 from grafu.asset.options import Limits
 from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.points import PointFolder
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError, UnreadableAsset
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.graph.json_values import Json

@@ -10,12 +10,12 @@ where it is the only one.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, final
 
 from grafu.asset.regular_files import is_within
+from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 
 LayoutKind = Literal["furfun", "pnm_clean", "hssd_test"]

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.asset.options import Limits, Tally
 from grafu.asset.resources import ModelFiles
@@ -19,6 +18,7 @@ from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import PointCloud, sample_surface
+from grafu.shapes import Float
 
 
 def read_ply(data: bytes, where: str, tally: Tally | None = None) -> TriangleMesh | Points:

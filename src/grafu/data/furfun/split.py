@@ -4,7 +4,6 @@ And the split files of a release, in and out.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from hashlib import blake2b
 from pathlib import Path
 from typing import Literal, final
@@ -13,6 +12,7 @@ import numpy as np
 
 from grafu.asset.regular_files import is_within
 from grafu.data.furfun.graph_files import load_graph_json
+from grafu.dataclass import dataclass
 from grafu.errors import AssetError, GraphError
 from grafu.graph.json_values import Json, read_list
 from grafu.graph.serialize import dump_json

@@ -1,9 +1,10 @@
 """Requests to a language model, its replies, and what they used up, as values. Nothing is sent here."""
 
 import json
-from dataclasses import dataclass
 from hashlib import sha256
 from typing import Any, Literal, final
+
+from grafu.dataclass import dataclass
 
 
 @final

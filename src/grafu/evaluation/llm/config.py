@@ -1,11 +1,11 @@
 """How a language model is asked: what it is given, how long it may take, how often it is asked again, what it costs."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Final, final
 
 from pydantic import ConfigDict
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_not_negative, require_positive
 
 EXAMPLES_SEED: Final = 20_260_727

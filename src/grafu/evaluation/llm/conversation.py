@@ -1,9 +1,9 @@
 """A question to a language model until its reply can be used, or it has had its chances."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final, Generic, TypeVar, final
 
+from grafu.dataclass import dataclass
 from grafu.errors import FunctionalizationError
 from grafu.evaluation.llm.chat import Message, Usage, usage_of
 from grafu.evaluation.llm.recording import Ask, Unanswered

@@ -6,7 +6,7 @@ not move, and nothing is added that no edit asks for.
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import radians
 from typing import Annotated, Final, Literal, final
 
@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from grafu.additions.config import AdditionConfig
 from grafu.additions.interior.request import NOTHING
 from grafu.additions.statics import Statics
+from grafu.dataclass import dataclass
 from grafu.errors import ReplyError, did_you_mean
 from grafu.evaluation.llm.reply_json import first_fault, object_in_reply
 from grafu.joints.motion_choice import FIXED, MotionChoice, Moves, Side

@@ -7,11 +7,12 @@ kept: also where an endpoint repeats them in its reply.
 import os
 from base64 import b64encode
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from importlib.util import find_spec
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, Final, final
 
+from grafu.dataclass import dataclass
 from grafu.errors import NotRun
 from grafu.evaluation.llm.chat import ChatRequest, Message, Reply
 

@@ -4,13 +4,14 @@ It is strict: a reply that names an unknown part or breaks a rule of functional 
 count for its edges alone, as in other predicted graphs: parts are added by our own steps.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Annotated, Any, Literal, final
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart
+from grafu.dataclass import dataclass
 from grafu.errors import GraphError, ReplyError, did_you_mean
 from grafu.evaluation.llm.graph_text import numbered
 from grafu.evaluation.llm.reply_json import first_fault, object_in_reply

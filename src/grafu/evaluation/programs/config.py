@@ -1,12 +1,13 @@
 """How an installed copy of another system is run on one model: its command line, its time, what it writes."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from string import Formatter
 from typing import ClassVar, Final, Literal, final
 
 from pydantic import ConfigDict
 
+from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 
 WORDS: Final = ("mesh", "picture", "out", "id")

@@ -6,7 +6,7 @@ handle is one mesh whose back is at z = 0, so that it is dropped onto a front up
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, final
 from uuid import NAMESPACE_URL, uuid5
@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject
+from grafu.dataclass import dataclass
 from grafu.export.blend.layout import ID, KIND
 from grafu.export.blend.objects import build_object, names_set_aside, remove_object
 from grafu.export.whole_file import whole_file, write_whole

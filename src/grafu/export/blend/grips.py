@@ -3,12 +3,12 @@
 Points are in the frame of the joint's empty: the axis is +Z through the origin, metres; borders in that of its link.
 """
 
-from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
 from grafu.articulation.motion_kind import motion_kind
+from grafu.dataclass import dataclass
 from grafu.export.blend.layout import CHILD, ID, KIND, LOWER, OPEN, TYPE, UPPER, Kind
 from grafu.export.blend.marks import marks_of
 from grafu.geometry.arrays import Vec3, vec3

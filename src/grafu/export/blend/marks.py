@@ -4,13 +4,13 @@ They are drawn in the frame of the joint's empty: the axis is +Z through the ori
 Blender they are read off its empty and what hangs on it.
 """
 
-from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import JointLimits
 from grafu.articulation.motion_kind import motion_kind
+from grafu.dataclass import dataclass
 from grafu.export.blend.layout import KIND, LOWER, OPEN, TYPE, UPPER, Kind
 from grafu.geometry.box import Box
 from grafu.vocabulary import JointType

@@ -5,18 +5,18 @@ in the other's shadow: here they are one face, of a material that shows from bot
 corners get corners of their own, for Blender refuses two faces that share all.
 """
 
-from dataclasses import dataclass
 from functools import partial
 from typing import final
 
 import numpy as np
-from jaxtyping import Float, Int
 
 from grafu.articulation.articulated_object import Visual
+from grafu.dataclass import dataclass
 from grafu.export.shading import CREASE_ANGLE, corner_normals
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.components import welded
+from grafu.shapes import Float, Int
 
 
 @final

@@ -5,7 +5,7 @@ It works in any scene, beside whatever is there. It reads and writes no files.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any, final
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
 from grafu.articulation.kinematics import link_origins
+from grafu.dataclass import dataclass
 from grafu.export.blend.joints import (
     couple_joint,
     describe_joint,

@@ -1,9 +1,10 @@
 """What goes into a USD file. It imports nothing of OpenUSD."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import final
 
 from grafu.articulation.physics import PhysicsConfig
+from grafu.dataclass import dataclass
 from grafu.export.shading import CREASE_ANGLE
 
 

@@ -4,14 +4,14 @@ The path that must become free, and what stands in it.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias, final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Points, Scalars, Vec3
 from grafu.geometry.box import Box
@@ -27,6 +27,7 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import PoseFunction, SweepVerdict, in_the_way, opening_values, sweep, swept_box
 from grafu.joints.report import Clearance
 from grafu.scene.scene import Scene
+from grafu.shapes import Float
 
 
 @final

@@ -5,12 +5,13 @@ What lies beyond the opening of the frame looks like a part of it, so it stays t
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.halves import half_of

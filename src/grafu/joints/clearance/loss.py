@@ -1,13 +1,13 @@
 """How much of a part goes when solids are cut out of it: of what is seen of it, and of its volume."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import final
 
 import manifold3d
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Scalars
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import connected_parts

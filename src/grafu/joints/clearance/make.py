@@ -5,13 +5,14 @@ clearance is shrunk; a static part that intrudes into the path is carved. A step
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.transform import from_rotation
 from grafu.joints.clearance.behind import narrow_behind

@@ -4,12 +4,13 @@ The edge of a leaf that is far from its pin moves a little towards the other lea
 square of its thickness over twice its width.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.components import faces_of_parts, part_numbers

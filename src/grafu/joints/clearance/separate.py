@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Bool
 
 from grafu.asset.loose import faces_of_part
 from grafu.asset.part import Part
@@ -22,6 +21,7 @@ from grafu.joints.clearance.carve import Path, box_in
 from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
 from grafu.scene.scene import Scene
+from grafu.shapes import Bool
 from grafu.vocabulary import PartLabel
 
 _FaceMask = Bool[np.ndarray, " n"]

@@ -5,13 +5,13 @@ piece, the two are pressed back apart from each other.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
-from jaxtyping import Bool, Int
 
 from grafu.asset.part import Part
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Points, Scalars
 from grafu.geometry.box import Box
@@ -23,6 +23,7 @@ from grafu.joints.clearance.carve import Path, box_in
 from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
 from grafu.scene.scene import Scene
+from grafu.shapes import Bool, Int
 
 _FIRST_STEP = 0.02  # of an opening: where a door has left what it closes
 _ON_BACK = 1e-4  # metres: how near the back of a front a vertex lies on it

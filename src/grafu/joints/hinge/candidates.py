@@ -9,7 +9,6 @@ It builds; whether the hardware is in anything's way is judged by `place`.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from math import ceil, pi
 from typing import final
@@ -17,6 +16,7 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.bvh import share_shape

@@ -6,7 +6,7 @@ there are no such hinges.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
@@ -14,6 +14,7 @@ import numpy as np
 from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.articulation.slip import Slip
 from grafu.articulation.swing import Swing
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.intersection import SweptBody

@@ -1,8 +1,8 @@
 """A pin, with what a sweep of its door states about it."""
 
-from dataclasses import dataclass
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.joints.hinge.candidates import PinCandidate
 

@@ -6,10 +6,11 @@ way is left out as long as something else holds the door; the placement notes it
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache, partial
 from typing import final
 
+from grafu.dataclass import dataclass
 from grafu.joints.hinge.bracket import bracketed_ends
 from grafu.joints.hinge.candidates import (
     PIVOTS,

@@ -1,13 +1,14 @@
 """One door's search: its pins, and what a sweep of the door without hardware states about each. It installs nothing."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import pi
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import SweptBody

@@ -3,11 +3,11 @@
 All figures are in the border frame (see `border`), metres; infinity where nothing is met. It chooses nothing.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Scalars, median
 from grafu.geometry.raycast import RayCaster, robust_median
 from grafu.joints.hinge_config import SurveyConfig

@@ -6,11 +6,11 @@ sliding door is framed alike, but lying: X up, so that its flanks are its lower 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh

@@ -10,12 +10,13 @@ chosen.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.articulated_object import Visual, VisualRole
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider, SweptBody

@@ -1,11 +1,11 @@
 """One drawer's search: its frame and body, what it may hit, and how far it is wanted to open. It installs nothing."""
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

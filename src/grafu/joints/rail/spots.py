@@ -4,11 +4,11 @@ Rails are described on the left side (-x) of the drawer frame; the right one is 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.raycast import RayCaster
 from grafu.joints.rail.body_region import BodyRegion, DrawerFrame
 from grafu.joints.rail_config import BehindConfig, FlankConfig, RailConfig

@@ -1,13 +1,14 @@
 """Dishwashers, ovens and microwave ovens, with what moves in them and on them, and its true motion."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 from typing import Literal, final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Slide

@@ -1,18 +1,19 @@
 """Washing machines and tumble dryers: a box with a round door before a drum, knobs and buttons, perhaps a drawer."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi, radians
 from typing import Literal, final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.graph.edges import Hinge, Rail
+from grafu.shapes import Float
 from grafu.synth.appliances.appliance import turn_of
 from grafu.synth.appliances.body import dial, hollow
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, assemble, plank, solid

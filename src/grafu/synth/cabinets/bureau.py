@@ -1,13 +1,13 @@
 """Bureaus: a cabinet with a writing room above, behind a flap that leans back and falls open to a level board."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import atan2, hypot, pi, sin
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces

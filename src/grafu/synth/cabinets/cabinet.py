@@ -1,11 +1,12 @@
 """Cabinets of every kind from one spec: a case, a layout of its front, and how the fronts are mounted."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.case.carcass import case_pieces

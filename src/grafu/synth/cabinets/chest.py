@@ -1,11 +1,12 @@
 """Chests: a box whose lid turns about its back edge, over its rim or within it, drawers below where there are any."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import radians
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

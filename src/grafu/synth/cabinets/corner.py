@@ -4,11 +4,12 @@ An angled door is turned about Z by any angle; L-shaped cabinets have a door in 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation, rotation_matrix

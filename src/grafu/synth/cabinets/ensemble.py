@@ -1,11 +1,11 @@
 """Several cabinets as one piece: a hutch on a base, kitchen units side by side, bridges over a gap."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import pi
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces

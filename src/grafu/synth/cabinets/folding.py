@@ -5,13 +5,14 @@ folding leaves in their layouts (`fronts.gliding`).
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi, radians
 from typing import Literal, final
 
 from grafu.articulation.articulated_object import Coupling
 from grafu.asset.edit import centred
 from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box

@@ -1,10 +1,10 @@
 """Racks: open uprights with shelves on brackets, over a cabinet that hangs or stands between them."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Literal, final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import vec3
 from grafu.geometry.transform import translation

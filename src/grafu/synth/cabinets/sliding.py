@@ -4,12 +4,12 @@ They are specimens for tests; families have sliding doors in their layouts (`fro
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Literal, final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Slide

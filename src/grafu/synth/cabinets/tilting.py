@@ -4,11 +4,12 @@ They are specimens for tests; the generator's own shoe cabinets have their bins 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import radians
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.hold import Hold

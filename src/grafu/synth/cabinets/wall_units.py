@@ -3,10 +3,11 @@
 Their joints are not stated: a test states how they move.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.synth.cabinets.cabinet import Cabinet, cabinet_pieces
 from grafu.synth.case.case import Case

@@ -1,9 +1,10 @@
 """Base units with bins behind a door at the side, on runners or on the floor of the unit: specimens for tests."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Slide

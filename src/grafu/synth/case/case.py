@@ -1,8 +1,8 @@
 """The still part of a cabinet as a value: outer sizes, construction, the opening that is left."""
 
-from dataclasses import dataclass
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.synth.case.construction import (
     PANELS,
     PLAIN_BOTTOM,

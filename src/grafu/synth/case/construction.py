@@ -3,9 +3,9 @@
 Lengths are metres. A size of 0 means "as thick as the case's panels" where it states it.
 """
 
-from dataclasses import dataclass
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.synth.case.legs import Leg
 
 BaseKind = Literal["none", "plinth", "toe kick", "legs", "posts", "sled"]

@@ -1,11 +1,11 @@
 """Legs and feet: square, tapered, round, turned, splayed, hairpin, cabriole, on casters."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sweep import loft

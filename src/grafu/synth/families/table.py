@@ -8,12 +8,12 @@ seen: appliances are one in twenty, doors and windows of buildings one in thirty
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.synth.appliances.appliance import Appliance, make_appliance
 from grafu.synth.appliances.washing_machine import WashingMachine, make_washing_machine
 from grafu.synth.cabinets.bureau import Bureau, make_bureau

@@ -1,9 +1,9 @@
 """Fronts that slide, fold, rise or pull out, and bins: what fills an opening, as values. They build no geometry."""
 
-from dataclasses import dataclass
 from math import radians
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.synth.fronts.hold import EMPTY, USUAL, Grip, HandleStyle, Hold, Inside
 from grafu.synth.fronts.leaf_style import CURVED, LeafStyle, Side, check_grip
 

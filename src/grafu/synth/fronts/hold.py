@@ -7,8 +7,9 @@ lying bar in the middle of the top edge, which states nothing about the hinge.
 What lies inside an opening besides fronts: how shelves lie, dividers, rods, baskets, runners.
 """
 
-from dataclasses import dataclass
 from typing import Literal, final
+
+from grafu.dataclass import dataclass
 
 ShelfKind = Literal["full", "short", "glass"]
 BasketKind = Literal["none", "wire", "rack"]

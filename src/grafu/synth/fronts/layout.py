@@ -5,11 +5,11 @@ All rectangles lie in the front's plane: x to the right, z up, metres.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import Enum
 from math import radians
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.synth.fronts.gliding import Folding, Lift, PullOut, Sliding, WasteBins
 from grafu.synth.fronts.hold import EMPTY, USUAL, Grip, HandleStyle, Hold, Inside
 from grafu.synth.fronts.leaf_style import CURVED as CURVED

@@ -4,18 +4,18 @@ What a door leaf or drawer front is: a style in an outline at a place.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from math import atan
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sweep import sheet
+from grafu.shapes import Float
 from grafu.synth.fronts.hold import Grip
 from grafu.synth.fronts.layout import LeafStyle, Rect, Side
 

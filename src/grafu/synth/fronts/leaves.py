@@ -11,13 +11,13 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from jaxtyping import Float
 from shapely.geometry import Polygon
 
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 from grafu.synth.fronts.layout import Rect
 from grafu.synth.fronts.leaf_relief import LeafShape, relief_of
 from grafu.synth.pieces.finish import Finish, surface_of

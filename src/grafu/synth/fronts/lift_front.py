@@ -1,12 +1,12 @@
 """Flaps that arms lift upright, with their true motions: arms that turn on the case, a flap that turns back on them."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import atan2, cos, radians, sin
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh

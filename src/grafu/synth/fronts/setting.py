@@ -1,8 +1,8 @@
 """Where fronts sit: their plane, and how far they reach over what surrounds their opening."""
 
-from dataclasses import dataclass
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.synth.fronts.layout import Cell, Edge, Rect, Side
 from grafu.synth.pieces.finish import PLAIN, Finish
 

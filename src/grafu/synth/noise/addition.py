@@ -4,13 +4,13 @@ Runners are bars in the gaps beside drawers' boxes, some with a slider on the dr
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh

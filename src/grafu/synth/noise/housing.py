@@ -9,10 +9,10 @@ from dataclasses import replace
 from typing import Final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.asset.part import Asset, Part
 from grafu.geometry.transform import from_rotation
+from grafu.shapes import Float
 from grafu.synth.noise.segmentation import is_board
 from grafu.synth.pieces.riding import busy_in
 from grafu.synth.sampling.chance import between, chance

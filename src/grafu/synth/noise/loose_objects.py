@@ -11,7 +11,6 @@ from dataclasses import replace
 from typing import Final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset, Part, PartSource
@@ -20,6 +19,7 @@ from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.transform import transform_points
+from grafu.shapes import Float
 from grafu.synth.noise.addition import LooseObject, block, knuckles, runners, sheet_of
 from grafu.synth.noise.segmentation import fresh_ids
 from grafu.synth.pieces.finish import BIRCH, STEEL

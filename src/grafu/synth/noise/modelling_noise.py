@@ -5,13 +5,14 @@ of it (parts missing, labels lost or wrong).
 """
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, Literal, final
 
 import numpy as np
 
 from grafu.asset.edit import centred, yawed
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.synth.noise import edits
 from grafu.synth.noise.distortion import ajar, bent, stretched

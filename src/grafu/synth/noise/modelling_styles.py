@@ -6,12 +6,12 @@ models (numbers in brackets), which are few, widened towards what other sources 
 """
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.synth.noise.cutting import (
     BODY_MASKING,
     HANDLES_IN_PIECES,

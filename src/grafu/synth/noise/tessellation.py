@@ -12,13 +12,13 @@ from itertools import product
 from typing import Final, Literal
 
 import numpy as np
-from jaxtyping import Float
 from scipy.spatial import ConvexHull
 
 from grafu.asset.part import Asset, Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Faces, Points
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 
 Density = Literal["plain", "broken edges", "rounded edges", "finely rounded", "split", "split twice"]
 

@@ -1,11 +1,12 @@
 """Doors of buildings: one or two leaves in a frame that is open below, with levers and, if so drawn, a latch's bolt."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.synth.fronts.layout import LeafStyle, Rect
 from grafu.synth.fronts.leaf_relief import LeafShape

@@ -5,12 +5,12 @@ from math import pi, radians
 from typing import Literal
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Hinge, Slide
+from grafu.shapes import Float
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, plank
 from grafu.vocabulary import PartLabel
 

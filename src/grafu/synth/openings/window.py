@@ -1,11 +1,12 @@
 """Windows: side-hung, top-hung and bottom-hung leaves, two-leaf windows and sashes, in a frame closed all around."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.synth.openings.parts import Edge, ring, sliding, turning
 from grafu.synth.pieces.assembly import PieceDraft, PieceMotion, Span, assemble, plank

@@ -2,13 +2,14 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.edit import centred
 from grafu.asset.part import IDENTITY_FRAME, AnnotatedJoint, Asset, Part, PartSource
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis

@@ -4,16 +4,16 @@ The wood texture is drawn by this code, so that it can be shipped and shown anyw
 """
 
 import io
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import final
 
 import numpy as np
-from jaxtyping import Float
 from PIL import Image
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material, Surface, Texture
 from grafu.geometry.mesh import TriangleMesh
+from grafu.shapes import Float
 
 TEXTURE_SPAN = 0.5  # metres that one repeat of the texture covers
 

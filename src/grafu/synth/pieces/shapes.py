@@ -6,12 +6,12 @@ Every mesh is closed with its faces outward. Boards that stand in a front face -
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.geometry.arrays import Vec3, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sweep import loft
+from grafu.shapes import Float
 
 
 def board(low: tuple[float, float, float], high: tuple[float, float, float]) -> TriangleMesh:

@@ -6,12 +6,13 @@ rates stated here. It builds no geometry.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import pi
 from typing import Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.synth.fronts.gliding import Folding, Lift, PullOut, Sliding, WasteBins
 from grafu.synth.fronts.layout import Blank, CellRow, Door, Drawer, Layout, OpenCell, Pair, Rect, Side, Stack, Tilt
 from grafu.synth.sampling.chance import between, chance, pick

@@ -4,11 +4,11 @@ A family states what it allows (`Build`); the style's tradition weighs what is a
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.synth.case.case import Case
 from grafu.synth.case.construction import (
     Back,

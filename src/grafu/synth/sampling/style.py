@@ -5,12 +5,13 @@ together, once for the whole piece, so that all its doors look alike. It places 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import radians
 from typing import Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material
 from grafu.synth.fronts.hold import Grip, HandleStyle
 from grafu.synth.fronts.layout import CURVED, Between, DrawerBox, LeafStyle

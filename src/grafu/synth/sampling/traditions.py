@@ -6,9 +6,9 @@ makers choose from, lengths in metres.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal, final
 
+from grafu.dataclass import dataclass
 from grafu.synth.case.construction import BaseKind, TopKind
 from grafu.synth.case.legs import LegShape
 from grafu.synth.fronts.hold import HandleStyle

@@ -1,10 +1,11 @@
 """Desks: a top on one or two pedestals, with drawers between them, a modesty panel, a return, a hutch."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.transform import translation

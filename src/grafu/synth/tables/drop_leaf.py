@@ -4,13 +4,14 @@ What carries the raised leaves may be drawn, with joints of its own (`drop_leaf_
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Hinge

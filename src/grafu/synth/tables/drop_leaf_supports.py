@@ -1,12 +1,12 @@
 """What carries the raised leaves of a drop-leaf table: brackets and gate legs that swing out, lopers that slide out."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import pi
 from typing import Literal, final
 
 import numpy as np
 
+from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis

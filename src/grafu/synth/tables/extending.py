@@ -1,11 +1,12 @@
 """Tables that become longer: two halves of a top that slide apart, or draw leaves under a top."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, final
 
 from grafu.articulation.articulated_object import Coupling
 from grafu.asset.part import AnnotatedJoint, Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.graph.edges import Slide

@@ -1,11 +1,11 @@
 """Tables: drawers that hang under a top between four legs, on one side or two, with all that carpenters add."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import pi
 from typing import final
 
 from grafu.asset.part import Asset
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation, rotation_matrix

@@ -6,22 +6,22 @@ explain is no fault. It mends nothing and draws nothing.
 
 from collections import Counter, defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import radians
 from typing import Literal, final
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.motion_kind import motion_kind
 from grafu.articulation.sweep import values_before
 from grafu.asset.part import AnnotatedJoint, Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import median
 from grafu.graph.annotated import carrying_part
 from grafu.graph.edges import Hinge, MotionEdge, Rail, Slide, Turn, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.graph.motion import axis_to_hinge, direction_to_code
+from grafu.shapes import Float
 from grafu.synth.pieces.riding import bodies_of, moving_with
 from grafu.synth.specimen import DefectKind, Specimen
 from grafu.synth.truth.clashes import articulated_of, clashes_of

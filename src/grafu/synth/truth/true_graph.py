@@ -10,7 +10,6 @@ its mount.
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
 
 from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset, Part
@@ -22,6 +21,7 @@ from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import axis_to_hinge, axis_to_rail, direction_to_code
 from grafu.graph.parse import ParsingConfig, parse_graph
+from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 PIN_SAMPLES = np.linspace(0.1, 0.9, 5)  # fractions of a door's border: its ends are where other parts are nearest

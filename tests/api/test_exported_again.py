@@ -1,0 +1,54 @@
+"""The same furniture gives the same joints, whatever tool wrote its file, in whatever unit and place."""
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from trimesh.transformations import rotation_matrix, scale_matrix, translation_matrix
+
+import grafu
+from exported_again import WAYS, as_it_is, drawn_again, flattened
+
+SAMPLES = Path(__file__).parents[2] / "samples"
+NEAR = 0.01  # metres of an axis, metres and radians of a range
+PLACES = {
+    "in millimetres": scale_matrix(1000.0),
+    "far from the origin": translation_matrix([30.0, 2.0, -17.0]),
+    "front to the side": rotation_matrix(np.pi / 2, [0.0, 1.0, 0.0]),
+    "turned by 30 degrees": rotation_matrix(np.pi / 6, [0.0, 1.0, 0.0]),
+    "Z up": rotation_matrix(np.pi / 2, [1.0, 0.0, 0.0]),
+}
+MADE: dict[str, Callable[[Path], trimesh.Scene]] = {
+    **{way.__name__: lambda sample, way=way: drawn_again(sample, way) for way in WAYS},
+    **{name: lambda sample, at=at: drawn_again(sample, as_it_is, at) for name, at in PLACES.items()},
+    "without hierarchy": flattened,
+}
+
+
+@cache
+def of_sample(name: str) -> grafu.Result:
+    return grafu.functionalize(SAMPLES / f"{name}.glb")
+
+
+@pytest.mark.parametrize("made", MADE)
+@pytest.mark.parametrize("name", ["wardrobe", "sideboard"])
+def test_the_same_furniture_has_the_same_joints(name: str, made: str, tmp_path: Path) -> None:
+    expected, path = of_sample(name), tmp_path / f"{name}.glb"
+    MADE[made](SAMPLES / path.name).export(path)
+
+    found = grafu.functionalize(path)
+
+    assert found.report.verdict.colour == expected.report.verdict.colour
+    left = list(found.joints)
+    for joint in expected.joints:
+        at = np.array(joint.origin)
+        same = min(left, key=lambda other: float(np.linalg.norm(at - np.array(other.origin))))
+        assert same.type is joint.type
+        np.testing.assert_allclose(same.origin, at, atol=NEAR)
+        np.testing.assert_allclose(same.axis, joint.axis, atol=1e-3)
+        np.testing.assert_allclose((same.lower, same.upper), (joint.lower, joint.upper), atol=NEAR)
+        left.remove(same)
+    assert left == []
