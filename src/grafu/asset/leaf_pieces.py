@@ -5,7 +5,7 @@ They lie beside the panel, so no outline covers them; their common beginning and
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
@@ -14,6 +14,7 @@ from grafu.asset.labels import sense_of
 from grafu.asset.names import CAMEL, singular, spoken
 from grafu.asset.part import Part
 from grafu.asset.pieces import in_words, with_pieces
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 

@@ -3,11 +3,11 @@
 Dropped, such a leaf would reach farther out than any user stands before it. It builds nothing.
 """
 
-from dataclasses import dataclass
 from typing import final
 
 from grafu.asset.part import Asset
 from grafu.completion.rehang import hung_on, likelier_side, stands_on_a_level_border
+from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion

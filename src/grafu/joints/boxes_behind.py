@@ -6,12 +6,13 @@ from above, and stand between walls. They are found by boxes and rays, so fronts
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Asset, Part
+from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
