@@ -31,17 +31,20 @@ from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.one_front import HeldTogetherConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
+from grafu.asset.place_names import PlaceNamesConfig
 from grafu.asset.plausibility import PlausibilityConfig
 from grafu.asset.resting import RestConfig
 from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
+from grafu.asset.standing_out import StandingOutConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
 from grafu.completion.dropping_doors import DroppingDoorConfig
 from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
+from grafu.completion.lone_fronts import LoneFrontConfig
 from grafu.completion.round_doors import RoundDoorConfig
 from grafu.completion.static_guesses import StaticGuessConfig
 from grafu.completion.tall_doors import TallDoorConfig
@@ -227,10 +230,12 @@ CONFIGS = (
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,
     FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LeafPieceConfig,
+    LoneFrontConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
-    MemberConfig, PieceConfig, PlausibilityConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
-    ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StaticGuessConfig,
+    MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
+    RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
+    ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StandingOutConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DroppingDoorConfig, JoiningConfig,
     TallDoorConfig, ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
     WayOutConfig,

@@ -253,6 +253,11 @@ TUB = [
 ]
 SEAL, COVER = ((-0.49, -0.29, 0.58), (0.49, 0.29, 0.585)), ((-0.5, -0.3, 0.585), (0.5, 0.3, 0.62))
 GRIP = ((-0.1, -0.33, 0.6), (0.1, -0.3, 0.615))
+LOCK = ((-0.05, -0.31, 0.4), (0.05, -0.3, 0.5))
+BLOCK = ((-0.5, -0.3, 0.0), (0.5, 0.3, 0.57))
+STRAPS = [((x, -0.306, 0.0), (x + 0.08, -0.3, 0.56)) for x in (-0.3, 0.22)]
+DRAWERS = [((-0.48, -0.3, z), (0.48, -0.28, z + 0.26)) for z in (0.03, 0.3)]
+KNOBS = [((-0.02, -0.33, z), (0.02, -0.3, z + 0.04)) for z in (0.14, 0.41)]
 
 
 @pytest.mark.parametrize(
@@ -264,6 +269,9 @@ GRIP = ((-0.1, -0.33, 0.6), (0.1, -0.3, 0.615))
         ("chest", [TUB], False),
         ("chest_of_drawers", [[*TUB, COVER]], False),
         ("box", [[*TUB, COVER]], False),
+        ("old chest", [TUB, [LOCK], [COVER]], True),
+        ("old trunk", [[BLOCK, *STRAPS], [COVER]], True),
+        ("old chest", [TUB[1:], *([one] for one in (*DRAWERS, *KNOBS)), [COVER]], False),
     ],
 )
 def test_what_is_called_a_chest_gets_the_lid_that_covers_it(model, objects, has_lid):

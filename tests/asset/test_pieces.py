@@ -143,3 +143,29 @@ def test_bar_and_posts_that_are_called_a_door_are_its_handle():
     assert {p.id: p.carried_by for p in parts if p.label is PartLabel.HANDLE} == dict.fromkeys(
         ("leftdoor.004", "leftdoor.002", "leftdoor.003"), "leftdoor"
     )
+
+
+BOARDS = (
+    ((0.05, 0.02, 0.02), (0.06, 0.5, 0.28)),
+    ((0.94, 0.02, 0.02), (0.95, 0.5, 0.28)),
+    ((0.06, 0.02, 0.03), (0.94, 0.5, 0.04)),
+    ((0.06, 0.49, 0.04), (0.94, 0.5, 0.28)),
+)
+
+
+def test_boards_that_are_called_drawers_by_number_join_the_named_front_on_which_they_hang():
+    front = part("drawer_front_2", (0, 0, 0), (1, 0.02, 0.3))
+    boards = [part(f"drawer_{k}", *bounds) for k, bounds in enumerate(BOARDS)]
+    for order in ((front, *boards), (*boards[::-1], front)):
+        parts, _ = with_joined_pieces(order, WHOLE)
+        assert {p.id: len(p.surfaces) for p in parts} == {"drawer_front_2": 5}
+
+
+def test_a_whole_drawer_joins_no_named_front_that_it_does_not_hang_on():
+    front = part("drawer_front_2", (0, 0, 0), (1, 0.02, 0.3))
+    below, within = part("drawer_1", (0, 0, 0.301), (1, 0.4, 0.6)), part("drawer_3", (0.1, 0.1, 0.05), (0.9, 0.5, 0.25))
+    wide = part("drawer_4", (-0.2, 0.02, 0.05), (0.9, 0.5, 0.25))
+    parts, _ = with_joined_pieces((front, below, within, wide), WHOLE)
+    assert {p.id: len(p.surfaces) for p in parts} == dict.fromkeys(
+        ("drawer_front_2", "drawer_1", "drawer_3", "drawer_4"), 1
+    )

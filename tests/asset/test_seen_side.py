@@ -18,13 +18,19 @@ FRONTS = ("-Y", "+Y", "-X", "+X")
 
 
 def nameless_cabinet(front: str) -> tuple[Part, ...]:
-    """Returns the parts of a cabinet without names whose front is this direction of the input, Z up."""
+    """Returns the parts of a cabinet without names whose front is this direction of the input, Z up.
+
+    A hook at its back keeps the handles from being the only parts that stand out of it.
+    """
+    cabinet = make_cabinet(Cabinet()).parts
+    rear = float(whole_box(cabinet).high[1])
+    hook = box("hook", (0.0, rear, 0.5), (0.02, rear + 0.02, 0.52))
     f = vector(front)
     T = np.eye(4)
     T[:3, :3] = np.column_stack([np.cross(-f, [0.0, 0.0, 1.0]), -f, [0.0, 0.0, 1.0]])
     return tuple(
         Part(f"Cube.{k}", PartLabel.UNKNOWN, tuple(s.transformed(T) for s in part.surfaces), part.source, "none")
-        for k, part in enumerate(make_cabinet(Cabinet()).parts)
+        for k, part in enumerate((*cabinet, hook))
     )
 
 

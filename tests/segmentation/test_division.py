@@ -406,6 +406,16 @@ def test_what_lies_on_fronts_of_another_object_is_parted_by_them(others):
     assert [role for role, _ in found[1]].count("rest") == bool(others)
 
 
+def test_a_handle_on_the_only_door_is_parted_from_the_case_that_it_is_one_object_with():
+    door, bar = board((-0.42, -0.02, 0.03), (0.42, 0.0, 0.47)), board((0.36, -0.05, 0.2), (0.38, -0.02, 0.3))
+    through = board((0.36, -0.02, 0.2), (0.38, 0.05, 0.3))  # reaches the face from behind, as a bolt: it is no handle
+
+    found = cut(merge_meshes([*CHEST, bar]), door)
+    assert boxes(found, "on front") == rounded([bar])
+    assert [role for role, _ in found[0]].count("rest") == 1
+    assert cut(merge_meshes([*CHEST, through]), door) == {}
+
+
 def test_what_lies_on_one_front_alone_stays_whole():
     lower = [plate for plate in PLATES if plate.box.low[2] < 0.2]
     assert set(cut(merge_meshes([*CHEST, *STACK]), merge_meshes(lower))) == {0}

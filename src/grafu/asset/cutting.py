@@ -11,7 +11,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.drawn_cuts import count_fronts, handles_on_plates, with_drawn_fronts
+from grafu.asset.drawn_cuts import handles_on_plates, with_drawn_fronts
 from grafu.asset.labels import is_appliance, is_bed, is_chest, is_washer, is_whole_part, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
@@ -26,7 +26,7 @@ from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.creases import back_of
 from grafu.segmentation.division import FacePiece, MeshShells, divided
-from grafu.segmentation.lids import lid_of_chest, lid_of_washer
+from grafu.segmentation.lids import count_held_fronts, lid_of_chest, lid_of_washer
 from grafu.segmentation.surface_config import CreaseConfig
 from grafu.vocabulary import PartLabel
 
@@ -57,12 +57,14 @@ class CutConfig:
     """What takes this much of a bed's side (fraction) ..."""
     bed_height: float = 0.4
     """... and is as high as this (fraction of its width) is a headboard or footboard, and no front."""
+    wall: float = 0.1
+    """What takes less of the largest side of a chest is no front of it (fraction)."""
     alike: float = 0.8
     """The fronts of an object that has the name of one door or drawer are what it states if the smallest has this
     fraction of the largest one's width and height: two leaves. Of fronts that differ it states what the first is."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "door_height", "thick", "case", "bed_width", "bed_height", "alike")
+        require_ratios(self, "door_height", "thick", "case", "bed_width", "bed_height", "wall", "alike")
 
 
 def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", config: CutConfig = CutConfig()) -> Reading:
@@ -87,7 +89,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     if not any(whole):
         cuts = with_drawn_fronts(cuts, reading.parts, meshes, open_to, materials, shells=shells)
     cuts |= handles_on_plates(cuts, meshes, open_to, materials, shells=shells)
-    if is_chest(name) and not any(whole) and count_fronts(cuts) <= 1:
+    if is_chest(name) and not any(whole) and _may_have_lid(meshes, cuts, config):
         cuts = lid_of_chest(meshes, open_to) or cuts  # its front wall is a plate, too
     if is_washer(name) and not any(whole):
         cuts = lid_of_washer(meshes, open_to) or cuts
@@ -95,8 +97,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
         return reading
     model = "" if any(part.label is PartLabel.DOOR for part in reading.parts) else name
     if is_bed(name) or any(is_bed(part.source.name) for part in reading.parts):
-        extent = np.max([mesh.box.high for mesh in meshes], axis=0) - np.min([mesh.box.low for mesh in meshes], axis=0)
-        kept = {k: _without_boards(meshes[k], found, extent, config) for k, found in cuts.items()}
+        kept = {k: _without_boards(meshes[k], found, _extent_of(meshes), config) for k, found in cuts.items()}
         cuts = {k: found for k, found in kept.items() if found}
     pieces = [(part, piece) for k, part in enumerate(reading.parts) for piece in cuts.get(k, [None])]
     cut = {reading.parts[k].id for k in cuts}
@@ -109,6 +110,19 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     )
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes), fronts_face=_side_of_fronts(cuts, T))
+
+
+def _extent_of(meshes: list[TriangleMesh]) -> Vec3:
+    return np.max([mesh.box.high for mesh in meshes], axis=0) - np.min([mesh.box.low for mesh in meshes], axis=0)
+
+
+def _may_have_lid(meshes: list[TriangleMesh], cuts: dict[int, list[FacePiece]], config: CutConfig) -> bool:
+    """Whether a chest shows one front at most, its front wall: straps and plates of locks are too small for fronts."""
+    extent = _extent_of(meshes)
+    face = float(extent[:2].max() * extent[2])
+    sizes = [meshes[k].with_faces(p.faces).box.size for k, found in cuts.items() for p in found if p.role == "front"]
+    wide = [size for size in sizes if np.prod(np.sort(size)[1:]) >= config.wall * face]
+    return len(wide) <= 1 and count_held_fronts(meshes) <= 1
 
 
 def _side_of_fronts(cuts: dict[int, list[FacePiece]], T: Mat4) -> str | None:

@@ -15,8 +15,9 @@ from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Placing, Reading
 from grafu.asset.resting import stands_on_another_side
 from grafu.asset.scale import Estimate, ScaleConfig, estimate_scale, is_normalised, likely_unit
-from grafu.asset.seen_side import most_shown_side
+from grafu.asset.seen_side import lies_on_its_front, most_shown_side
 from grafu.asset.standing import HeadingConfig, UpVotes, decide_front, front_votes, up_votes, vector
+from grafu.asset.standing_out import side_with_handles
 from grafu.dataclass import dataclass
 from grafu.errors import AssetError
 from grafu.geometry.arrays import Mat4
@@ -25,6 +26,8 @@ from grafu.geometry.mesh import heading_of
 from grafu.geometry.transform import from_rotation, rotation_matrix
 
 _USUAL_FRONT = {"+Y": "+Z", "-Y": "+Z", "+Z": "-Y", "-Z": "-Y", "+X": "+Z", "-X": "+Z"}
+
+_BY_HANDLES = "small parts stand out there alone, as handles do"
 
 _DATA_SETS = ("partnet-mobility", "hssd", "release")  # their models face one way
 
@@ -115,7 +118,7 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
             return _Choice(
                 other, f"panels, doors and legs stand so, against {convention.up} of {convention.origin}{sure}"
             )
-        return _by_rest(reading, votes, _Choice(convention.up, f"stated by {convention.origin}"))
+        return _by_rest(reading, votes, _Choice(convention.up, f"stated by {convention.origin}"), whole)
     if options.front is not None and options.front[1] == convention.usual_up[1]:
         other = "+Z" if convention.usual_up == "+Y" else "+Y"
         return _Choice(votes.best or other, "left over by the user's front")
@@ -126,7 +129,8 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
     if votes.stands_instead(other, convention.usual_up):
         against = f"against {convention.usual_up}, {convention.origin}"
         return _Choice(other, f"doors and panels would lie flat otherwise, {against}; --up changes it")
-    return _by_rest(reading, votes, _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it"))
+    usual = _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it")
+    return _by_rest(reading, votes, usual, whole)
 
 
 def _is_named(part: Part) -> bool:
@@ -134,14 +138,17 @@ def _is_named(part: Part) -> bool:
     return part.labelled_by != "shape" or label_of(part.source.name) is part.label
 
 
-def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice) -> _Choice:
-    """Returns the direction that is up by the format, or the one that the shape tells where labels tell nothing."""
-    if votes.lying.any() or votes.standing.any() or votes.tells_sense:
+def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice, whole: Box) -> _Choice:
+    """Returns the direction that is up by the format, or what the shape tells where labels do not speak for that."""
+    if votes.lying.any() or votes.tells_sense or (votes.standing.any() and votes.stands_along(usual.value)):
         return usual
-    other = stands_on_another_side(reading.parts, usual.value, "+Z" if usual.value == "+Y" else "+Y")
-    if other is None:
-        return usual
-    return _Choice(other, f"what the piece rests on tells, against {usual.value} of {reading.convention.origin}")
+    against, by_habit = f"against {usual.value} of {reading.convention.origin}", "+Z" if usual.value == "+Y" else "+Y"
+    other = stands_on_another_side(reading.parts, usual.value, by_habit)
+    if other is not None:
+        return _Choice(other, f"what the piece rests on tells, {against}")
+    if lies_on_its_front(reading.parts, whole, usual.value):
+        return _Choice(by_habit, f"it would lie on what shows the most parts, {against}")
+    return usual
 
 
 def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choice:
@@ -154,9 +161,10 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     votes = front_votes(reading.parts, whole, up)
     faces_one_way = stated is not None and reading.kind in _DATA_SETS
     if not any(votes.values()) and not faces_one_way:
-        shown = most_shown_side(reading.parts, whole, up, stated is not None)
+        held = side_with_handles(reading.parts, whole, up)
+        shown = held or most_shown_side(reading.parts, whole, up, stated is not None)
         if shown is not None and shown != stated:
-            return _Choice(shown, "most parts, and steps between them, are seen there")
+            return _Choice(shown, _BY_HANDLES if held else "most parts, and steps between them, are seen there")
         if reading.fronts_face is not None and stated is None and reading.fronts_face[1] != up[1]:
             return _Choice(reading.fronts_face, "what was cut out of a mesh as a front faces there")
     usual = "+X" if reading.kind in ROBOTS and up[1] != "X" else _USUAL_FRONT[up]

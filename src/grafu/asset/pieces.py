@@ -1,10 +1,10 @@
 """Loose pieces of doors and drawers become one part each, by where they lie. It reads no names but to tell pieces.
 
 A drawer's sides, back, bottom and box belong to the `front` whose outline, seen from where it faces, covers them, or to
-the plate that is called the drawer; so does the box's own front behind it. A door's pane or panel belongs to the larger
-door piece around it. Pieces that no front covers stay parts of their own; a drawer's side, back or bottom among them is
-no drawer where the input names fronts. A handle rides on the door or drawer that it touches, where the input does not
-say.
+the plate that is called the drawer; so do the box's own front behind it, and what is called a drawer but hangs on it. A
+door's pane or panel belongs to the larger door piece around it. Pieces that no front covers stay parts of their own; a
+drawer's side, back or bottom among them is no drawer where the input names fronts. A handle rides on the door or drawer
+that it touches, where the input does not say.
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,6 +13,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.asset.behind_fronts import behind_fronts
 from grafu.asset.grips import face_area, pieces_before
 from grafu.asset.labels import is_piece
 from grafu.asset.names import spoken
@@ -101,6 +102,10 @@ def with_joined_pieces(
     for label in (PartLabel.DRAWER, PartLabel.DOOR):
         named = [p for p in parts if p.label is label]
         pieces = [p for p in named if is_piece(p.source.name)]
+        if label is PartLabel.DRAWER:
+            faces, others = [(p, _faces(p)) for p in pieces if _is_front(p)], [p for p in named if p not in pieces]
+            size = whole.diagonal
+            pieces += behind_fronts(faces, others, config.touch * size, config.stand_out * size)
         plates = [p for p in named if p not in pieces and _is_plate(p.box, config)] if pieces else []
         for piece, host in _pairs(pieces, plates, label, whole.diagonal, config):
             hosts.setdefault(host.id, []).append(piece)

@@ -45,6 +45,10 @@ class RestConfig:
     """Area at the other end from which on that is a top over legs (fraction of the outline's box) ..."""
     whole: float = 0.8
     """... where it also has this extent (fraction of the outline's box)."""
+    corner: float = 0.25
+    """How far from two sides of the outline legs in its corners stand at most (fraction of these sides) ..."""
+    long: float = 0.05
+    """... and how long they are at least: handles stand out less far (fraction of the largest side)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -57,6 +61,8 @@ class _End:
 
     area: float
     extent: float
+    has_corner_legs: bool = False
+    """Whether it lies in all four corners and nowhere else, with nothing between for the length of a leg."""
 
 
 def stands_on_another_side(
@@ -65,7 +71,8 @@ def stands_on_another_side(
     """Returns the upward direction that the shape tells instead of the stated one; None: that one holds.
 
     Another direction is believed where it alone has legs below a broad top, and the piece stands on its head or rests
-    on little; or, where it rests on little, `usual`, the direction that other formats have up, if it rests on that.
+    on little; where it alone has long legs in the four corners; or, where the piece rests on little, `usual`, the
+    direction that other formats have up, if it rests on that.
 
     Args:
         parts: the parts, in the input's coordinates.
@@ -79,6 +86,9 @@ def stands_on_another_side(
     on_legs = [up for up in DIRECTIONS if up != stated and _is_on_legs(ends[_opposite(up)], ends[up], config)]
     if len(on_legs) == 1 and (is_poor or on_legs[0] == _opposite(stated)):
         return on_legs[0]
+    in_corners = [up for up in DIRECTIONS if ends[_opposite(up)].has_corner_legs]
+    if len(in_corners) == 1 and in_corners[0] in on_legs:
+        return in_corners[0]
     is_steady = all(ends[end].extent >= config.steady for end in (usual, _opposite(usual)))
     return usual if is_poor and is_steady and usual != stated else None
 
@@ -106,4 +116,14 @@ def _end(points: Points, direction: str, config: RestConfig) -> _End:
     is_met = np.zeros((config.cells, config.cells), dtype=bool)
     is_met[rows, columns] = True
     extent = int(np.ptp(rows) + 1) * int(np.ptp(columns) + 1)
-    return _End(int(is_met.sum()) / config.cells**2, float(extent) / config.cells**2)
+    area = int(is_met.sum()) / config.cells**2
+    outer = (ratio < config.corner) | (ratio > 1.0 - config.corner)
+    corners = {*map(tuple, (ratio > 0.5).tolist())}
+    beside = points[gap < config.long * size.max()][:, others]
+    is_long = bool(
+        (
+            (beside - low[others] < config.corner * size[others])
+            | (high[others] - beside < config.corner * size[others])
+        ).all()
+    )
+    return _End(area, float(extent) / config.cells**2, bool(outer.all()) and len(corners) == 4 and is_long)

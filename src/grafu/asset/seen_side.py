@@ -10,8 +10,10 @@ import numpy as np
 
 from grafu.asset.options import DIRECTIONS
 from grafu.asset.part import Part
+from grafu.asset.standing import spelled
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
+from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster
@@ -45,6 +47,13 @@ class SeenSideConfig:
     """... but this much of the most (fraction)."""
     trace: float = 0.02
     """What every side may show of parts (nats of entropy)."""
+    below: float = 1.15
+    """How many times more than any other of the six sides the lower one shows of parts where the piece lies on its
+    front: of 227 models no lower side does, and the front of 98, which would be below if they lay on it."""
+    close: float = 0.15
+    """How far from the lower end lies what is close to it (fraction of the height) ..."""
+    covered: float = 0.6
+    """... and how much of the outline that covers at least where it is a front (fraction): legs cover less."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -53,10 +62,12 @@ class SeenSideConfig:
 @final
 @dataclass(frozen=True, slots=True)
 class _Appearance:
-    """What one side shows: the entropy of the areas of the parts that are seen, in nats, and how many steps."""
+    """What one side shows: the entropy of the areas of the parts that are seen, in nats, how many steps, how flat."""
 
     parts: float
     steps: float
+    covered: float
+    """Fraction of the outline within `SeenSideConfig.close` of this end."""
 
 
 def most_shown_side(
@@ -80,18 +91,45 @@ def most_shown_side(
         number = np.unique(names, return_inverse=True)[1]
         owners = np.repeat(number, [len(part.mesh.faces) for part in parts])
         sides = (side for side in DIRECTIONS if side[1] != up[1])
-        shown = _most({side: _appearance(caster, owners, whole, side, config) for side in sides}, is_stated, config)
+        appearances = {side: _appearance(caster, owners, whole, side, config) for side in sides}
+        shown = _most(appearances, config.against if is_stated else config.clear, config.plain, config)
         if shown is not None:
             return shown
     return None
 
 
-def _most(appearances: Mapping[str, _Appearance], is_stated: bool, config: SeenSideConfig) -> str | None:
+def lies_on_its_front(parts: Sequence[Part], whole: Box, up: str, config: SeenSideConfig = SeenSideConfig()) -> bool:
+    """Whether the lower side shows the most parts and steps and is closed, as fronts are: no piece stands on these.
+
+    The lower side of furniture is a board, or legs with an open space between them. Parts and shells must agree: what
+    is divided by its materials has few parts, and a plinth of another material is one of them.
+
+    Args:
+        parts: the parts, in the input's coordinates.
+        whole: the box around them.
+        up: the direction that is up by the format.
+        config: when the lower side is a front.
+    """
+    meshes = [part.mesh for part in parts]
+    caster = RayCaster(merge_meshes(meshes))
+    links = [part.source.link or part.id for part in parts]
+    number = np.unique(links if len(set(links)) > 1 else [part.id for part in parts], return_inverse=True)[1]
+    below = spelled("XYZ".index(up[1]), up[0] == "-")
+    by_parts, by_shells = (
+        {side: _appearance(caster, owners, whole, side, config) for side in DIRECTIONS}
+        for owners in (np.repeat(number, [len(mesh.faces) for mesh in meshes]), shell_numbers(*meshes))
+    )
+    shown = _most(by_parts, config.below, config.against, config)
+    is_most = max(by_shells, key=lambda side: by_shells[side].parts) == below
+    return shown == below and is_most and by_parts[below].covered >= config.covered
+
+
+def _most(appearances: Mapping[str, _Appearance], least: float, plain: float, config: SeenSideConfig) -> str | None:
+    """Returns the side that shows `least` times more parts than any other and the most steps, or `plain` times more."""
     first, second = sorted(appearances, key=lambda side: -appearances[side].parts)[:2]
     others, most = appearances[second].parts + config.trace, max(one.steps for one in appearances.values())
-    least = config.against if is_stated else config.clear
     is_clear = appearances[first].parts >= least * others and appearances[first].steps >= most
-    is_plain = appearances[first].parts >= config.plain * others and appearances[first].steps >= config.stepped * most
+    is_plain = appearances[first].parts >= plain * others and appearances[first].steps >= config.stepped * most
     return first if is_clear or is_plain else None
 
 
@@ -110,7 +148,8 @@ def _appearance(
     areas = np.bincount(owners[faces[faces >= 0]])
     fractions = areas[areas > 0] / max(areas.sum(), 1)
     depth = distances.reshape(config.rays, config.rays) / largest
-    return _Appearance(float(-(fractions * np.log(fractions)).sum()), _steps(depth, config.step))
+    covered = float(np.mean((depth - 0.1) * largest <= config.close * whole.size[axis]))
+    return _Appearance(float(-(fractions * np.log(fractions)).sum()), _steps(depth, config.step), covered)
 
 
 def _steps(depth: Float[np.ndarray, "n m"], least: float) -> float:

@@ -23,6 +23,7 @@ from grafu.asset.one_front import has_copies, joined_where_nameless, joined_wher
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
 from grafu.asset.pieces import with_joined_pieces
+from grafu.asset.place_names import with_place_names
 from grafu.asset.plausibility import with_blind_fronts, with_bodies, with_control_panels, with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
@@ -117,9 +118,10 @@ def _joined(reading: Reading) -> Reading:
 
 
 def _plausible(reading: Reading) -> Reading:
-    judged, notes = with_plausible_labels(reading.parts)
+    opened, places = with_place_names(reading.parts)
+    judged, notes = with_plausible_labels(opened)
     judged, told = with_named_fittings(judged)
-    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *notes, *told)))
+    return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *places, *notes, *told)))
 
 
 def _with_split_handles(reading: Reading) -> Reading:

@@ -133,6 +133,10 @@ class UpVotes:
         """Whether tops, bottoms and legs lie to one side far enough to tell which axis is up, without any plate."""
         return bool(np.abs(self.sense).max() >= UpEvidenceConfig().turned)
 
+    def stands_along(self, up: str) -> bool:
+        """Whether no plate that stands lies across this direction."""
+        return not self.standing["XYZ".index(up[1])]
+
     @property
     def best(self) -> str | None:
         """The upward direction that most agree on, or None where they say nothing."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from grafu.asset.part import Asset
 from grafu.completion.dropping_doors import with_dropping_doors
 from grafu.completion.handle_sides import with_handle_sides
+from grafu.completion.lone_fronts import with_lone_fronts
 from grafu.completion.network import complete_by_network
 from grafu.completion.round_doors import with_round_doors
 from grafu.completion.rule import complete_by_rule
@@ -45,8 +46,9 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
     left or right side (`with_round_doors`), and so do high ones (`with_tall_doors`); those of ovens hang on their lower
     border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`). What is only
-    guessed to be a door, and is too thick, is a drawer (`with_thick_doors`); what is only guessed to be a door or
-    drawer stays static where it cannot be one (`with_static_guesses`).
+    guessed to be a door, and is too thick, is a drawer (`with_thick_doors`), what is only guessed to be a drawer, and
+    can be none, a door (`with_lone_fronts`); what is only guessed to be a door or drawer stays static where it cannot
+    be one (`with_static_guesses`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
@@ -56,7 +58,7 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
-    predicted = with_thick_doors(complete_by_network(seen, network, network.features), asset)
+    predicted = with_lone_fronts(with_thick_doors(complete_by_network(seen, network, network.features), asset))
     moved = _shaped(predicted, asset)
     found = with_static_guesses(moved, asset)
     names = {node.id: node.source_name for node in graph.nodes}

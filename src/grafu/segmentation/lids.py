@@ -11,7 +11,10 @@ import numpy as np
 from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
+from grafu.segmentation.candidates import candidates, framed, merged
+from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.division import FacePiece, MeshShells, axes_from, split
+from grafu.segmentation.fronts import fronts_among
 from grafu.segmentation.view import ShellsView, view_of
 
 
@@ -92,6 +95,14 @@ def lid_of_washer(
     below = view.high[:, 1] <= view.high[lid, 1]
     doors = in_front & below & (ratio >= config.door) & (ratio < config.casing)
     return {} if doors.any() else _cut(shells, view, lid, meshes, config.lid)
+
+
+def count_held_fronts(meshes: Sequence[TriangleMesh], config: SegmentationConfig = SegmentationConfig()) -> int:
+    """Returns how many plates with a handle are seen in front, also those that are objects of their own."""
+    whole = _view(MeshShells.of(meshes))
+    view, _ = merged(whole, framed(whole, config))
+    plates = candidates(view, np.ones(len(view.owner), dtype=bool), config.candidates)
+    return sum(front.is_held for front in fronts_among(view, plates, config))
 
 
 def _view(shells: MeshShells) -> ShellsView:

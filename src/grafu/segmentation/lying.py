@@ -21,9 +21,9 @@ def lying_on_fronts(
     """Returns for each object the shells that lie on fronts in others, a group for each, where that parts it.
 
     The first of `fronts` are hidden in objects, the second are plates that are objects of their own: on such, handles
-    count alone. `may` are the shells that may be parted by the first, and those that may by either. What is as small
-    as a handle may be inset: it reaches the face of its front from behind. The handle on the other side of a door,
-    behind that on its face, lies on it as well.
+    count alone, on a single one those that stand before it. `may` are the shells that may be parted by the first, and
+    those that may by either. What is as small as a handle may be inset: it reaches the face of its front from behind.
+    The handle on the other side of a door, behind that on its face, lies on it as well.
     """
     hidden, alone = fronts
     plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
@@ -48,7 +48,8 @@ def lying_on_fronts(
         lies, front = on.any(axis=1), on.argmax(axis=1)
         served = np.unique(front[lies]).tolist()
         in_others = bool(served) and is_hidden[served].any()
-        if len(served) > 1 or (in_others and not lies.all()):
+        is_ahead = view.low[own][:, 2] >= (view.high[plates, 2] - near)[front]
+        if len(served) > 1 or ((in_others or (lies & is_ahead).any()) and not lies.all()):
             found[owner] = tuple(tuple(own[lies & (front == k)].tolist()) for k in served)
     return found
 

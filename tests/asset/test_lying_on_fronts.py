@@ -1,0 +1,92 @@
+"""A piece without names whose front is below has another direction up than its format states."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grafu.asset.frame import settle_frame, whole_box
+from grafu.asset.options import DIRECTIONS, LoadOptions
+from grafu.asset.part import Part
+from grafu.asset.reading import Convention, Reading
+from grafu.asset.resting import stands_on_another_side
+from grafu.asset.seen_side import lies_on_its_front
+from grafu.asset.standing import vector
+from grafu.synth.samples import desk, dresser, kitchen_base
+from grafu.vocabulary import PartLabel
+from small_scenes import box
+
+GLTF = Convention("glTF", up="+Y", front="+Z")
+OBJ = Convention("OBJ", usual_up="+Y")
+
+
+def in_pose(parts, up, front):
+    """Returns nameless parts, in the object frame before, whose up and front are these directions of the input."""
+    T = np.eye(4)
+    T[:3, :3] = np.column_stack([np.cross(-vector(front), vector(up)), -vector(front), vector(up)])
+    return tuple(
+        Part(f"Cube.{k}", PartLabel.UNKNOWN, tuple(s.transformed(T) for s in part.surfaces), part.source, "none")
+        for k, part in enumerate(parts)
+    )
+
+
+def flat_chest(feet=0.0):
+    """Returns a case with a plinth, or with a foot of some height in each corner, and three plain drawers in front."""
+    drawers = [box(f"d{z}", (-0.4, -0.32, z), (0.4, -0.3, z + 0.3)) for z in (0.05, 0.36, 0.67)]
+    places = [(x, y) for x in (-0.4, 0.35) for y in (-0.3, 0.25)]
+    legs = [box(f"f{x}{y}", (x, y, -feet), (x + 0.05, y + 0.05, 0.0)) for x, y in places]
+    return (box("case", (-0.4, -0.3, 0.0), (0.4, 0.3, 1.0)), *drawers, *(legs if feet else ()))
+
+
+@pytest.mark.parametrize("convention", [GLTF, OBJ])
+def test_a_chest_does_not_lie_on_its_drawers(convention):
+    frame = settle_frame(Reading("glb", in_pose(flat_chest(), "+Z", "-Y"), convention), LoadOptions())
+    assert (frame.up, frame.front) == ("+Z", "-Y")
+    assert "it would lie on what shows the most parts" in frame.assumed[0]
+
+
+@pytest.mark.parametrize("sample", [desk, dresser, kitchen_base])
+def test_what_stands_does_not_lie_on_its_front(sample):
+    parts = in_pose(sample().parts, "+Y", "+Z")
+    assert not lies_on_its_front(parts, whole_box(parts), "+Y")
+    assert settle_frame(Reading("glb", parts, GLTF), LoadOptions()).up == "+Y"
+
+
+def test_a_table_with_many_battens_below_its_top_does_not_lie_on_them():
+    aprons = [box(f"a{y}", (-0.55, y, 0.6), (0.55, y + 0.02, 0.7)) for y in (-0.4, 0.38)]
+    aprons += [box(f"b{x}", (x, -0.4, 0.6), (x + 0.02, 0.4, 0.7)) for x in (-0.6, 0.58)]
+    battens = [box(f"c{k}", (-0.58, -0.35 + 0.1 * k, 0.66), (0.58, -0.29 + 0.1 * k, 0.7)) for k in range(7)]
+    legs = [box(f"l{x}{y}", (x, y, 0.0), (x + 0.05, y + 0.05, 0.7)) for x in (-0.6, 0.55) for y in (-0.4, 0.35)]
+    parts = in_pose((box("top", (-0.6, -0.4, 0.7), (0.6, 0.4, 0.73)), *aprons, *battens, *legs), "+Y", "+Z")
+    assert not lies_on_its_front(parts, whole_box(parts), "+Y")
+
+
+def test_a_chest_that_is_divided_by_its_materials_does_not_lie_on_its_plinth():
+    case, *drawers = flat_chest()
+    wood = replace(case, surfaces=(*case.surfaces, *(s for drawer in drawers for s in drawer.surfaces)))
+    plinth, top = (
+        box("dark", (-0.38, -0.2, -0.1), (0.38, 0.28, 0.0)),
+        box("stone", (-0.42, -0.45, 1.0), (0.42, 0.42, 1.04)),
+    )
+    parts = in_pose((wood, plinth, top), "+Y", "+Z")
+    assert not lies_on_its_front(parts, whole_box(parts), "+Y")
+
+
+@pytest.mark.parametrize("up", DIRECTIONS)
+def test_a_piece_with_a_foot_in_each_corner_stands_on_these_in_every_pose(up):
+    parts = in_pose(flat_chest(feet=0.1), up, next(d for d in DIRECTIONS if d[1] != up[1]))
+    assert (stands_on_another_side(parts, "+Y", "+Z") or "+Y") == up
+
+
+def test_four_knobs_in_the_corners_of_a_front_are_no_feet():
+    knobs = [box(f"k{x}{z}", (x, -0.35, z), (x + 0.03, -0.32, z + 0.03)) for x in (-0.36, 0.33) for z in (0.1, 0.85)]
+    assert stands_on_another_side(in_pose((*flat_chest(), *knobs), "+Y", "-Z"), "+Y", "+Z") is None
+
+
+def test_doors_that_lie_by_their_names_let_the_shape_decide_which_way_is_up():
+    case, *drawers = in_pose(flat_chest(), "+Z", "-Y")
+    named = tuple(replace(d, label=PartLabel.DOOR, labelled_by="name") for d in drawers)
+    assert settle_frame(Reading("glb", (case, *named), GLTF), LoadOptions()).up == "+Z"
+    case, *drawers = in_pose(flat_chest(), "+Y", "+Z")  # doors that stand are believed
+    named = tuple(replace(d, label=PartLabel.DOOR, labelled_by="name") for d in drawers)
+    assert settle_frame(Reading("glb", (case, *named), GLTF), LoadOptions()).up == "+Y"

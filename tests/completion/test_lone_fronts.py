@@ -1,0 +1,114 @@
+"""A guessed drawer that is a front alone, and can be none, turns; fronts of drawers, and what a label states, stay."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grafu.asset.part import Asset
+from grafu.completion.lone_fronts import LoneFrontConfig, with_lone_fronts
+from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
+from grafu.graph.edges import Attached, Hinge, Rail
+from grafu.graph.edit import with_edges
+from grafu.graph.motion import border_to_face, opening_face
+from grafu.graph.parse import parse_graph
+from grafu.vocabulary import PartLabel
+from small_scenes import box
+
+FRONT = 2  # the face that looks to -Y
+BODY = replace(box("body", (-0.5, 0.38, 0.0), (0.5, 0.4, 1.0)), label=PartLabel.BACK_PANEL)
+PLATE = box("front", (-0.48, -0.02, 0.4), (0.48, 0.0, 0.8))
+SHELF = box("shelf", (-0.48, 0.1, 0.6), (0.48, 0.38, 0.62))
+DIVIDER = box("divider", (-0.01, 0.1, 0.42), (0.01, 0.38, 0.78))
+BELOW, MIDDLE, ABOVE, RIGHT = (-0.05, 0.45), (-0.05, 0.59), (-0.05, 0.74), (0.38, 0.59)
+BOTTOM_FACE, TOP_FACE, LEFT_FACE = 4, 5, 0
+
+
+def turned(*others, front=PLATE, handle=MIDDLE, guessed=True, axis=FRONT, **changes):
+    """Returns the face of the border on which the front hangs, and what was decided; None: it is a drawer still."""
+    parts = [BODY, replace(front, label=PartLabel.DRAWER), *others]
+    edges = [Rail("body", "front", axis)]
+    if handle is not None:
+        x, z = handle
+        parts.append(replace(box("bar", (x, -0.05, z), (x + 0.1, -0.02, z + 0.02)), label=PartLabel.HANDLE))
+        edges.append(Attached("front", "bar"))
+    graph = parse_graph(Asset("made", "", "made", tuple(parts)))
+    edges += [Attached("front", part.id) for part in others if part.id.startswith("box")]
+    label = (Decision("front", "label", "drawer", 0.9, "door", 0.1),) if guessed else ()
+    decisions = (*label, Decision("front", "slide", str(FRONT), 0.8), Decision("front", "mount", "body", 0.7))
+    before = GraphCompletion(graph, with_edges(graph, edges), "network", decisions=decisions)
+    after = with_lone_fronts(before, replace(LoneFrontConfig(), **changes))
+    (motion,) = after.completed.motions
+    if isinstance(motion, Rail):
+        assert after is before
+        return None
+    assert isinstance(motion, Hinge)
+    assert motion.parent == "body"
+    assert opening_face(1, motion.border, motion.sign) == FRONT
+    assert after.completed.node("front").label is PartLabel.DOOR
+    assert after.decisions == (
+        Decision("front", "label", "door", 0.1, "drawer", 0.9, BY_BOTH),
+        Decision("front", "border", str(motion.border), 0.8, by=BY_BOTH),
+        Decision("front", "sign", str(motion.sign), 0.8, by=BY_BOTH),
+        Decision("front", "mount", "body", 0.7),
+    )
+    return border_to_face(1, motion.border)
+
+
+@pytest.mark.parametrize("board", [SHELF, DIVIDER], ids=lambda part: part.id)
+@pytest.mark.parametrize(
+    ("handle", "face"), [(MIDDLE, BOTTOM_FACE), (ABOVE, BOTTOM_FACE), (BELOW, TOP_FACE), (RIGHT, LEFT_FACE)]
+)
+def test_a_front_right_before_a_shelf_or_divider_hangs_away_from_its_handle(board, handle, face):
+    assert turned(board, handle=handle) == face
+
+
+def test_a_front_that_is_not_wide_and_has_no_handle_hangs_on_its_left():
+    high = box("front", (-0.2, -0.02, 0.4), (0.2, 0.0, 0.8))
+    assert turned(SHELF, handle=None) == BOTTOM_FACE
+    assert turned(SHELF, front=high, handle=None) == LEFT_FACE
+
+
+@pytest.mark.parametrize("handle", [BELOW, MIDDLE, ABOVE])
+def test_a_handle_alone_shows_no_flap(handle):
+    assert turned(handle=handle) is None  # drawers are pulled at any height
+
+
+@pytest.mark.parametrize(
+    "others",
+    [
+        [],
+        [box("shelf", (-0.48, 0.0, 0.79), (0.48, 0.38, 0.81))],  # above the front
+        [box("shelf", (-0.48, 0.3, 0.6), (0.48, 0.38, 0.62))],  # far behind it
+        [box("shelf", (-0.48, 0.1, 0.6), (-0.2, 0.38, 0.62))],  # beside most of it
+        [box("block", (-0.48, 0.1, 0.5), (0.48, 0.38, 0.7))],  # no board
+        [SHELF, box("box_1", (-0.47, 0.0, 0.42), (-0.46, 0.3, 0.7))],  # a box of its own rides on it
+        [SHELF, box("box_2", (-0.4, 0.0, 0.42), (0.4, 0.3, 0.43))],
+    ],
+)
+def test_what_may_be_a_drawer_stays_one(others):
+    assert turned(*others) is None
+
+
+def test_what_is_labelled_thick_or_slides_elsewhere_stays():
+    assert turned(SHELF, guessed=False) is None
+    assert turned(SHELF, front=box("front", (-0.48, -0.02, 0.4), (0.48, 0.09, 0.8))) is None
+    assert turned(SHELF, axis=1) is None
+
+
+@pytest.mark.parametrize(
+    ("change", "limit"),
+    [("plate", 0.01), ("board", 0.01), ("near", 0.1), ("deep", 0.9), ("inside", 0.6), ("along", 0.95)],
+)
+def test_each_threshold_of_a_board_decides(change, limit):
+    narrow = box("shelf", (-0.44, 0.1, 0.6), (0.44, 0.38, 0.62))
+    assert turned(narrow) == BOTTOM_FACE
+    assert turned(narrow, **{change: limit}) is None
+
+
+def test_thresholds_of_handles_and_boxes_decide():
+    assert turned(SHELF, box("box_1", (-0.47, 0.0, 0.42), (-0.46, 0.3, 0.7)), box=0.9) == BOTTOM_FACE
+    assert turned(SHELF, handle=BELOW, edge=0.01) == BOTTOM_FACE
+    assert turned(SHELF, handle=RIGHT, off=0.49) == BOTTOM_FACE
+    assert turned(SHELF, wide=3.0) == LEFT_FACE
+    assert np.isclose(PLATE.box.size[0] / PLATE.box.size[2], 2.4)
