@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-Way = Callable[[trimesh.Trimesh], trimesh.Trimesh]
+Drawing = Callable[[trimesh.Trimesh], trimesh.Trimesh]
 
 
-def drawn_again(sample: Path, way: Way, placed: np.ndarray | None = None) -> trimesh.Scene:
+def drawn_again(sample: Path, draw: Drawing, placed: np.ndarray | None = None) -> trimesh.Scene:
     """Returns the scene of a GLB with each mesh drawn in another way, and the whole moved by a 4x4 matrix."""
     scene = trimesh.load_scene(sample)
     for name, mesh in list(scene.geometry.items()):
-        drawn = way(mesh)
+        drawn = draw(mesh)
         drawn.visual = mesh.visual
         scene.geometry[name] = drawn
     return scene if placed is None else scene.apply_transform(placed)
@@ -83,7 +83,7 @@ def with_corners_moved(mesh: trimesh.Trimesh) -> trimesh.Trimesh:
     return _bare(whole.vertices + chance.normal(0.0, 1e-4, whole.vertices.shape), whole.faces)
 
 
-WAYS = (
+DRAWINGS = (
     as_it_is,
     with_corners_apart,
     with_faces_divided,

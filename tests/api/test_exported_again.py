@@ -10,7 +10,7 @@ import trimesh
 from trimesh.transformations import rotation_matrix, scale_matrix, translation_matrix
 
 import grafu
-from exported_again import WAYS, as_it_is, drawn_again, flattened
+from exported_again import DRAWINGS, as_it_is, drawn_again, flattened
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 NEAR = 0.01  # metres of an axis, metres and radians of a range
@@ -22,7 +22,7 @@ PLACES = {
     "Z up": rotation_matrix(np.pi / 2, [1.0, 0.0, 0.0]),
 }
 MADE: dict[str, Callable[[Path], trimesh.Scene]] = {
-    **{way.__name__: lambda sample, way=way: drawn_again(sample, way) for way in WAYS},
+    **{draw.__name__: lambda sample, draw=draw: drawn_again(sample, draw) for draw in DRAWINGS},
     **{name: lambda sample, at=at: drawn_again(sample, as_it_is, at) for name, at in PLACES.items()},
     "without hierarchy": flattened,
 }
