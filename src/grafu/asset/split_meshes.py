@@ -96,8 +96,9 @@ def _row_of_pieces(names: Sequence[str]) -> tuple[str, int]:
         numbered = (f"{named[1]}-{k}" == name for k, name in enumerate(names))
         return named[1], sum(1 for _ in takewhile(bool, numbered))
     if (named := _WITH_CHANCE.fullmatch(names[0])) is not None:
-        alike = (bool(m := _WITH_CHANCE.fullmatch(name)) and m[1] == named[1] for name in names)
-        return named[1], sum(1 for _ in takewhile(bool, alike))
+        mesh = named[1]
+        alike = ((other := _WITH_CHANCE.fullmatch(name)) is not None and other[1] == mesh for name in names)
+        return mesh, sum(1 for _ in takewhile(bool, alike))
     return names[0], 0
 
 
