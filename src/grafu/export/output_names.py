@@ -151,7 +151,12 @@ def told_apart(paths: Sequence[Path], names: Sequence[str]) -> tuple[str, ...]:
 
 
 def _with_folders(files: Sequence[Path]) -> Iterator[list[str]]:
-    """Yields the names of inputs behind the names of the folders that hold them: of one, of two, and so on."""
+    """Yields the names of inputs behind the names of the folders that hold them: of one, of two, and so on.
+
+    Of inputs that hold one another it yields none: they are one model, given twice.
+    """
+    if {folder for file in files for folder in file.parents} & set(files):
+        return
     above = [[file.stem if not os.path.isdir(file) else file.name, *(at.name for at in file.parents)] for file in files]
     for count in range(2, min(map(len, above))):
         yield ["_".join(reversed(names[:count])) for names in above]
