@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from bench_figure import PRINTED
 from docs_results import HARD, HIDDEN, LEAD
 
 from stated.measures import MEASURES
@@ -52,6 +53,7 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("training.md", "folds"): copied(store["folds"], 0),
         ("training.md", "departures measured"): copied(store["departures"], 0),
         ("benchmarks.md", "welded"): ours(store["welded"]),
+        ("speed.md", "speed"): without_ratio(store["speed"]),
         ("cluster.md", "cluster"): copied(store["cluster"], 0),
         ("synthetic.md", "synthetic and real"): "\n".join(["```text", *store["synthetic and real"].lines, "```"]),
     }
@@ -75,6 +77,11 @@ def _section(lead: str, kept: Stored) -> str:
 def copied(kept: Stored, number: int) -> str:
     """Returns one of the tables that a command printed."""
     return drawn_table(kept.tables[number])
+
+
+def without_ratio(kept: Stored) -> str:
+    """Returns the table of the bench without its last column, the ratio to the figures printed before."""
+    return drawn_table([row[:PRINTED] for row in kept.tables[0]])
 
 
 def ours(kept: Stored) -> str:

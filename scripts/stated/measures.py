@@ -241,5 +241,14 @@ MEASURES = (
         ("cluster.md",),
         3,
     ),
+    Measure(
+        "speed",
+        "python scripts/bench.py {models}/pnm {models}/pnm2 {models}/wild --repeats 2 --out {out}",
+        "python scripts/bench.py {models}/pnm/46408 --quick --out {out}",
+        "seconds, growth, memory and rates, each with its bar, on a machine that does nothing else",
+        ("speed.md",),
+        25,
+        weights=True,
+    ),
 )
 BY_NAME = {measure.name: measure for measure in MEASURES}
