@@ -1,6 +1,6 @@
 """Doors that shape hangs on another border than was predicted."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
@@ -66,3 +66,17 @@ def _decided(decision: Decision, side: tuple[HingeBorder, float], sign: str) -> 
     if decision.question == "sign" and decision.choice != sign:
         return replace(decision, choice=sign, runner_up=decision.choice)
     return decision
+
+
+def hung_on_sides(completion: GraphCompletion, is_such: Callable[[str], bool]) -> GraphCompletion:
+    """Returns the completion in which such doors as would drop or lift hang on a side, the likelier one.
+
+    A door still opens to the same face. Leaves that fold stay as they are predicted.
+    """
+    graph = completion.completed
+    borders = {
+        hinge.child: likelier_side(hinge, completion)
+        for hinge in graph.hinges
+        if hinge.coupling is None and stands_on_a_level_border(hinge, graph) and is_such(hinge.child)
+    }
+    return hung_on(completion, borders)

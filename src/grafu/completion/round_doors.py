@@ -8,7 +8,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset, Part
-from grafu.completion.rehang import hung_on, likelier_side, stands_on_a_level_border
+from grafu.completion.rehang import hung_on_sides
 from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
@@ -42,18 +42,7 @@ def with_round_doors(
     A door still opens to the same face. Where no score tells the sides apart, it hangs on the left.
     """
     given = {part.id: part for part in asset.parts}
-    graph = completion.completed
-    return hung_on(
-        completion,
-        {
-            hinge.child: likelier_side(hinge, completion)
-            for hinge in graph.hinges
-            if hinge.child in given
-            and hinge.coupling is None
-            and stands_on_a_level_border(hinge, graph)
-            and is_round(given[hinge.child], config)
-        },
-    )
+    return hung_on_sides(completion, lambda door: door in given and is_round(given[door], config))
 
 
 def is_round(part: Part, config: RoundDoorConfig = RoundDoorConfig()) -> bool:

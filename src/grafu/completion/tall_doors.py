@@ -6,7 +6,7 @@ Dropped, such a leaf would reach farther out than any user stands before it. It 
 from typing import final
 
 from grafu.asset.part import Asset
-from grafu.completion.rehang import hung_on, likelier_side, stands_on_a_level_border
+from grafu.completion.rehang import hung_on_sides
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
@@ -39,19 +39,8 @@ def with_tall_doors(
 
     A door still opens to the same face. Leaves that fold stay as they are predicted.
     """
-    given = {part.id for part in asset.parts}
-    graph = completion.completed
-    return hung_on(
-        completion,
-        {
-            hinge.child: likelier_side(hinge, completion)
-            for hinge in graph.hinges
-            if hinge.child in given
-            and hinge.coupling is None
-            and stands_on_a_level_border(hinge, graph)
-            and _is_tall(graph.node(hinge.child).box, config)
-        },
-    )
+    graph, given = completion.completed, {part.id for part in asset.parts}
+    return hung_on_sides(completion, lambda door: door in given and _is_tall(graph.node(door).box, config))
 
 
 def _is_tall(box: Box, config: TallDoorConfig) -> bool:
