@@ -42,6 +42,7 @@ from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfi
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
 from grafu.completion.dropping_doors import DroppingDoorConfig
+from grafu.completion.fixed_shelves import FixedShelfConfig
 from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
 from grafu.completion.lone_fronts import LoneFrontConfig
@@ -226,7 +227,7 @@ CONFIGS = (
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
-    DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig,
+    DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig, FixedShelfConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,
     FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LeafPieceConfig,
