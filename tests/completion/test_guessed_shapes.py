@@ -182,6 +182,15 @@ def test_a_drawer_drawn_as_one_sheet_is_closed():
     assert why([*BASE_CASE, part]) == ""
 
 
+def test_a_grip_along_a_front_is_no_drawer_and_a_low_front_or_one_with_a_box_is():
+    grip = box("guess", (0.02, -0.02, 0.6), (0.58, 0.0, 0.63))
+    assert why([*BASE_CASE, grip]) == "it is a strip, lower than fronts of drawers are"
+    assert why([*BASE_CASE, grip], is_held=True) == ""
+    assert why([*BASE_CASE, box("guess", (0.02, -0.02, 0.6), (0.58, 0.0, 0.67))]) == "", "twice as high"
+    assert why([*BASE_CASE, box("guess", (0.02, -0.02, 0.6), (0.2, 0.0, 0.63))]) == "", "a third as wide"
+    assert why([*BASE_CASE, tray("guess", (0.02, -0.02, 0.6), (0.58, 0.5, 0.63))]) == "", "a shallow drawer"
+
+
 def test_what_stays_static_slides_no_more():
     post = box("guess", (0.0, -0.2, 0.1), (0.3, 0.0, 0.8))
     asset, completion = made([*BASE_CASE, post], "guess", Slide("left", "guess", 1))

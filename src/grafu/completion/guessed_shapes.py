@@ -49,6 +49,9 @@ class GuessedShapeConfig:
     small: float = 0.04
     """Without a handle on it, what is no longer and no higher than this is a button (fraction of the object's largest
     side). Of 131 real doors and drawers the least has 0.19."""
+    strip: float = 0.12
+    """A mere front that is as low as a button, and lower than this (fraction of its width), is a grip or a trim: of 69
+    real drawers the few that are as low all have a box."""
     thick: float = 0.36
     """A door is thinner than this (fraction of the shorter of its other sides). Of 69 real ones the most is 0.22."""
     seen: float = 0.35
@@ -118,6 +121,8 @@ def _no_drawer(
     if not is_held and is_without_case(box, slide, rest, whole):
         return "nothing that could hold it is beside it, or above and below"
     if is_front_only(box, slide // 2):
+        if not is_held and _is_strip(box, slide // 2, whole, config):
+            return "it is a strip, lower than fronts of drawers are"
         is_open = _is_open(mesh, lambda: rest, box, slide, config.front)
         return "it is open, and a front is closed" if is_open else ""
     seen = _Seen.of(rest, box, slide)
@@ -127,6 +132,11 @@ def _no_drawer(
         return "it has no bottom"
     is_block = not is_held and _is_open_block(box, mesh, seen, config)
     return "it is a solid block, and open to see: nothing could be put into it" if is_block else ""
+
+
+def _is_strip(front: Box, axis: int, whole: Box, config: GuessedShapeConfig) -> bool:
+    width, height = float(front.size[1 - axis]), float(front.size[_UP // 2])
+    return height <= config.small * float(whole.size.max()) and height <= config.strip * width
 
 
 def _frames(mesh: TriangleMesh) -> tuple[Mat3, Mat3]:
