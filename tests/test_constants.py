@@ -46,6 +46,7 @@ from grafu.completion.fixed_shelves import FixedShelfConfig
 from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
 from grafu.completion.lone_fronts import LoneFrontConfig
+from grafu.completion.oven_doors import OvenDoorConfig
 from grafu.completion.round_doors import RoundDoorConfig
 from grafu.completion.static_guesses import StaticGuessConfig
 from grafu.completion.tall_doors import TallDoorConfig
@@ -231,7 +232,7 @@ CONFIGS = (
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,
     FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LeafPieceConfig,
-    LoneFrontConfig,
+    LoneFrontConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,

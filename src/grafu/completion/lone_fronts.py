@@ -3,7 +3,7 @@
 A shelf or a divider stands close behind its middle, as in a secretary: a drawer would run into it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final, final
 
@@ -70,11 +70,11 @@ def with_lone_fronts(completion: GraphCompletion, config: LoneFrontConfig = Lone
     still = _still(graph)
     found = {}
     for rail in rails:
-        if rail.axis == _FRONT and rail.coupling is None and _is_alone(rail.child, graph, config):
+        if rail.axis == _FRONT and rail.coupling is None and is_alone(rail.child, graph, config):
             border = _border(rail.child, graph, still, config)
             if border is not None:
                 found[rail] = border
-    return _as_doors(completion, found) if found else completion
+    return as_doors(completion, found) if found else completion
 
 
 def _still(graph: FunctionalGraph) -> list[Box]:
@@ -84,7 +84,7 @@ def _still(graph: FunctionalGraph) -> list[Box]:
     return [node.box for node in graph.nodes if node.id not in moving | riding]
 
 
-def _is_alone(front: str, graph: FunctionalGraph, config: LoneFrontConfig) -> bool:
+def is_alone(front: str, graph: FunctionalGraph, config: LoneFrontConfig = LoneFrontConfig()) -> bool:
     """Whether a front is an upright plate, and nothing that rides on it is as deep as a drawer."""
     box, depth = graph.node(front).box, float(graph.box.size[_DEPTH])
     riding = [graph.node(edge.child).box for edge in graph.attachments if edge.parent == front]
@@ -134,7 +134,8 @@ def _is_in_the_way(board: Box, front: Box, whole: Box, config: LoneFrontConfig) 
     return bool(is_between and common >= config.along * front.size[other])
 
 
-def _as_doors(completion: GraphCompletion, borders: dict[Rail, HingeBorder]) -> GraphCompletion:
+def as_doors(completion: GraphCompletion, borders: Mapping[Rail, HingeBorder]) -> GraphCompletion:
+    """Returns the completion in which fronts that were to slide out to the front turn about a border each instead."""
     hinges = {
         rail.child: Hinge(rail.parent, rail.child, border, sign_for_opening(_DEPTH, border, _FRONT))
         for rail, border in borders.items()

@@ -12,6 +12,7 @@ from grafu.completion.fixed_shelves import with_fixed_shelves
 from grafu.completion.handle_sides import with_handle_sides
 from grafu.completion.lone_fronts import with_lone_fronts
 from grafu.completion.network import complete_by_network
+from grafu.completion.oven_doors import with_oven_doors
 from grafu.completion.round_doors import with_round_doors
 from grafu.completion.rule import complete_by_rule
 from grafu.completion.session import SHIPPED_WEIGHTS, open_network
@@ -48,8 +49,9 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     left or right side (`with_round_doors`), and so do high ones (`with_tall_doors`); those of ovens hang on their lower
     border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`). What is only
     guessed to be a door, and is too thick, is a drawer (`with_thick_doors`), what is only guessed to be a drawer, and
-    can be none, a door (`with_lone_fronts`); what is only guessed to be a door or drawer stays static where it cannot
-    be one (`with_static_guesses`). A shelf that is a board is fixed (`with_fixed_shelves`).
+    can be none, a door (`with_lone_fronts`), as below a panel with knobs (`with_oven_doors`); what is only guessed to
+    be a door or drawer stays static where it cannot be one (`with_static_guesses`). A shelf that is a board is fixed
+    (`with_fixed_shelves`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
@@ -60,7 +62,7 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
     predicted = with_lone_fronts(with_thick_doors(complete_by_network(seen, network, network.features), asset))
-    moved = _shaped(with_fixed_shelves(predicted, asset), asset)
+    moved = _shaped(with_oven_doors(with_fixed_shelves(predicted, asset)), asset)
     found = with_static_guesses(moved, asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
