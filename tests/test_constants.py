@@ -38,6 +38,7 @@ from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.asset.standing_out import StandingOutConfig
+from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
@@ -224,7 +225,8 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BodyKindConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
+    AgreementConfig, BoardBehindConfig,
+    BodyKindConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,

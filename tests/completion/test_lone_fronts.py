@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from grafu.asset.part import Asset
+from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.lone_fronts import LoneFrontConfig, with_lone_fronts
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Attached, Hinge, Rail
@@ -22,9 +23,10 @@ SHELF = box("shelf", (-0.48, 0.1, 0.6), (0.48, 0.38, 0.62))
 DIVIDER = box("divider", (-0.01, 0.1, 0.42), (0.01, 0.38, 0.78))
 BELOW, MIDDLE, ABOVE, RIGHT = (-0.05, 0.45), (-0.05, 0.59), (-0.05, 0.74), (0.38, 0.59)
 BOTTOM_FACE, TOP_FACE, LEFT_FACE = 4, 5, 0
+NONE: dict[str, float] = {}
 
 
-def turned(*others, front=PLATE, handle=MIDDLE, guessed=True, axis=FRONT, **changes):
+def turned(*others, front=PLATE, handle=MIDDLE, guessed=True, axis=FRONT, board=NONE, **changes):
     """Returns the face of the border on which the front hangs, and what was decided; None: it is a drawer still."""
     parts = [BODY, replace(front, label=PartLabel.DRAWER), *others]
     edges = [Rail("body", "front", axis)]
@@ -32,12 +34,15 @@ def turned(*others, front=PLATE, handle=MIDDLE, guessed=True, axis=FRONT, **chan
         x, z = handle
         parts.append(replace(box("bar", (x, -0.05, z), (x + 0.1, -0.02, z + 0.02)), label=PartLabel.HANDLE))
         edges.append(Attached("front", "bar"))
-    graph = parse_graph(Asset("made", "", "made", tuple(parts)))
+    asset = Asset("made", "", "made", tuple(parts))
+    graph = parse_graph(asset)
     edges += [Attached("front", part.id) for part in others if part.id.startswith("box")]
     label = (Decision("front", "label", "drawer", 0.9, "door", 0.1),) if guessed else ()
     decisions = (*label, Decision("front", "slide", str(FRONT), 0.8), Decision("front", "mount", "body", 0.7))
     before = GraphCompletion(graph, with_edges(graph, edges), "network", decisions=decisions)
-    after = with_lone_fronts(before, replace(LoneFrontConfig(), **changes))
+    after = with_lone_fronts(
+        before, asset, replace(LoneFrontConfig(), **changes), replace(BoardBehindConfig(), **board)
+    )
     (motion,) = after.completed.motions
     if isinstance(motion, Rail):
         assert after is before
@@ -96,14 +101,18 @@ def test_what_is_labelled_thick_or_slides_elsewhere_stays():
     assert turned(SHELF, axis=1) is None
 
 
-@pytest.mark.parametrize(
-    ("change", "limit"),
-    [("plate", 0.01), ("board", 0.01), ("near", 0.1), ("deep", 0.9), ("inside", 0.6), ("along", 0.95)],
-)
+@pytest.mark.parametrize(("change", "limit"), [("near", 0.1), ("thick", 0.01), ("inside", 0.6), ("along", 0.99)])
 def test_each_threshold_of_a_board_decides(change, limit):
-    narrow = box("shelf", (-0.44, 0.1, 0.6), (0.44, 0.38, 0.62))
+    narrow = box("shelf", (-0.4, 0.1, 0.6), (0.25, 0.38, 0.62))
     assert turned(narrow) == BOTTOM_FACE
-    assert turned(narrow, **{change: limit}) is None
+    assert turned(narrow, board={change: limit}) is None
+
+
+def test_a_shelf_in_one_surface_with_the_case_is_found_as_well():
+    sides = [box("side", (x, 0.0, 0.0), (x + 0.02, 0.4, 1.0)) for x in (-0.5, 0.48)]
+    surfaces = tuple(surface for part in (*sides, SHELF) for surface in part.surfaces)
+    assert turned(replace(sides[0], surfaces=surfaces)) == BOTTOM_FACE
+    assert turned(replace(sides[0], surfaces=surfaces[:2])) is None, "nothing is behind its middle"
 
 
 def test_thresholds_of_handles_and_boxes_decide():

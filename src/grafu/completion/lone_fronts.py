@@ -3,15 +3,17 @@
 A shelf or a divider stands close behind its middle, as in a secretary: a drawer would run into it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
 
+from grafu.asset.part import Asset
+from grafu.completion.boards_behind import BoardBehindConfig, is_board_behind
 from grafu.completion.rehang import upright_borders
+from grafu.completion.ways_out import rest_of
 from grafu.dataclass import dataclass
-from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, HingeBorder, Rail
@@ -39,16 +41,6 @@ class LoneFrontConfig:
     """Greatest thickness of a front alone (fraction of the depth of the whole)."""
     box: float = 0.25
     """What rides on it and is deeper is the box of a drawer (the same fraction)."""
-    board: float = 0.25
-    """Greatest thickness of a shelf or divider (fraction of its next side)."""
-    near: float = 0.5
-    """How far behind the front it begins at most (fraction of the depth of the whole) ..."""
-    deep: float = 0.2
-    """... how far it reaches back at least (the same fraction) ..."""
-    inside: float = 0.15
-    """... how far it is from both borders of the front that it lies between (fraction of their distance) ..."""
-    along: float = 0.5
-    """... and how much of the front it takes in the other direction (fraction)."""
     edge: float = 0.25
     """How far from the lower or upper border the middle of a handle is at most that shows the other one (fraction of
     the height)."""
@@ -59,29 +51,26 @@ class LoneFrontConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "wide")
-        require_ratios(self, "plate", "box", "board", "near", "deep", "inside", "along", "edge", "off")
+        require_ratios(self, "plate", "box", "edge", "off")
 
 
-def with_lone_fronts(completion: GraphCompletion, config: LoneFrontConfig = LoneFrontConfig()) -> GraphCompletion:
+def with_lone_fronts(
+    completion: GraphCompletion,
+    asset: Asset,
+    config: LoneFrontConfig = LoneFrontConfig(),
+    boards: BoardBehindConfig = BoardBehindConfig(),
+) -> GraphCompletion:
     """Returns the completion in which guessed drawers that can be none turn about a border. Labelled ones stay."""
     graph = completion.completed
     guessed = {d.part for d in completion.decisions if d.question == "label" and d.choice == PartLabel.DRAWER}
     rails = [edge for edge in graph.motions if isinstance(edge, Rail) and edge.child in guessed]
-    still = _still(graph)
-    found = {}
-    for rail in rails:
-        if rail.axis == _FRONT and rail.coupling is None and is_alone(rail.child, graph, config):
-            border = _border(rail.child, graph, still, config)
-            if border is not None:
-                found[rail] = border
+    fronts = [r for r in rails if r.axis == _FRONT and r.coupling is None and is_alone(r.child, graph, config)]
+    found = {
+        rail: _border(rail.child, graph, config)
+        for rail in fronts
+        if is_board_behind(graph.node(rail.child).box, graph.box, rest_of(asset, rail.child, graph), boards)
+    }
     return as_doors(completion, found) if found else completion
-
-
-def _still(graph: FunctionalGraph) -> list[Box]:
-    """Returns the boxes of what neither moves nor rides on what does."""
-    moving = {edge.child for edge in graph.motions}
-    riding = {edge.child for edge in graph.attachments if edge.parent in moving}
-    return [node.box for node in graph.nodes if node.id not in moving | riding]
 
 
 def is_alone(front: str, graph: FunctionalGraph, config: LoneFrontConfig = LoneFrontConfig()) -> bool:
@@ -92,12 +81,10 @@ def is_alone(front: str, graph: FunctionalGraph, config: LoneFrontConfig = LoneF
     return bool(is_plate and all(one.size[_DEPTH] <= config.box * depth for one in riding))
 
 
-def _border(front: str, graph: FunctionalGraph, still: Sequence[Box], config: LoneFrontConfig) -> HingeBorder | None:
-    """Returns the border on which such a front hangs; None: it may be that of a drawer."""
+def _border(front: str, graph: FunctionalGraph, config: LoneFrontConfig) -> HingeBorder:
+    """Returns the border on which such a front hangs."""
     box = graph.node(front).box
     at = _handle_at(front, graph)
-    if not any(_is_in_the_way(board, box, graph.box, config) for board in still):
-        return None
     if at is not None and not config.edge < at[1] < 1.0 - config.edge:
         return face_to_border(_DEPTH, signed_axis(_UP, positive=at[1] <= config.edge))
     if at is not None and abs(at[0] - 0.5) >= config.off:
@@ -116,22 +103,6 @@ def _handle_at(front: str, graph: FunctionalGraph) -> tuple[float, float] | None
     box = graph.node(front).box
     at = (np.mean(handles, axis=0) - box.low) / np.maximum(box.size, 1e-12)
     return float(at[_LEVEL]), float(at[_UP])
-
-
-def _is_in_the_way(board: Box, front: Box, whole: Box, config: LoneFrontConfig) -> bool:
-    """Whether a shelf or a divider stands close behind the middle of a front."""
-    sides, depth = np.sort(board.size), float(whole.size[_DEPTH])
-    thin = board.thin_axis
-    if thin == _DEPTH or sides[0] > config.board * sides[1] or board.size[_DEPTH] < config.deep * depth:
-        return False
-    gap = float(board.low[_DEPTH] - front.high[_DEPTH])
-    if not -float(front.size[_DEPTH]) <= gap <= config.near * depth:
-        return False
-    other = _LEVEL if thin == _UP else _UP
-    margin = config.inside * float(front.size[thin])
-    is_between = front.low[thin] + margin <= board.low[thin] and board.high[thin] <= front.high[thin] - margin
-    common = min(board.high[other], front.high[other]) - max(board.low[other], front.low[other])
-    return bool(is_between and common >= config.along * front.size[other])
 
 
 def as_doors(completion: GraphCompletion, borders: Mapping[Rail, HingeBorder]) -> GraphCompletion:
