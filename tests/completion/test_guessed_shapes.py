@@ -141,13 +141,6 @@ def test_fronts_with_bevels_on_all_sides_are_not_round_and_domes_and_pipes_are()
     assert "round" in why([*BASE_CASE, shaped("guess", pipe)], edge=rail)
 
 
-def test_the_buttons_of_a_panel_are_no_drawers_and_a_small_drawer_is():
-    button, drawer = (box("guess", (0.3, -0.005, 0.3), (0.3 + side, 0.0, 0.3 + side)) for side in (0.03, 0.06))
-    assert why([*BASE_CASE, button]) == "it is as small as a button"
-    assert why([*BASE_CASE, drawer]) == ""
-    assert why([*BASE_CASE, button], is_held=True) == "", "what has a handle on it is pulled, not pressed"
-
-
 @pytest.mark.parametrize(("depth", "is_static"), [(0.02, False), (0.1, False), (0.2, True)])
 def test_a_post_is_no_door(depth, is_static):
     post = box("guess", (0.0, -depth, 0.1), (0.3, 0.0, 0.8))

@@ -129,6 +129,16 @@ def test_a_rod_is_no_drawer_unless_its_name_states_it(height, label, is_front):
     assert bool(without_slim(weights, graph, DecodeConfig())[1, DRAWER] > 0) is is_front
 
 
+@pytest.mark.parametrize(
+    ("side", "label", "is_front"), [(0.03, "unknown", False), (0.06, "unknown", True), (0.03, "drawer", True)]
+)
+def test_a_button_is_no_drawer_unless_its_name_states_it(side, label, is_front):
+    button = PartNode("button", PartLabel(label), Box(vec3(0.5, -0.03, 0.5), vec3(0.5 + side, 0.0, 0.5 + side)))
+    weights = np.full((2, len(LABELS)), 0.1)
+    graph = FunctionalGraph("g", (PartNode("body", PartLabel.UNKNOWN, BODY), button), ())
+    assert bool(without_slim(weights, graph, DecodeConfig())[1, DRAWER] > 0) is is_front
+
+
 def test_what_touches_handles_alone_is_a_piece_of_a_handle():
     boxes = {"front": FRONT, "post": ON_FRONT, "bar": BESIDE, "foot": BODY}
     nodes = tuple(PartNode(name, PartLabel.UNKNOWN, box) for name, box in boxes.items())

@@ -46,12 +46,11 @@ class GuessedShapeConfig:
     moulded: float = 0.05
     """... but of a plate, what slopes towards one of its sides alone is a bevel or a moulding (cosine between a normal
     and the other side at most: 3 degrees)."""
-    small: float = 0.04
-    """Without a handle on it, what is no longer and no higher than this is a button (fraction of the object's largest
-    side). Of 131 real doors and drawers the least has 0.19."""
+    low: float = 0.04
+    """A mere front that is no higher than this (fraction of the object's largest side) ..."""
     strip: float = 0.12
-    """A mere front that is as low as a button, and lower than this (fraction of its width), is a grip or a trim: of 69
-    real drawers the few that are as low all have a box."""
+    """... and than this (fraction of its width) is a grip or a trim: of 69 real drawers the few that are as low all
+    have a box."""
     thick: float = 0.36
     """A door is thinner than this (fraction of the shorter of its other sides). Of 69 real ones the most is 0.22."""
     seen: float = 0.35
@@ -89,8 +88,6 @@ def shape_against(
     mesh, box = asset.part(node.id).mesh, node.box
     if node.label is PartLabel.DOOR and is_thick(mesh, config):
         return "it is too thick for a door"
-    if not is_held and box.size.max() <= config.small * asset.box.size.max():
-        return "it is as small as a button"
     if not is_held and _straight(mesh, config) < config.rounded:
         return "it is round, which fronts are not"
     rest = partial(rest_of, asset, node.id, graph)  # of a large model it takes long, and most doors need none
@@ -136,7 +133,7 @@ def _no_drawer(
 
 def _is_strip(front: Box, axis: int, whole: Box, config: GuessedShapeConfig) -> bool:
     width, height = float(front.size[1 - axis]), float(front.size[_UP // 2])
-    return height <= config.small * float(whole.size.max()) and height <= config.strip * width
+    return height <= config.low * float(whole.size.max()) and height <= config.strip * width
 
 
 def _frames(mesh: TriangleMesh) -> tuple[Mat3, Mat3]:

@@ -20,12 +20,12 @@ _LEAST = 1e-9  # no weight is less, so that fractions are finite
 
 
 def without_slim(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
-    """Returns the weights of labels (nodes, labels) in which unlabelled rods are no doors or drawers."""
-    least = config.strip * float(graph.box.size.max())
+    """Returns the weights of labels (nodes, labels) in which unlabelled rods and buttons are no doors or drawers."""
+    least = np.array([config.strip, config.button]) * float(graph.box.size.max())
     slim = [
         k
         for k, node in enumerate(graph.nodes)
-        if node.label is PartLabel.UNKNOWN and float(np.sort(node.box.size)[1]) < least
+        if node.label is PartLabel.UNKNOWN and (np.sort(node.box.size)[1:] < least).any()
     ]
     if not slim:
         return weights

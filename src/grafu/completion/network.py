@@ -6,7 +6,7 @@ of two forward passes, on the graph and on its mirror image: their errors differ
 
 Labels of unlabelled parts: the network's category, weighed by whether anything could carry such a part, and by whether
 it is one of a row of fronts, which agree, or of a column of wide ones, which are rather drawers. A panel on which a
-smaller front with a handle lies is no front, nor is a rod; what touches handles alone is a piece of one.
+smaller front with a handle lies is no front, nor is a rod or a button; what touches handles alone is a piece of one.
 
 Labels that the input states are kept, whatever the network states.
 """
