@@ -102,3 +102,30 @@ def test_other_doors_stay_as_they_are_predicted(door, handles, face, how):
 def test_numbers_are_above_nothing():
     with pytest.raises(ValueError, match="off"):
         HandleSideConfig(off=0.0)
+
+
+def at(z: float, half: float = 0.08, x: float = 0.0):
+    return replace(box("handle", (x - half, -0.06, z), (x + half, -0.03, z + 0.02)), label=PartLabel.HANDLE)
+
+
+@pytest.mark.parametrize(("z", "side"), [(0.37, BOTTOM), (0.11, TOP)])
+def test_a_wide_front_with_a_level_bar_at_its_edge_turns_about_the_other_one(z, side):
+    _, after = hung(LOW_DOOR, [at(z)], LEFT)
+    (hinge,) = after.completed.hinges
+    assert border_to_face(1, hinge.border) == side
+    assert opening_face(1, hinge.border, hinge.sign) == FRONT
+
+
+@pytest.mark.parametrize(
+    ("door", "handle"),
+    [
+        (LOW_DOOR, at(0.24)),
+        (LOW_DOOR, at(0.37, half=0.015)),
+        (LOW_DOOR, at(0.37, x=-0.15)),
+        (DOOR, at(0.65)),
+    ],
+    ids=["at half height", "a knob", "off the middle", "not wide"],
+)
+def test_other_doors_with_level_bars_hang_as_predicted(door, handle):
+    before, after = hung(door, [handle], LEFT)
+    assert after is before
