@@ -86,7 +86,7 @@ def test_furniture_that_is_wider_or_higher_has_the_same_kinds_of_joints(name: st
 
     found = grafu.functionalize(path)
 
-    assert found.report.verdict.colour is not Colour.RED  # how sure the network is may differ
+    assert found.report.verdict.colour is not Colour.RED  # confidences may differ
     described = [
         sorted((str(joint.type), *np.round(joint.axis).tolist()) for joint in result.joints)
         for result in (found, expected)
