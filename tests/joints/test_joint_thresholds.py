@@ -36,6 +36,7 @@ from grafu.joints.rail_config import (
     RailConfig,
 )
 from grafu.joints.rail_footing_config import RailFootingConfig
+from grafu.joints.raised_leaves import RaisedLeafConfig
 from grafu.joints.stay_config import StayConfig
 from grafu.joints.swivel_mirrors import MirrorConfig
 from grafu.joints.tilting_fronts import TiltConfig
@@ -95,6 +96,7 @@ REASONS = {
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
     "extension_leaves.py": {"_UP": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
+    "raised_leaves.py": {"_UP": NUMBERING, "_SIDES": NUMBERING},
     "swivel_mirrors.py": {"_UP": NUMBERING},
     "wide_bars.py": {"_UP": NUMBERING},
     "closing_doors.py": {"_ALONG": SAMPLES},
@@ -142,6 +144,7 @@ CONFIGS = (
     DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
     PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RackGuideConfig, RailConfig, RailFootingConfig,
+    RaisedLeafConfig,
     RealizationConfig,
     StayConfig, SurveyConfig, TiltConfig, TimeConfig, TrayConfig, WasteBinConfig, WideBarConfig, WindowConfig,
 )  # fmt: skip

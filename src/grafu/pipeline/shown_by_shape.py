@@ -27,6 +27,7 @@ from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.joints.portholes import with_porthole_labels
 from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
+from grafu.joints.raised_leaves import with_raised_leaves
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.joints.swivel_mirrors import swivel_mirrors
@@ -76,7 +77,8 @@ def shown_by_shape(
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_wide_bars(with_boxes_behind(plan, asset, settled), asset, settled)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
-    plan = with_racks(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset, graph)
+    plan = with_raised_leaves(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset)
+    plan = with_racks(plan, asset, graph)
     plan = with_trays(with_waste_bins(plan, asset, graph), asset, graph)
     plan = with_lifts(plan, _of_input(graph, asset), at_scale(joints.lift, metre_on(asset.extent)))
     plan = _without_knobs(plan, asset, settled, at_scale(joints.small, metre_on(asset.extent)))
