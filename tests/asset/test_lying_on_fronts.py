@@ -1,6 +1,7 @@
 """A piece without names whose front is below has another direction up than its format states."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from grafu.asset.part import Part
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resting import stands_on_another_side
 from grafu.asset.seen_side import lies_on_its_front
+from grafu.asset.settling import settled
 from grafu.asset.standing import vector
 from grafu.synth.samples import desk, dresser, kitchen_base
 from grafu.vocabulary import PartLabel
@@ -90,3 +92,44 @@ def test_doors_that_lie_by_their_names_let_the_shape_decide_which_way_is_up():
     case, *drawers = in_pose(flat_chest(), "+Y", "+Z")  # doors that stand are believed
     named = tuple(replace(d, label=PartLabel.DOOR, labelled_by="name") for d in drawers)
     assert settle_frame(Reading("glb", (case, *named), GLTF), LoadOptions()).up == "+Y"
+
+
+def joined(parts):
+    """Returns one part of all surfaces, as where a piece was joined to one mesh."""
+    return (replace(parts[0], surfaces=tuple(s for part in parts for s in part.surfaces)),)
+
+
+@pytest.mark.parametrize(("convention", "up"), [(OBJ, "+Z"), (GLTF, "+Y")])
+def test_shells_of_one_mesh_tell_which_way_is_up_where_the_format_does_not(convention, up):
+    parts = joined(in_pose(flat_chest(), "+Z", "-Y"))
+    assert settle_frame(Reading("mesh file", parts, convention), LoadOptions()).up == up
+
+
+def test_a_wall_cabinet_that_shows_its_inside_from_below_does_not_lie_on_it():
+    boards = [box(f"b{k}", (-0.38, -0.25 + 0.1 * k, 0.02), (0.38, -0.2 + 0.1 * k, 0.1)) for k in range(5)]
+    door = box("door", (-0.4, -0.32, 0.0), (0.4, -0.3, 1.0))
+    knob = box("knob", (0.3, -0.35, 0.5), (0.33, -0.32, 0.53))
+    case = box("case", (-0.4, -0.3, 0.1), (0.4, 0.3, 1.0))
+    parts = joined(in_pose((case, *boards, door), "+Y", "+Z"))
+    assert settle_frame(Reading("mesh file", parts, OBJ), LoadOptions()).up == "+Z"  # nothing tells of a front
+    parts = joined(in_pose((case, *boards, door, knob), "+Y", "+Z"))
+    assert settle_frame(Reading("mesh file", parts, OBJ), LoadOptions()).up == "+Y"
+
+
+def test_a_piece_stands_as_it_stood_when_its_lid_was_found():
+    ends = [
+        (-0.45, -0.43, -0.22, 0.22),
+        (0.43, 0.45, -0.22, 0.22),
+        (-0.43, 0.43, -0.22, -0.2),
+        (-0.43, 0.43, 0.2, 0.22),
+    ]
+    walls = [box(f"w{k}", (x0, y0, 0.02), (x1, y1, 0.4)) for k, (x0, x1, y0, y1) in enumerate(ends)]
+    body = joined([box("bottom", (-0.45, -0.22, 0.0), (0.45, 0.22, 0.02)), *walls])
+    straps = [box(f"s{x}", (x - 0.02, -0.225, 0.0), (x + 0.02, -0.22, 0.4)) for x in (-0.3, 0.3)]
+    latch = box("latch", (-0.06, -0.232, 0.35), (0.06, -0.22, 0.398))
+    lid = box("lid", (-0.46, -0.23, 0.402), (0.46, 0.22, 0.45))
+    parts = in_pose((*body, lid, latch, *straps), "+Z", "-Y")
+    chest = settled(Reading("mesh file", parts, OBJ), "chest", Path("chest.obj"))
+    (lid,) = (part for part in chest.parts if part.label is PartLabel.DOOR)
+    assert (chest.frame.up, chest.frame.front) == ("+Z", "-Y")
+    assert lid.box.size[2] == pytest.approx(0.048 * chest.frame.scale)

@@ -22,13 +22,14 @@ PLATE = box("front", (-0.48, -0.02, 0.4), (0.48, 0.0, 0.8))
 SHELF = box("shelf", (-0.48, 0.1, 0.6), (0.48, 0.38, 0.62))
 DIVIDER = box("divider", (-0.01, 0.1, 0.42), (0.01, 0.38, 0.78))
 BELOW, MIDDLE, ABOVE, RIGHT = (-0.05, 0.45), (-0.05, 0.59), (-0.05, 0.74), (0.38, 0.59)
-BOTTOM_FACE, TOP_FACE, LEFT_FACE = 4, 5, 0
+BOTTOM_FACE, TOP_FACE, LEFT_FACE, RIGHT_FACE = 4, 5, 0, 1
 NONE: dict[str, float] = {}
 
 
-def turned(*others, front=PLATE, handle=MIDDLE, guessed=True, axis=FRONT, board=NONE, **changes):
+def turned(*others, front=PLATE, handle=MIDDLE, guessed=True, axis=FRONT, board=NONE, drawn=True, **changes):
     """Returns the face of the border on which the front hangs, and what was decided; None: it is a drawer still."""
     parts = [BODY, replace(front, label=PartLabel.DRAWER), *others]
+    known = parse_graph(Asset("made", "", "made", tuple(parts)))
     edges = [Rail("body", "front", axis)]
     if handle is not None:
         x, z = handle
@@ -39,7 +40,13 @@ def turned(*others, front=PLATE, handle=MIDDLE, guessed=True, axis=FRONT, board=
     edges += [Attached("front", part.id) for part in others if part.id.startswith("box")]
     label = (Decision("front", "label", "drawer", 0.9, "door", 0.1),) if guessed else ()
     decisions = (*label, Decision("front", "slide", str(FRONT), 0.8), Decision("front", "mount", "body", 0.7))
-    before = GraphCompletion(graph, with_edges(graph, edges), "network", decisions=decisions)
+    before = GraphCompletion(
+        graph if drawn else known,
+        with_edges(graph, edges),
+        "network",
+        added=() if drawn else ("bar",),
+        decisions=decisions,
+    )
     after = with_lone_fronts(
         before, asset, replace(LoneFrontConfig(), **changes), replace(BoardBehindConfig(), **board)
     )
@@ -93,6 +100,29 @@ def test_a_handle_alone_shows_no_flap(handle):
 )
 def test_what_may_be_a_drawer_stays_one(others):
     assert turned(*others) is None
+
+
+TALL = box("front", (-0.15, -0.02, 0.1), (0.15, 0.0, 0.9))
+
+
+@pytest.mark.parametrize(
+    ("handle", "drawn", "face"),
+    [
+        (None, True, LEFT_FACE),
+        ((0.04, 0.5), True, LEFT_FACE),
+        ((-0.14, 0.5), True, RIGHT_FACE),
+        ((-0.05, 0.5), True, None),  # in the middle of its width: a pull-out
+        ((-0.05, 0.5), False, LEFT_FACE),  # a handle that is only predicted
+    ],
+)
+def test_a_front_that_is_far_higher_than_wide_is_a_door(handle, drawn, face):
+    assert turned(front=TALL, handle=handle, drawn=drawn) == face
+
+
+def test_a_high_front_with_a_box_or_a_narrow_one_stays_a_drawer():
+    assert turned(box("box_1", (-0.14, 0.0, 0.12), (-0.13, 0.3, 0.5)), front=TALL, handle=None) is None
+    assert turned(front=box("front", (-0.1, -0.02, 0.1), (0.1, 0.0, 0.9)), handle=None) is None
+    assert turned(front=TALL, handle=None, tall=3.0) is None
 
 
 def test_what_is_labelled_thick_or_slides_elsewhere_stays():

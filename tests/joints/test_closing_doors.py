@@ -83,6 +83,31 @@ def test_a_closed_door_stays(door, angle: float):
     assert closed_plan(plan, asset, RealizationConfig()) is plan
 
 
+def sheet(name: str, low: tuple[float, float, float], high: tuple[float, float, float]) -> Part:
+    """Returns a wall without thickness: the lower of the two broad faces of a box."""
+    part = box(name, low, high)
+    thin = int(np.argmin(np.subtract(high, low)))
+    level = np.isclose(part.mesh.triangles[:, :, thin], low[thin]).all(axis=1)
+    return replace(part, surfaces=(replace(part.surfaces[0], mesh=part.mesh.with_faces(np.flatnonzero(level))),))
+
+
+@pytest.mark.parametrize("angle", [0.0, radians(60)])
+def test_doors_that_lie_on_walls_without_thickness_are_closed(angle: float):
+    walls = [
+        sheet("left", (-0.42, -0.25, 0.0), (-0.41, 0.25, 0.72)),
+        sheet("right", (0.42, -0.25, 0.0), (0.43, 0.25, 0.72)),
+        sheet("bottom", (-0.42, -0.25, 0.0), (0.42, 0.25, 0.01)),
+        sheet("top", (-0.42, -0.25, 0.72), (0.42, 0.25, 0.73)),
+        sheet("back", (-0.42, 0.25, 0.0), (0.42, 0.26, 0.72)),
+    ]
+    axes = (OVERLAY, Axis(vec3(0.42, -0.25, 0.0), UPRIGHT))
+    ends = (-0.42, -0.002), (0.002, 0.42)
+    doors = [box(f"door_{k}", (x0, -0.27, 0.0), (x1, -0.25, 0.72)) for k, (x0, x1) in enumerate(ends)]
+    doors = [drawn(door, axis, angle) for door, axis in zip(doors, axes, strict=True)]
+    asset = scene(*walls, *doors, joints=tuple(hinged(f"door_{k}", axis) for k, axis in enumerate(axes)))
+    assert angles(asset) == pytest.approx({"door_0": angle, "door_1": angle}, abs=TOLERANCE)
+
+
 @pytest.mark.parametrize(("left", "right"), [(0.5, 0.0), (0.4, 1.2), (pi / 2, pi / 2)])
 def test_each_door_of_a_pair_is_closed_by_itself(left: float, right: float):
     assert angles(pair(left, right)) == pytest.approx({"door": left, "door_2": right}, abs=TOLERANCE)

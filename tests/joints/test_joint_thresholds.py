@@ -62,7 +62,7 @@ REASONS = {
     "framed_leaves.py": {"_DEPTH": NUMBERING},
     "gaps.py": {"_POSES": SAMPLES, "_TOUCHING": TOLERANCE},
     "known.py": {"MOST_KNOWN": KEPT},
-    "no_hardware.py": {"_DEPTHS": SAMPLES, "_TRAVELS": SAMPLES, "_POSES": SAMPLES},
+    "no_hardware.py": {"_DEPTHS": SAMPLES, "_TRAVELS": SAMPLES, "_POSES": SAMPLES, "_RAYS": SAMPLES},
     "clearance/carve.py": {
         "_TURN_STEP": SAMPLES,
         "_MOST_PLANES": EFFORT,

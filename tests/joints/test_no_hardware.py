@@ -114,6 +114,26 @@ def test_what_is_only_guessed_to_be_a_drawer_is_one_without_rails_if_it_has_a_ha
     assert skipped(realized(asset, UNTRIMMED)) == ({} if has_handle and not is_case else {"drawer": Reason.NO_ROOM})
 
 
+def tub(name: str, low, high, thick: float = 0.02) -> Part:
+    """Returns a box with walls and a floor, open from above, of unknown kind."""
+    outer = trimesh.creation.box(bounds=(low, high))
+    inner = trimesh.creation.box(bounds=(np.add(low, thick), (high[0] - thick, high[1] - thick, high[2] + 1.0)))
+    mesh = trimesh.boolean.difference([outer, inner], engine="manifold")
+    surface = Surface(TriangleMesh(np.asarray(mesh.vertices), np.asarray(mesh.faces)))
+    return replace(DRAWER, id=name, surfaces=(surface,), label=PartLabel.UNKNOWN, labelled_by="none")
+
+
+@pytest.mark.parametrize(("lid", "gap", "slides"), [(False, 0.004, True), (True, 0.004, False), (False, 0.02, False)])
+def test_what_is_only_guessed_to_be_a_drawer_is_one_without_rails_if_it_is_an_open_box_near_its_case(lid, gap, slides):
+    body = tub("drawer", (gap, -0.4, gap), (0.4 - gap, -gap, 0.3 - gap))
+    cover = box("cover", (gap, -0.4, 0.28 - gap), (0.4 - gap, -gap, 0.3 - gap)).surfaces if lid else ()
+    asset = scene(
+        replace(body, surfaces=(*body.surfaces, *cover)), *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)
+    )
+    result = realize(plan_from_annotation(asset), asset, replace(GALLERY, rails=()), UNTRIMMED)
+    assert set(skipped(result)) == (set() if slides else {"drawer"})
+
+
 def test_a_door_that_would_come_away_from_everything_gets_no_joint():
     away = box("post", (-0.02, 0.006, 0.2), (0.0, 0.4, 0.4))
 

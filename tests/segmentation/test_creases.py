@@ -57,6 +57,26 @@ def test_fronts_drawn_on_one_surface_are_found(drawn):
     assert sum(len(piece.faces) for piece in found[0]) == len(mesh.faces)
 
 
+def test_a_low_step_along_a_wide_frame_is_a_corner():
+    """The back has the edges of the fronts, as loops of edges run around a case: it must not come along."""
+    xs, zs = (0.0, 0.02, 1.58, 1.6), (0.0, 0.02, 0.19, 0.21, 0.38, 0.4)
+    fronts = [(x, z) for x in (1,) for z in (1, 3)]
+    body = solid((0, 0, 0), (xs[-1], 0.4, zs[-1]))
+    for x, z in fronts:
+        body += solid((xs[x], -0.008, zs[z]), (xs[x + 1], 0.1, zs[z + 1]))
+    mesh = as_mesh(body)
+    for axis, places in ((0, xs), (2, zs)):
+        for at in places[1:-1]:
+            normal = np.eye(3)[axis]
+            halves = [
+                trimesh.intersections.slice_faces_plane(mesh.vertices, mesh.faces, sign * normal, at * normal)[:2]
+                for sign in (1.0, -1.0)
+            ]
+            mesh = merge_meshes([TriangleMesh(*half) for half in halves])
+    pieces = cut(mesh)[0]
+    assert [mesh.with_faces(p.faces).box.high[1] for p in pieces if p.role == "front"] == pytest.approx([0.0, 0.0])
+
+
 @pytest.mark.parametrize("turn", [1, 2, 3])
 def test_they_are_found_from_whichever_side_they_look(turn):
     T = np.linalg.matrix_power(np.array([[0.0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]), turn)

@@ -41,16 +41,22 @@ class _Choice:
     why: str
 
 
-def settle_frame(reading: Reading, options: LoadOptions, file: Frame | None = None) -> Frame:
+def settle_frame(
+    reading: Reading, options: LoadOptions, file: Frame | None = None, before: Frame | None = None
+) -> Frame:
     """Returns how the reading's coordinates become the object frame; what the user states wins.
 
     Of one piece of a file, `file` is the frame that the file has as a whole: up and scale are the same for all pieces.
+    `before` is the frame that the reading had before it was cut: what was found then stands as it stood.
 
     Raises:
         AssetError: if the user's front lies on the axis that is up, or the object has no height.
     """
     whole = whole_box(reading.parts)
-    up = _up(reading, options, whole) if file is None else _Choice(file.up, "as in the whole file")
+    if before is not None:
+        up = _Choice(before.up, before.assumed[0].split(": ", 1)[1])
+    else:
+        up = _up(reading, options, whole) if file is None else _Choice(file.up, "as in the whole file")
     front = _front(reading, options, whole, up.value)
     rotation = np.stack([np.cross(-vector(front.value), vector(up.value)), -vector(front.value), vector(up.value)])
     if file is None:
@@ -146,7 +152,7 @@ def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice, whole: Box) -> _C
     other = stands_on_another_side(reading.parts, usual.value, by_habit)
     if other is not None:
         return _Choice(other, f"what the piece rests on tells, {against}")
-    if lies_on_its_front(reading.parts, whole, usual.value):
+    if lies_on_its_front(reading.parts, whole, usual.value, reading.convention.up is not None):
         return _Choice(by_habit, f"it would lie on what shows the most parts, {against}")
     return usual
 

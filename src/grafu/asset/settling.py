@@ -61,6 +61,7 @@ def settled(
         reading = joined_where_one_name(reading, settle_frame(reading, options, file))
     if reading.parts:
         reading = _plausible(reading)
+    stands: Frame | None = None
     if options.parts == "auto" and reading.parts:
         stands = settle_frame(reading, options, file)
         reading = cut_where_fronts_appear(reading, stands, name)
@@ -70,7 +71,7 @@ def settled(
     reading = replace(reading, parts=with_bodies(with_control_panels(reading.parts)))
     _check_parts(reading, path, options)
     reading = _without_labels(reading) if options.labels == "none" else reading
-    frame = settle_frame(reading, options, file)
+    frame = settle_frame(reading, options, file, None if options.labels == "none" else stands)
     place, frame = Placing(frame), turned_before(frame, askew)
     annotation = reading.annotation and place.annotation(reading.annotation)
     placed = place.parts(reading.parts)

@@ -13,7 +13,7 @@ from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
-from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
 
 
@@ -58,12 +58,26 @@ def side_with_handles(
         up: the direction that is up.
         config: which parts are as small as handles.
     """
-    boxes = [part.box for part in parts]
+    return side_with_small_boxes([part.box for part in parts], merge_meshes([p.mesh for p in parts]), whole, up, config)
+
+
+def side_with_small_boxes(
+    boxes: Sequence[Box], mesh: TriangleMesh, whole: Box, up: str, config: StandingOutConfig = StandingOutConfig()
+) -> str | None:
+    """Returns the side that small ones of the boxes of a piece stand out of, None where that are several or none.
+
+    Args:
+        boxes: those around the parts of the piece, or around its shells, in the input's coordinates.
+        mesh: the whole piece.
+        whole: the box around it.
+        up: the direction that is up.
+        config: which boxes are as small as handles.
+    """
     extent = float(whole.size.max())
     small = [box for box in boxes if _is_small(box, extent, config)]
     if not small:
         return None
-    caster = RayCaster(merge_meshes([part.mesh for part in parts]))
+    caster = RayCaster(mesh)
     sides = [side for side in DIRECTIONS if side[1] != up[1]]
     found = [side for side in sides if _stands_out(small, whole, side, _level(caster, whole, side, config), config)]
     return found[0] if len(found) == 1 else None

@@ -1,9 +1,10 @@
 """What is only guessed to be a drawer, but is a front alone that no drawer can be behind, is a flap or a door.
 
-A shelf or a divider stands close behind its middle, as in a secretary: a drawer would run into it.
+A shelf or a divider stands close behind its middle, as in a secretary: a drawer would run into it. Or it is higher by
+far than wide, as the doors of lockers are.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import replace
 from typing import Final, final
 
@@ -48,9 +49,13 @@ class LoneFrontConfig:
     """How far off the middle a handle is that shows a side (fraction of the width)."""
     wide: float = 1.2
     """From this width on, in heights, a front without such a handle hangs on its lower border, else on its left."""
+    tall: float = 2.0
+    """From this height on, in widths, a front alone is a door, unless its handle is in the middle of its width ..."""
+    narrow: float = 0.22
+    """... and from this width on (m): narrower ones may be pull-outs for bottles and spices."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "wide")
+        require_positive(self, "wide", "tall", "narrow")
         require_ratios(self, "plate", "box", "edge", "off")
 
 
@@ -65,11 +70,14 @@ def with_lone_fronts(
     guessed = {d.part for d in completion.decisions if d.question == "label" and d.choice == PartLabel.DRAWER}
     rails = [edge for edge in graph.motions if isinstance(edge, Rail) and edge.child in guessed]
     fronts = [r for r in rails if r.axis == _FRONT and r.coupling is None and is_alone(r.child, graph, config)]
-    found = {
-        rail: _border(rail.child, graph, config)
-        for rail in fronts
-        if is_board_behind(graph.node(rail.child).box, graph.box, rest_of(asset, rail.child, graph), boards)
-    }
+    given = frozenset(node.id for node in completion.input.nodes)
+    found: dict[Rail, HingeBorder] = {}
+    for rail in fronts:
+        side = _side_of_tall(rail.child, graph, given, config)
+        if side is not None:
+            found[rail] = side
+        elif is_board_behind(graph.node(rail.child).box, graph.box, rest_of(asset, rail.child, graph), boards):
+            found[rail] = _border(rail.child, graph, config)
     return as_doors(completion, found) if found else completion
 
 
@@ -94,10 +102,26 @@ def _border(front: str, graph: FunctionalGraph, config: LoneFrontConfig) -> Hing
     return upright_borders(_DEPTH)[0]
 
 
-def _handle_at(front: str, graph: FunctionalGraph) -> tuple[float, float] | None:
-    """Returns how far from the left and from below the middle of a front's handles is (fractions of its sides)."""
+def _side_of_tall(front: str, graph: FunctionalGraph, given: Set[str], config: LoneFrontConfig) -> HingeBorder | None:
+    """Returns the side on which a front hangs that is too high for its width to be a drawer's, else None.
+
+    Only handles that the input has tell: predicted ones are placed as on drawers.
+    """
+    box, at = graph.node(front).box, _handle_at(front, graph, given)
+    is_tall = box.size[_LEVEL] >= config.narrow and box.size[_UP] >= config.tall * box.size[_LEVEL]
+    if not is_tall or (at is not None and abs(at[0] - 0.5) < config.off):
+        return None
+    return upright_borders(_DEPTH)[0 if at is None or at[0] > 0.5 else 1]
+
+
+def _handle_at(front: str, graph: FunctionalGraph, given: Set[str] | None = None) -> tuple[float, float] | None:
+    """Returns how far from the left and from below the middle of a front's handles is (fractions of its sides).
+
+    Only those `given` count; None: all.
+    """
     riding = (graph.node(edge.child) for edge in graph.attachments if edge.parent == front)
-    handles = [node.box.center for node in riding if node.label is PartLabel.HANDLE]
+    counted = (node for node in riding if given is None or node.id in given)
+    handles = [node.box.center for node in counted if node.label is PartLabel.HANDLE]
     if not handles:
         return None
     box = graph.node(front).box

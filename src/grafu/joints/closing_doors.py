@@ -85,7 +85,15 @@ class _Door:
         back = -frame.thickness - closing.behind
         is_level = (beside >= back) & (beside <= closing.proud)
         lies_on = (behind >= back) & (behind <= -frame.thickness + closing.flush)
-        return bool(np.median((is_level | lies_on).any(axis=0)) == 1.0)
+        return bool(np.median((is_level | lies_on).any(axis=0)) == 1.0) or self._closes_a_wall(frame, across, up)
+
+    def _closes_a_wall(self, frame: BorderFrame, across: int, up: int) -> bool:
+        """Whether a wall runs back from one side of a door: one without thickness ends at its border, not behind it."""
+        closing = self.closing
+        inside = max(closing.offsets)
+        points = _beside(frame, across, up, -inside) - np.array([0.0, frame.thickness + closing.behind / 2, 0.0])
+        away = self.around.along(frame.to_object(points), frame.direction(float(across), 0.0, float(up)))
+        return bool(np.median(away <= inside + closing.flush) == 1.0)
 
     def is_free(self, angle: Axis, opening: float) -> bool:
         """Whether it can be turned back about an axis by an opening, radians."""

@@ -239,6 +239,10 @@ class RealizationConfig(ShortRepr):
     """A static part of more faces is not carved: every attempt would take hundreds of megabytes."""
     no_hardware_gap: float = 0.005
     """Widest gap (extent) to static parts at which a door or drawer moves without hardware: wider ones come loose."""
+    no_hardware_open: float = 0.4
+    """What of a drawer without a handle of its own shows a floor below its middle from above: a case does not ..."""
+    no_hardware_box_gap: float = 0.02
+    """... and the widest gap (extent) to what such a box runs between without hardware."""
     rack_gap: float = 0.05
     """How far a rack, whose wheels and guides are seldom drawn, stands off what carries it at most (extent)."""
     kept: float = 0.4
@@ -275,6 +279,7 @@ class RealizationConfig(ShortRepr):
             self, "depth", "contact", "flush", "anchor", "bridge", "chosen_reach", "door_opening", "body_tolerance"
         )
         require_positive(self, "hinge_bridge", "lid_opening", "no_hardware_gap", "rack_gap", "carved_faces")
+        require_positive(self, "no_hardware_box_gap")
         require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
         require_ratios(
             self,
@@ -289,6 +294,6 @@ class RealizationConfig(ShortRepr):
             "max_carve_hidden",
         )
         require_ratios(self, "max_carve_seen", "rail_ratio", "least_opening", "kept")
-        require_ratios(self, "no_hardware_width", "no_hardware_wide")
+        require_ratios(self, "no_hardware_width", "no_hardware_wide", "no_hardware_open")
         if min(self.coarse_poses, self.fine_poses) < 2:
             raise ValueError(f"poses must be at least 2: got {self.coarse_poses} and {self.fine_poses}")

@@ -8,6 +8,7 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, transform_points
 from grafu.joints.gaps import gap_growth
 from grafu.joints.hinge.search import DoorSearch
@@ -32,6 +33,7 @@ DRAWN = "drawn"
 _STATED = frozenset({SHOWN, "annotation", "user"})  # sources of requests that are no guess
 _TRAVELS = 6  # of a rack, from its widest down to the least that counts as open
 _DEPTHS = tuple(k / 16 for k in range(17))  # of a door's thickness, from its front: an axis along its border each
+_RAYS = 24  # along each side of a drawer seen from above
 _POSES = 5  # from closed to open in which it must be near what stands around it
 
 _Search = DoorSearch | DrawerSearch
@@ -86,8 +88,8 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
     It is None too for a single board, such as a front without a box, unless it is a sliding door; where hardware was
-    chosen, where the drawer would come away from all static parts, and where it has no handle and only a guess states
-    that it is a drawer: cases slide as freely.
+    chosen, where the drawer would come away from all static parts, and where it has no handle, is no open box, and only
+    a guess states that it is a drawer: cases slide as freely.
     """
     frame, config, part = search.frame, search.config, search.scene.parts[search.request.moving]
     is_board = slides_in_its_plane(part.mesh, frame.slide, config.drawer)
@@ -97,13 +99,30 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     if search.request.role is MotionRole.BIN or (is_stated and is_grid(search.scene.moving_mesh(part.id))):
         return _rack(search)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
-    if is_board or not _is_sure(search):
+    is_box = not is_board and is_open_box(search.scene.moving_mesh(part.id), config.no_hardware_open)
+    if is_board or not _is_sure(search, is_box):
         return None
     upper = search.travel(search.reach)
     wanted = min(search.request.reference or search.wanted, search.reach)
     if upper < config.restricted * wanted:
         return None
-    return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper))
+    gap = config.no_hardware_box_gap if is_box else config.no_hardware_gap
+    return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper), gap)
+
+
+def is_open_box(mesh: TriangleMesh, least: float) -> bool:
+    """Whether most of a drawer's middle shows a floor from above: a box with walls, whatever its front is.
+
+    Args:
+        mesh: the drawer, in metres, Z up.
+        least: what of the rays from above meet it below its middle (fraction).
+    """
+    box = mesh.box
+    steps = (np.arange(_RAYS) + 0.5) / _RAYS
+    places = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    origins = np.column_stack([box.low[:2] + places * box.size[:2], np.full(len(places), box.high[2] + box.size[2])])
+    depths = RayCaster(mesh).along(origins, np.array([0.0, 0.0, -1.0])) - box.size[2]
+    return bool(np.mean(np.isfinite(depths) & (depths > box.size[2] / 2)) >= least)
 
 
 def _rack(search: DrawerSearch) -> Placement | None:
@@ -171,15 +190,15 @@ def _is_guided(search: DrawerSearch) -> bool:
     return any(is_near(k, local.low[k]) and is_near(k, local.high[k]) for k in range(3) if k != along)
 
 
-def _is_sure(search: DrawerSearch) -> bool:
-    """Whether the input states a drawer, or its handle rides on it and it is not as wide as the furniture."""
+def _is_sure(search: DrawerSearch, is_box: bool) -> bool:
+    """Whether the input states a drawer, or it is an open box or has a handle, and is not as wide as the furniture."""
     scene, moving = search.scene, search.scene.moving_bodies[search.request.moving]
     if scene.parts[moving.id].label.is_movable:
         return True
     across = int(np.argmin(np.abs(search.axis.direction[:2])))
     whole = Box.enclosing(part.box for part in scene.parts.values()).size[across]
     is_between = scene.parts[moving.id].box.size[across] < search.config.no_hardware_wide * whole
-    return len(moving.members) > 1 and bool(is_between)
+    return (is_box or len(moving.members) > 1) and bool(is_between)
 
 
 def lift_without_hardware(search: DrawerSearch) -> Placement | None:
@@ -209,10 +228,10 @@ def leaf_without_hardware(search: DrawerSearch) -> Placement | None:
 
 
 def _joint(
-    search: _Search, axis: Axis, motion: PoseFunction, upper: float, in_way: tuple[str, ...]
+    search: _Search, axis: Axis, motion: PoseFunction, upper: float, in_way: tuple[str, ...], gap: float = 0.0
 ) -> Placement | None:
     request, scene = search.request, search.scene
-    near = search.config.no_hardware_gap * scene.extent
+    near = (gap or search.config.no_hardware_gap) * scene.extent
     if str(request.choice) or not _stays_near(scene, request, motion, upper, near):
         return None
     return _without(axis, upper, _nearest(scene, request, near), in_way, NO_HARDWARE, (_NOTE,))

@@ -19,10 +19,12 @@ from grafu.segmentation.config import CandidateConfig, FrameConfig, Segmentation
 from grafu.segmentation.surroundings import (
     NO_AREA,
     Scale,
+    bulge,
     has_handle,
     has_room,
     is_before_case,
     is_flanked,
+    is_leaf_in_frame,
     is_recess,
     is_seen,
 )
@@ -42,8 +44,11 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
     area = size[:, 0] * size[:, 1]
     cover = np.minimum(view.faced[:, 2] / np.maximum(area, NO_AREA), 1.0)
     large = (shorter >= config.least * scale.extent) & (longer <= config.most_narrow * shorter)
-    plate = (size[:, 2] <= config.plate * shorter) & (cover >= config.ring)
-    body = (size[:, 2] > config.plate * shorter) & (cover >= config.solid)
+    thick = size[:, 2].copy()
+    for k in np.flatnonzero(open_to & large & (thick > config.plate * shorter) & (thick <= config.bowed * shorter)):
+        thick[k] -= bulge(view, int(k), config)
+    plate = (thick <= config.plate * shorter) & (cover >= config.ring)
+    body = (thick > config.plate * shorter) & (cover >= config.solid)
     body &= area <= config.body * scale.outline
     found = np.flatnonzero(open_to & large & (plate | body))
     found = found[np.argsort(-area[found], kind="stable")]
@@ -60,6 +65,7 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
                     or is_before_case(view, k, config.near * float(scale.extent[k]), config)
                 )
             )
+            or (plate[k] and is_leaf_in_frame(view, k, scale, config))
         )
         and not is_recess(view, k, scale, config)
         and is_seen(view, k, bool(cover[k] < config.full), config.near * float(scale.extent[k]), config)

@@ -25,6 +25,18 @@ class CandidateConfig:
     """How far off something still touches, how far it may stand out (of its object's largest side)."""
     plate: float = 0.35
     """How thick a front is at most (of its shorter side)."""
+    bowed: float = 0.7
+    """How thick one is at most with its bulge, which does not count (of its shorter side) ..."""
+    border: float = 0.1
+    """... which is measured so far inside its border (of its sides) ..."""
+    step: float = 0.35
+    """... and changes by so much at most from one row or column to the next (of the bulge)."""
+    upright: float = 1.5
+    """How high the leaf of a door is at least that stands in its frame with nothing behind it (of its width) ..."""
+    knob: float = 0.02
+    """... how large a handle on it is at most (of its outline) ..."""
+    aside: float = 0.3
+    """... and how far beside the leaf's middle its middle is at least (of the leaf's width)."""
     least: float = 0.05
     """The shorter side of a front at least (of its object's largest side)."""
     most_narrow: float = 12.0
@@ -133,6 +145,10 @@ class MemberConfig(ShortRepr):
     """So many fronts on a body show a case ..."""
     quarter: float = 0.25
     """... where they cover this much of it (of its outline): a row of kitchen units has a plinth and rails, too."""
+    leaf: float = 0.15
+    """A plate as thin as this (of its shorter side) moves, whatever lies on it, where handles stand on it alone ..."""
+    beside: float = 0.2
+    """... whose feet overlap what lies on it by less (of their outline)."""
     body: float = 0.35
     """A body is thicker than this (of its shorter side) ..."""
     unit: float = 0.97
@@ -173,6 +189,8 @@ class MemberConfig(ShortRepr):
     """... how high at least (of the front's height) ..."""
     side_depth: float = 2.0
     """... and how deep at least (of its thickness)."""
+    walls: float = 1.5
+    """What the faces of a drawer's box drawn as one body cover, its front wall and its back (of its outline)."""
     flat: float = 0.5
     """How thick what may be the lid of such a box is at most (of its shorter side) ..."""
     lid: float = 0.5
@@ -229,6 +247,10 @@ class DivisionConfig:
     """... and is at most so many times as long as wide: plinths and cornices are longer."""
     single: float = 0.8
     """What an object's one front covers (of the object's outline)."""
+    knobs: int = 4
+    """So many handles on a strip are the knobs of a panel of controls ..."""
+    strip: float = 2.5
+    """... which is at least so many times as wide as high."""
     most_handles: int = 2
     """Handles drawn in one front: more are mouldings or slats."""
 

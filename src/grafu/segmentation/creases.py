@@ -214,13 +214,27 @@ def _edges(mesh: TriangleMesh, config: CreaseConfig) -> tuple[Edges, Edges, Mask
 
     A surface whose normals point inwards as a whole is read inside out; two faces turned opposite ways have no corner.
     """
-    first, second, agree = _shared_edges(welded(mesh.vertices)[mesh.faces])
-    normals, middles = mesh.face_normals, mesh.triangles.mean(axis=1)
+    position = welded(mesh.vertices)[mesh.faces]
+    first, second, agree = _shared_edges(position)
+    normals, apart = mesh.face_normals, _reach(mesh, position, first, second)
     outwards = 1.0 if _volume(mesh) >= 0 else -1.0
-    apart = middles[second] - middles[first]
     rises = outwards * np.einsum("ij,ij->i", apart, normals[first]) > config.rise * np.linalg.norm(apart, axis=1)
     turns = np.einsum("ij,ij->i", normals[first], normals[second]) < np.cos(config.corner)
     return first, second, agree & turns & rises
+
+
+def _reach(mesh: TriangleMesh, position: Faces, first: Edges, second: Edges) -> Float[np.ndarray, "edges 3"]:
+    """Returns how the second face of each pair reaches away from the edge that it shares, at right angles to that.
+
+    Middles of faces would not tell: those of a wide frame lie far from the low wall of a front raised on it.
+    """
+    shared = (position[second][:, :, None] == position[first][:, None, :]).any(axis=2)
+    ahead = np.argmin(shared, axis=1)
+    corners, row = mesh.triangles[second], np.arange(len(second))
+    tip, start, end = (corners[row, (ahead + k) % 3] for k in range(3))
+    along = end - start
+    ratio = np.einsum("ij,ij->i", tip - start, along) / np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
+    return tip - start - ratio[:, None] * along
 
 
 def _shared_edges(position: Faces) -> tuple[Edges, Edges, MaskOfEdges]:

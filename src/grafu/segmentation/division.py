@@ -17,7 +17,14 @@ from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.candidates import candidates, framed, halves, merged
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells, fronts_among
-from grafu.segmentation.hidden_fronts import hides, is_flush, is_one_with_handles, outline, without_case
+from grafu.segmentation.hidden_fronts import (
+    hides,
+    is_flush,
+    is_one_with_handles,
+    is_panel_of_controls,
+    outline,
+    without_case,
+)
 from grafu.segmentation.lying import lying_on_fronts
 from grafu.segmentation.surroundings import Scale, overlaps
 from grafu.segmentation.view import MaskOfShells, OfShells, SeenFaces, ShellsView
@@ -201,6 +208,7 @@ def fronts_by_object(
     may, loose = may[first], (may if loose is None else loose)[first]
     found: dict[int, list[FrontShells]] = {}
     fronts = _with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config)
+    fronts = tuple(front for front in fronts if not is_panel_of_controls(view, front, config.division))
     for front in without_case(view, fronts, config):
         found.setdefault(int(view.owner[front.shells[0]]), []).append(front)
     flush = {owner: tuple(f for f in fronts if is_flush(view, f, config.division)) for owner, fronts in found.items()}

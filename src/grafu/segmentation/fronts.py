@@ -10,6 +10,7 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.components import linked
 from grafu.segmentation.config import SegmentationConfig
+from grafu.segmentation.drawer_boxes import drawer_boards, drawer_tub
 from grafu.segmentation.surroundings import Scale, overlaps, with_ring, within
 from grafu.segmentation.view import MaskOfShells, ShellsView
 
@@ -121,6 +122,8 @@ class _FrontFinder:
         """Whether a plate is the fixed front that others close or lie on, or a frame that nothing fills."""
         view, near, config = self._view, float(self._near[plate]), self._config
         inner = within(view, plate, near) & (self._area < config.smaller * self._area[plate])
+        if self._is_pulled(plate, plates, inner):
+            return False
         is_frame = self._cover[plate] < config.ring
         if is_frame:
             panes = inner & (self._cover >= config.ring) & (self._area >= config.pane_area * self._area[plate])
@@ -138,6 +141,17 @@ class _FrontFinder:
         if many and bool(self._area[plate] >= config.whole * self._scale.outline[plate]):
             return True
         return len(outer) == 1 and self._is_apron(plate, outer[0])
+
+    def _is_pulled(self, plate: int, plates: Indices, inner: MaskOfShells) -> bool:
+        """Whether the feet of all handles on a thin plate are beside the plates in its outline: it moves as one."""
+        view, config = self._view, self._config
+        if view.size[plate, 2] > config.leaf * view.size[plate, :2].min():
+            return False
+        standing = np.flatnonzero(self._stands_on(plate) & (view.owner == view.owner[plate]))
+        fronts = [k for k in plates.tolist() if inner[k] and k not in standing]
+        feet = [min(handle, key=lambda shell: float(view.low[shell, 2])) for handle in self._grouped(standing)]
+        on = [bool((overlaps(view, foot)[fronts] >= config.beside).any()) for foot in feet]
+        return bool(fronts) and bool(feet) and not any(on)
 
     def _is_case(self, plate: int, plates: Indices, inner: MaskOfShells) -> bool:
         """Whether a body has several inset fronts, flush with its face: the pedestal of a desk."""
@@ -181,7 +195,9 @@ class _FrontFinder:
         free[on] = False
         inside = free & within(view, plate, float(self._near[plate]))
         members = inside & self._lies_in(plate)
-        members |= self._drawer_boards(plate, inside & ~members)
+        near, cover = float(self._near[plate]), self._cover
+        members |= drawer_boards(view, plate, inside & ~members, near, self._config)
+        members |= drawer_tub(view, plate, inside, cover, near, self._config)
         members |= free & self._stands_behind(plate) & bool(handles)
         return FrontShells((plate, *np.flatnonzero(members).tolist()), handles, bool(handles or others))
 
@@ -232,35 +248,6 @@ class _FrontFinder:
         is_frame = (self._cover < config.ring) & (self._area >= config.whole * self._area[plate])
         plate_like = view.size[:, 2] <= config.liner_plate * view.size[:, :2].min(axis=1)
         return np.asarray(mounted | (liner & plate_like & ~is_frame))
-
-    def _drawer_boards(self, plate: int, inside: MaskOfShells) -> MaskOfShells:
-        """Whether each shell is a board of a box behind the plate: two sides, what lies between them, and no lid."""
-        view, near, config = self._view, float(self._near[plate]), self._config
-        nothing = np.zeros(len(inside), dtype=bool)
-        size, whole = view.size, view.size[plate]
-        middles = (view.low + view.high)[:, :2] / 2
-        amid = ((middles >= view.low[plate, :2]) & (middles <= view.high[plate, :2])).all(axis=1)
-        behind = inside & amid & (view.high[:, 2] <= view.high[plate, 2] + near)
-        thick = size[:, 2] > near
-        upright = (
-            behind
-            & thick
-            & (size[:, 0] <= config.side_width * whole[0])
-            & (size[:, 1] >= config.side_height * whole[1])
-        )
-        upright &= (size[:, 2] >= config.side_depth * size[:, 0]) & (view.high[:, 2] >= view.low[plate, 2] - near)
-        middle = (view.low[plate, 0] + view.high[plate, 0]) / 2
-        left, right = upright & (view.high[:, 0] < middle), upright & (view.low[:, 0] > middle)
-        if not (left.any() and right.any()):
-            return nothing
-        ends = view.low[left, 0].min() - near, view.high[right, 0].max() + near
-        box = behind & (view.low[:, 0] >= ends[0]) & (view.high[:, 0] <= ends[1])
-        sides_end = float(view.low[left | right, 2].min())
-        box &= (view.low[:, 2] >= sides_end - near) & (thick | (view.high[:, 2] < view.low[plate, 2] - near))
-        lies = box & (size[:, 1] <= config.flat * size[:, [0, 2]].min(axis=1))
-        top = float(view.high[left | right, 1].max())
-        lid = lies & (np.abs(view.low[:, 1] - top) <= near + size[:, 1]) & (size[:, 0] >= config.lid * whole[0])
-        return nothing if lid.any() else box
 
     def _grouped(self, shells: Indices) -> tuple[tuple[int, ...], ...]:
         """Returns shells as groups of those that touch, bar and posts of one handle.

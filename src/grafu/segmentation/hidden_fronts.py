@@ -7,7 +7,7 @@ import numpy as np
 from grafu.geometry.arrays import Indices
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells
-from grafu.segmentation.surroundings import Scale, is_behind, overlaps
+from grafu.segmentation.surroundings import Scale, is_behind, is_leaf_in_frame, overlaps
 from grafu.segmentation.view import ShellsView
 
 
@@ -27,6 +27,12 @@ def without_case(
     plate = fronts[0].shells[0]
     least = view.low[plate, 2] - config.candidates.near * Scale.of(view).extent[plate]
     return (replace(fronts[0], shells=tuple(k for k in fronts[0].shells if view.low[k, 2] >= least)),)
+
+
+def is_panel_of_controls(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bool:
+    """Whether a low strip has more handles in a row than a drawer has: the knobs of a stove."""
+    size = view.size[front.shells[0]]
+    return len(front.handles) >= config.knobs and bool(size[0] >= config.strip * size[1])
 
 
 def is_one_with_handles(view: ShellsView, owner: int, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
@@ -63,7 +69,7 @@ def hides(
 
     What is said to be one door or drawer holds several where they fill its outline, as an open niche among them does
     not, or where it is nothing but fronts in one plane. The only object of an input is a case, also where it looks
-    like a drawer: open above, and as wide as its front.
+    like a drawer: open above, and as wide as its front. So is the frame that the leaf of a door hangs in.
     """
     own = view.owner == owner
     low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
@@ -71,6 +77,9 @@ def hides(
     major = _major(view, fronts, config.division.alike)
     if not is_whole and len(major) > 1 and _is_boarded(view, major, config):
         return False
+    plate = fronts[0].shells[0] if len(fronts) == 1 and own.all() else None
+    if plate is not None and is_leaf_in_frame(view, plate, Scale.of(view), config.candidates):
+        return True
     filled = sum(outline(view, front) for front in major) / float(size[0] * size[1])
     is_plate = size[2] <= config.division.plate * size[:2].min()
     if is_whole or (is_plate and not _is_shallow_case(view, np.flatnonzero(own), fronts, config.division)):

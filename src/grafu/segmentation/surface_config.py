@@ -22,7 +22,7 @@ class CreaseConfig:
     corner: float = radians(20.0)
     """Least angle of an inner corner (radians)."""
     rise: float = 0.02
-    """How far the next face rises out of the plane of a face at such a corner (of the distance of their middles)."""
+    """How far the next face rises out of the plane of a face at such a corner (of its reach away from their edge)."""
     facing: float = 0.7
     """Cosine between a face's normal and the direction to the viewer from which on it faces the viewer."""
     near: float = 1e-3

@@ -105,6 +105,38 @@ def is_flanked(view: ShellsView, shell: int, scale: Scale, config: CandidateConf
     return bool(left.any() and right.any())
 
 
+def bulge(view: ShellsView, shell: int, config: CandidateConfig) -> float:
+    """Returns how much farther out a front comes in one row or column than in another: a bowed one is no thicker.
+
+    What lies near its border does not count: edges may be rounded; nor do steps, such as those of sunk buttons.
+    """
+
+    def inner(rays: slice) -> slice:
+        border = round(config.border * (rays.stop - rays.start))
+        return slice(rays.start + border, rays.stop - border)
+
+    rows, columns = (inner(rays) for rays in view.window(shell))
+    depth = np.where(view.seen[rows, columns] == shell, view.depth[rows, columns], np.nan)
+    levels = [np.nanmedian(lines[~np.isnan(lines).all(axis=1)], axis=1) for lines in (depth, depth.T)]
+    smooth = (one for one in levels if len(one) > 1 and np.abs(np.diff(one)).max() <= config.step * np.ptp(one))
+    return float(max((np.ptp(level) for level in smooth), default=0.0))
+
+
+def is_leaf_in_frame(view: ShellsView, shell: int, scale: Scale, config: CandidateConfig) -> bool:
+    """Whether a plate is the leaf of a door in its frame: high, with nothing behind it, a handle beside its middle."""
+    size, near = view.size[shell], config.near * float(scale.extent[shell])
+    covers = overlaps(view, shell)
+    covers[shell] = 0.0
+    behind = (covers > config.hidden) & (view.low[:, 2] < view.low[shell, 2] - near)
+    if size[1] < config.upright * size[0] or behind.any() or not is_flanked(view, shell, scale, config):
+        return False
+    on = within(view, shell, 0.0) & (np.abs(view.low[:, 2] - view.high[shell, 2]) <= near)
+    on &= np.prod(view.size[:, :2], axis=1) <= config.knob * size[:2].prod()
+    on &= view.high[:, 2] > view.high[shell, 2] + near
+    aside = np.abs(view.low + view.high - view.low[shell] - view.high[shell])[:, 0] / 2
+    return bool((on & (aside >= config.aside * size[0])).any())
+
+
 def is_before_case(view: ShellsView, shell: int, near: float, config: CandidateConfig) -> bool:
     """Whether a body stands right before a deeper one of its object that fills its outline: the door of an icebox."""
     if view.size[shell, 2] > config.thick_plate * view.size[shell, :2].min():

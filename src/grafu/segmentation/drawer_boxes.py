@@ -1,0 +1,58 @@
+"""The box of a drawer that was drawn behind its front: of boards, or as one body that is open from above."""
+
+import numpy as np
+
+from grafu.segmentation.config import MemberConfig
+from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
+
+
+def drawer_boards(
+    view: ShellsView, plate: int, inside: MaskOfShells, near: float, config: MemberConfig
+) -> MaskOfShells:
+    """Whether each shell is a board of a box behind the plate: two sides, what lies between them, and no lid.
+
+    Args:
+        view: what is seen.
+        plate: the front.
+        inside: the shells that may be boards, in its outline.
+        near: how far off something still touches.
+        config: the thresholds.
+    """
+    nothing = np.zeros(len(inside), dtype=bool)
+    size, whole = view.size, view.size[plate]
+    middles = (view.low + view.high)[:, :2] / 2
+    amid = ((middles >= view.low[plate, :2]) & (middles <= view.high[plate, :2])).all(axis=1)
+    behind = inside & amid & (view.high[:, 2] <= view.high[plate, 2] + near)
+    thick = size[:, 2] > near
+    upright = (
+        behind & thick & (size[:, 0] <= config.side_width * whole[0]) & (size[:, 1] >= config.side_height * whole[1])
+    )
+    upright &= (size[:, 2] >= config.side_depth * size[:, 0]) & (view.high[:, 2] >= view.low[plate, 2] - near)
+    middle = (view.low[plate, 0] + view.high[plate, 0]) / 2
+    left, right = upright & (view.high[:, 0] < middle), upright & (view.low[:, 0] > middle)
+    if not (left.any() and right.any()):
+        return nothing
+    ends = view.low[left, 0].min() - near, view.high[right, 0].max() + near
+    box = behind & (view.low[:, 0] >= ends[0]) & (view.high[:, 0] <= ends[1])
+    sides_end = float(view.low[left | right, 2].min())
+    box &= (view.low[:, 2] >= sides_end - near) & (thick | (view.high[:, 2] < view.low[plate, 2] - near))
+    lies = box & (size[:, 1] <= config.flat * size[:, [0, 2]].min(axis=1))
+    top = float(view.high[left | right, 1].max())
+    lid = lies & (np.abs(view.low[:, 1] - top) <= near + size[:, 1]) & (size[:, 0] >= config.lid * whole[0])
+    return nothing if lid.any() else box
+
+
+def drawer_tub(
+    view: ShellsView, plate: int, inside: MaskOfShells, cover: ScalarsOfShells, near: float, config: MemberConfig
+) -> MaskOfShells:
+    """Whether each shell is the box of a drawer drawn as one body, right behind the plate, and open from above.
+
+    Its front wall and the inside of its back wall face the viewer: of a case that is the inside of its back alone.
+    `cover` is what the faces of each shell that face the viewer cover (fraction of its outline); see `drawer_boards`
+    for the other arguments.
+    """
+    size, whole = view.size, view.size[plate]
+    tub = inside & (cover >= config.walls) & (view.low[:, 2] < view.low[plate, 2] - near)
+    tub &= np.abs(view.high[:, 2] - view.low[plate, 2]) <= near + whole[2]
+    tub &= (size[:, 0] >= config.half * whole[0]) & (size[:, 1] >= config.side_height * whole[1])
+    return np.asarray(tub & (size[:, 2] >= config.side_depth * whole[2]))
