@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from grafu.asset.part import Asset, Part
+from grafu.asset.part import Asset, Part, PartSource
 from grafu.completion.oven_doors import OvenDoorConfig, with_oven_doors
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail
@@ -71,6 +71,16 @@ def test_the_front_below_a_panel_with_knobs_drops_and_the_panel_stays(slides):
 def test_what_looks_like_it_slides_as_predicted(case):
     before, after = completed(**case)
     assert after is before
+
+
+@pytest.mark.parametrize(("name", "is_fixed"), [("oven_door", True), ("door", False)])
+def test_the_plate_above_the_door_of_an_oven_is_a_panel_without_knobs_too(name, is_fixed):
+    door = replace(DOOR, label=PartLabel.DOOR, source=PartSource(name))
+    graph = parse_graph(Asset("made", "", "made", (BODY, door, replace(PANEL, label=PartLabel.DRAWER))))
+    edges = [Hinge("body", "front", 2, 0), Rail("body", "panel", FRONT)]
+    guess = Decision("panel", "label", "drawer", 0.9, "door", 0.1)
+    after = with_oven_doors(GraphCompletion(graph, with_edges(graph, edges), "network", decisions=(guess,)))
+    assert {edge.child for edge in after.completed.motions} == ({"front"} if is_fixed else {"front", "panel"})
 
 
 def test_fractions_are_checked():

@@ -6,6 +6,7 @@ from grafu.asset.labels import APPLIANCES, is_appliance
 from grafu.asset.names import singular, spoken
 
 _DROPPING: Final = frozenset({"oven", "stove", "cooker", "dishwasher"})
+_DOORS: Final = frozenset({"door", "front"})
 
 
 def appliances(name: str) -> frozenset[str]:
@@ -15,6 +16,9 @@ def appliances(name: str) -> frozenset[str]:
 
 
 def is_drop_down(name: str) -> bool:
-    """Whether the name is that of an appliance whose door drops: an oven or a dishwasher, but no microwave oven."""
+    """Whether a name is that of an oven or a dishwasher, whose doors drop, or of such a door; no microwave oven."""
+    said = [singular(word) for word in spoken(name)]
+    if len(said) > 1 and said[-1] in _DOORS and said[-2] in _DROPPING:
+        return "microwave" not in said
     found = appliances(name)
     return bool(found & _DROPPING) and "microwave" not in found

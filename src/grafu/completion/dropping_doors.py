@@ -1,4 +1,4 @@
-"""Doors of ovens and dishwashers drop: they hang on their lower border, where no handle shows another.
+"""Doors of ovens and dishwashers drop: they hang on their lower border, unless a handle may show another one.
 
 Names tell which these are. It builds nothing.
 """
@@ -26,11 +26,15 @@ class DroppingDoorConfig:
     """Which doors of appliances drop.
 
     Raises:
-        ValueError: if the ratio is not above 0.
+        ValueError: if a number is not above 0.
     """
 
     high: float = 1.5
     """Height over width at most: the tall door of a cooker that stands alone may hang on a side."""
+    centred: float = 0.15
+    """A handle no farther off the middle of the width than this (fraction of it) shows no side ..."""
+    level: float = 2.0
+    """... where it is so many times as wide as high: a bar that the door is pulled down by."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -39,10 +43,14 @@ class DroppingDoorConfig:
 def with_dropping_doors(
     completion: GraphCompletion, asset: Asset, config: DroppingDoorConfig = DroppingDoorConfig()
 ) -> GraphCompletion:
-    """Returns the completion in which doors without a handle that are called an oven or a dishwasher drop."""
+    """Returns the completion in which doors that are called an oven's or a dishwasher's drop.
+
+    Those with a handle that may show a side, which is any but a level bar in the middle, stay as they are predicted.
+    """
     named = {part.id for part in asset.parts if part.labelled_by == "name" and is_drop_down(part.source.name)}
     graph, given = completion.completed, {part.id for part in asset.parts}
-    held = {edge.parent for edge in graph.attachments if edge.child in given and _is_handle(graph.node(edge.child))}
+    handles = [edge for edge in graph.attachments if edge.child in given and _is_handle(graph.node(edge.child))]
+    held = {e.parent for e in handles if not _is_level_bar(graph.node(e.child).box, graph.node(e.parent).box, config)}
     found = {}
     for hinge in graph.hinges:
         box = graph.node(hinge.child).box
@@ -54,6 +62,13 @@ def with_dropping_doors(
 
 def _is_handle(node: PartNode) -> bool:
     return node.label is PartLabel.HANDLE
+
+
+def _is_level_bar(handle: Box, door: Box, config: DroppingDoorConfig) -> bool:
+    """Whether a handle is a level bar in the middle of an upright door's width."""
+    level = next((axis for axis in plane_axes(door.thin_axis) if axis != _UP), 0)
+    is_bar = handle.size[level] >= config.level * handle.size[_UP]
+    return bool(is_bar and abs(handle.center[level] - door.center[level]) <= config.centred * door.size[level])
 
 
 def _may_drop(hinge: Hinge, box: Box, graph: FunctionalGraph, config: DroppingDoorConfig) -> bool:

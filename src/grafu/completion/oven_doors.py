@@ -5,16 +5,17 @@ from typing import Final, final
 
 import numpy as np
 
+from grafu.asset.appliance_names import is_drop_down
 from grafu.completion.lone_fronts import as_doors, is_alone
 from grafu.completion.static_guesses import taken_for, with_static
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.edges import Rail
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import face_to_border, signed_axis
 from grafu.refusal import Reason, Refusal
+from grafu.vocabulary import PartLabel
 
 _LEVEL: Final = 0
 _DEPTH: Final = 1
@@ -46,37 +47,37 @@ class OvenDoorConfig:
 def with_oven_doors(completion: GraphCompletion, config: OvenDoorConfig = OvenDoorConfig()) -> GraphCompletion:
     """Returns the completion in which guessed drawers below panels with knobs drop, and guessed panels are fixed.
 
-    What the input labels stays as it is.
+    What the input labels stays as it is. Above the door of what is named an oven a panel needs no knobs.
     """
     graph = completion.completed
     guesses = {d.part: d for d in completion.decisions if d.question == "label"}
-    fronts = [
-        rail
+    above = {
+        rail: panel
         for rail in graph.rails
         if rail.child in guesses and rail.axis == _FRONT and rail.coupling is None and is_alone(rail.child, graph)
-    ]
-    above = {rail: panel for rail in fronts for panel in _panels(rail, graph, config)}
-    if not above:
-        return completion
+        for panel in _panels(rail.child, graph, _KNOBS, config)
+    }
+    named = [node.id for node in graph.labelled(PartLabel.DOOR) if is_drop_down(node.source_name)]
+    panels = {*above.values(), *(panel for door in named for panel in _panels(door, graph, 0, config))}
     lower = face_to_border(_DEPTH, signed_axis(_UP, positive=False))
-    turned = as_doors(completion, dict.fromkeys(above, lower))
-    panels = sorted({panel for panel in above.values() if panel in guesses and panel in graph.moving})
-    return with_static(turned, [_refused(panel, taken_for(guesses[panel])) for panel in panels]) if panels else turned
+    turned = as_doors(completion, dict.fromkeys(above, lower)) if above else completion
+    moving = sorted(panel for panel in panels if panel in guesses and panel in graph.moving)
+    return with_static(turned, [_refused(panel, taken_for(guesses[panel])) for panel in moving]) if moving else turned
 
 
 def _refused(panel: str, taken: str) -> Refusal:
-    return Refusal(panel, Reason.UNLIKELY, f"{taken}, but knobs are on it and an oven's door below: it is a panel")
+    return Refusal(panel, Reason.UNLIKELY, f"{taken}, but an oven's door is right below: it is a panel")
 
 
-def _panels(rail: Rail, graph: FunctionalGraph, config: OvenDoorConfig) -> Iterator[str]:
-    """Yields the plates with knobs right above a front."""
-    front = graph.node(rail.child).box
+def _panels(name: str, graph: FunctionalGraph, least: int, config: OvenDoorConfig) -> Iterator[str]:
+    """Yields the plates right above a front that have at least so many knobs."""
+    front = graph.node(name).box
     if front.size[_UP] < config.high * front.size[_LEVEL]:
         return
     for node in graph.nodes:
-        if node.id != rail.child and _is_above(node.box, front, config):
+        if node.id != name and _is_above(node.box, front, config):
             knobs = [other for other in graph.nodes if _is_on(other.box, node.box, config)]
-            if len(knobs) >= _KNOBS:
+            if len(knobs) >= least:
                 yield node.id
 
 
