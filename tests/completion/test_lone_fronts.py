@@ -119,6 +119,21 @@ def test_a_front_that_is_far_higher_than_wide_is_a_door(handle, drawn, face):
     assert turned(front=TALL, handle=handle, drawn=drawn) == face
 
 
+@pytest.mark.parametrize(
+    ("low", "width", "handle", "face"),
+    [
+        (1.5, 0.9, None, TOP_FACE),
+        (1.5, 0.4, None, LEFT_FACE),
+        (1.5, 0.9, (-0.05, 1.52), TOP_FACE),
+        (1.5, 0.4, (0.05, 1.7), LEFT_FACE),
+        (1.3, 0.9, None, None),  # its inside can be seen
+    ],
+)
+def test_a_front_above_the_eyes_is_a_door(low, width, handle, face):
+    front = box("front", (-width / 2, -0.02, low), (width / 2, 0.0, low + 0.4))
+    assert turned(front=front, handle=handle) == face
+
+
 def test_a_high_front_with_a_box_or_a_narrow_one_stays_a_drawer():
     assert turned(box("box_1", (-0.14, 0.0, 0.12), (-0.13, 0.3, 0.5)), front=TALL, handle=None) is None
     assert turned(front=box("front", (-0.1, -0.02, 0.1), (0.1, 0.0, 0.9)), handle=None) is None

@@ -1,7 +1,7 @@
 """What is only guessed to be a drawer, but is a front alone that no drawer can be behind, is a flap or a door.
 
 A shelf or a divider stands close behind its middle, as in a secretary: a drawer would run into it. Or it is higher by
-far than wide, as the doors of lockers are.
+far than wide, as the doors of lockers are, or begins above the eyes of a person.
 """
 
 from collections.abc import Mapping, Set
@@ -51,11 +51,14 @@ class LoneFrontConfig:
     """From this width on, in heights, a front without such a handle hangs on its lower border, else on its left."""
     tall: float = 2.0
     """From this height on, in widths, a front alone is a door, unless its handle is in the middle of its width ..."""
+    high: float = 1.4
+    """What begins higher than this above the floor (m) is no drawer: nothing in it could be seen. On furniture of
+    usual size."""
     narrow: float = 0.22
     """... and from this width on (m): narrower ones may be pull-outs for bottles and spices."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "wide", "tall", "narrow")
+        require_positive(self, "wide", "tall", "high", "narrow")
         require_ratios(self, "plate", "box", "edge", "off")
 
 
@@ -76,7 +79,9 @@ def with_lone_fronts(
         side = _side_of_tall(rail.child, graph, given, config)
         if side is not None:
             found[rail] = side
-        elif is_board_behind(graph.node(rail.child).box, graph.box, rest_of(asset, rail.child, graph), boards):
+        elif (box := graph.node(rail.child).box).low[_UP] - graph.box.low[_UP] >= config.high:
+            found[rail] = _border(rail.child, graph, config, lifts=True)
+        elif is_board_behind(box, graph.box, rest_of(asset, rail.child, graph), boards):
             found[rail] = _border(rail.child, graph, config)
     return as_doors(completion, found) if found else completion
 
@@ -89,8 +94,8 @@ def is_alone(front: str, graph: FunctionalGraph, config: LoneFrontConfig = LoneF
     return bool(is_plate and all(one.size[_DEPTH] <= config.box * depth for one in riding))
 
 
-def _border(front: str, graph: FunctionalGraph, config: LoneFrontConfig) -> HingeBorder:
-    """Returns the border on which such a front hangs."""
+def _border(front: str, graph: FunctionalGraph, config: LoneFrontConfig, *, lifts: bool = False) -> HingeBorder:
+    """Returns the border on which such a front hangs: a wide one without a handle drops, or `lifts`."""
     box = graph.node(front).box
     at = _handle_at(front, graph)
     if at is not None and not config.edge < at[1] < 1.0 - config.edge:
@@ -98,7 +103,7 @@ def _border(front: str, graph: FunctionalGraph, config: LoneFrontConfig) -> Hing
     if at is not None and abs(at[0] - 0.5) >= config.off:
         return upright_borders(_DEPTH)[0 if at[0] > 0.5 else 1]
     if box.size[_LEVEL] >= config.wide * box.size[_UP]:
-        return face_to_border(_DEPTH, signed_axis(_UP, positive=False))
+        return face_to_border(_DEPTH, signed_axis(_UP, positive=lifts))
     return upright_borders(_DEPTH)[0]
 
 
