@@ -128,8 +128,8 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
     if options.front is not None and options.front[1] == convention.usual_up[1]:
         other = "+Z" if convention.usual_up == "+Y" else "+Y"
         return _Choice(votes.best or other, "left over by the user's front")
-    if votes.best is not None:
-        sure = _sure(votes.confidence(votes.best))
+    if votes.best is not None and (votes.best[1] != "X" or votes.against(convention.usual_up) == votes.best):
+        sure = _sure(votes.confidence(votes.best))  # files have Y or Z up: for X nothing may speak against it
         return _Choice(votes.best, f"from the places and thin sides of labelled panels and legs{sure}")
     other = "+Z" if convention.usual_up == "+Y" else "+Y"
     if votes.stands_instead(other, convention.usual_up):
