@@ -16,6 +16,7 @@ from grafu.articulation.finger_fit import FingerFitConfig
 from grafu.articulation.finger_room import FingerRoomCutConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.asset.appliance_fronts import ApplianceFrontConfig
+from grafu.asset.boarded_drawers import BoardedDrawerConfig
 from grafu.asset.body_kinds import BodyKindConfig
 from grafu.asset.cutting import CutConfig
 from grafu.asset.door_frames import FramedDoorsConfig
@@ -23,9 +24,12 @@ from grafu.asset.drafts import GroupConfig
 from grafu.asset.drawn_cuts import DrawnCutConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
+from grafu.asset.framed_leaves import FramedLeafConfig
 from grafu.asset.grips import DrawnGripConfig
+from grafu.asset.handle_stands import HandleStandConfig
 from grafu.asset.lasso_cut import LassoConfig
 from grafu.asset.leaf_pieces import LeafPieceConfig
+from grafu.asset.link_groups import LinkGroupConfig
 from grafu.asset.loose import LooseConfig
 from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.one_front import HeldTogetherConfig
@@ -234,6 +238,7 @@ CONFIGS = (
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,
     FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LeafPieceConfig,
+    BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
     LoneFrontConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,

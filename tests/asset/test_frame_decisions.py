@@ -312,7 +312,8 @@ def test_one_door_that_would_lie_below_is_what_the_piece_would_lie_on():
 
 def test_where_labels_disagree_x_is_not_up():
     """Fillers that are called bottoms stand across X; a worktop lies across Y. Labels that agree may tell X."""
-    fillers = [box(f"bottom_{k}", (k, 0.0, 0.0), (k + 0.02, 0.9, 0.6), PartLabel.BOTTOM_PANEL) for k in (0.0, 1.0, 2.0)]
-    top = box("top", (0.0, 0.9, 0.0), (2.1, 0.94, 0.6), PartLabel.TOP_PANEL)
+    boards = [box(f"bottom_{k}", (k, 0.0, 0.0), (k + 0.02, 0.9, 0.6)) for k in (0.0, 1.0, 2.0)]
+    fillers = [replace(board, label=PartLabel.BOTTOM_PANEL) for board in boards]
+    top = replace(box("top", (0.0, 0.9, 0.0), (2.1, 0.94, 0.6)), label=PartLabel.TOP_PANEL)
     assert up_votes((*fillers, top), whole_box((*fillers, top))).best == "+X"
     assert settle_frame(Reading("made", (*fillers, top), UNKNOWN), LoadOptions()).up == "+Y"

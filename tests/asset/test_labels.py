@@ -236,3 +236,19 @@ def test_the_phrase_that_ends_last_counts_the_longest_and_first_of_several(said)
     ]
     best = max(places, key=lambda place: (place[1], place[1] - place[0]), default=None)
     assert _last(tuple(said), _rows(frozenset(PartLabel))) == best
+
+
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        ("fixed_rail_drawer_0_1", PartLabel.MISC),
+        ("runner_drawer_2_left", PartLabel.MISC),
+        ("hinge_plate_left_door", PartLabel.MISC),
+        ("slide_drawer_1", PartLabel.DRAWER),
+        ("hinge_door_1", PartLabel.DOOR),
+        ("plate_door", PartLabel.DOOR),
+        ("opening_on_rail_1_door", PartLabel.DOOR),
+    ],
+)
+def test_a_fitting_named_before_what_it_is_on_is_no_door_or_drawer(name: str, label: PartLabel) -> None:
+    assert label_of(name) is label

@@ -90,10 +90,25 @@ def parts_of_drafts(drafts: list[PartDraft], config: GroupConfig = GroupConfig()
             grouped[key] = _Grouped(draft.name, label, (draft,), f"group {draft.group}" if draft.group else "")
         else:
             grouped[key] = _Grouped(draft.group_name, label_of(draft.group_name), (draft,))
+    grouped = {key: _with_label_of_pieces(one) for key, one in grouped.items()}
     grouped = {key: one for group, all_of_it in grouped.items() for key, one in _with_grip(group, all_of_it)}
     ids = unique_ids((g.name, g.label is PartLabel.HANDLE) for g in grouped.values())
     by_key = dict(zip(grouped, ids, strict=True))
     return tuple(_part(g, by_key[key], by_key.get(g.carrier)) for key, g in grouped.items())
+
+
+def _with_label_of_pieces(grouped: _Grouped) -> _Grouped:
+    """Returns a group that is not called a door or drawer with the one of both that most of its pieces' names give.
+
+    As many names of doors as of drawers state nothing.
+    """
+    if len(grouped.drafts) < 2 or grouped.label.is_movable:
+        return grouped
+    said = [label_of(draft.name) for draft in grouped.drafts]
+    doors, drawers = said.count(PartLabel.DOOR), said.count(PartLabel.DRAWER)
+    if doors == drawers:
+        return grouped
+    return replace(grouped, label=PartLabel.DOOR if doors > drawers else PartLabel.DRAWER)
 
 
 def _with_split_objects_whole(drafts: list[PartDraft]) -> list[PartDraft]:
@@ -153,7 +168,7 @@ def _with_name_groups(drafts: list[PartDraft], spare: float) -> list[PartDraft]:
     """
     beginnings: dict[str, list[int]] = {}
     for index, draft in enumerate(drafts):
-        beginning = "" if draft.group else _beginning(draft.name)
+        beginning = "" if draft.group else numbered_whole(draft.name)
         if beginning:
             beginnings.setdefault(beginning, []).append(index)
     out = list(drafts)
@@ -169,7 +184,7 @@ def _with_name_groups(drafts: list[PartDraft], spare: float) -> list[PartDraft]:
     return out
 
 
-def _beginning(name: str) -> str:
+def numbered_whole(name: str) -> str:
     """Returns the longest beginning of a name, up to a number, that names one door or drawer; empty where none does."""
     ends = [match.end() for match in _NUMBERED.finditer(name)]
     return next((name[:end] for end in reversed(ends) if is_whole_part(name[:end])), "")

@@ -12,66 +12,11 @@ import re
 from functools import lru_cache
 from typing import Final, final
 
+from grafu.asset.label_phrases import TABLE
 from grafu.asset.languages import word_set
 from grafu.asset.names import OF, singular, spoken
 from grafu.dataclass import dataclass
 from grafu.vocabulary import PartLabel
-
-# Each row: a label and the phrases that give it. A phrase is words that adjoin (`drawer rail` also matches plurals);
-# `=top` matches only where it is the whole name. The phrase that ends last counts, the longest of several.
-TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
-    (
-        PartLabel.DRAWER,
-        "drawer, pull out, pullout, slide out tray, keyboard tray, tray surface, =tray, sliding tray, sliding shelf",
-    ),
-    (PartLabel.DRAWER, "sliding rack"),
-    (PartLabel.DOOR, "door, door leaf, cabinetdoor, flap, lid, shutter, hatch, tambour"),
-    (PartLabel.HANDLE, "handle, doorhandle, knob, nob, doorknob, grip, handgrip, pull, grasp"),
-    (PartLabel.MISC, "tabletop connector, drawer rail, drawer slider, drawer slide, drawer runner, hinge, lock"),
-    (PartLabel.MISC, "keyhole, screw, nail, bolt, wheel, caster, castor, button, switch, lever, dial, faucet, tap"),
-    (
-        PartLabel.MISC,
-        "hinge leaf, hinge plate, hinge arm, knuckle, bearing, bearer, bracket, hanger, standoff, bushing",
-    ),
-    (PartLabel.MISC, "bumper, gasket, seal, spring, piston, damper, latch, catch, magnet, stopper, stop, spacer"),
-    (PartLabel.FACE_FRAME, "face frame, faceframe, front frame, stile, mullion, top rail, bottom rail, mid rail, jamb"),
-    (PartLabel.FACE_FRAME, "doorframe, doorjamb"),
-    (PartLabel.FACE_FRAME, "lintel, fascia, front panel, fixed front, false front, cabinet frame, =frame, =front"),
-    (PartLabel.LEG, "leg, foot, feet, pedestal"),
-    (PartLabel.SHELF, "shelf, shelve, shelves, shelving, bookshelf, plank, rack"),
-    (PartLabel.DIVIDER, "divider, partition, separator, middle panel, mid panel, centre panel, center panel"),
-    (PartLabel.BAR, "bar, stretcher, rod, crossbar, beam, rung, slat, apron, strut, brace, batten, crosspiece, post"),
-    (
-        PartLabel.BACK_PANEL,
-        "back panel, backpanel, backboard, back board, back plate, rear panel, back side, back wall",
-    ),
-    (PartLabel.BACK_PANEL, "rear wall, back skin, rear skin, cabinet back, carcass back, case back, =back, =rear"),
-    (PartLabel.TOP_PANEL, "top panel, toppanel, tabletop, table top, countertop, counter top, counter, worktop"),
-    (PartLabel.TOP_PANEL, "desktop, desk top, top board, top plate, top surface, board top, bench top, =board"),
-    (PartLabel.TOP_PANEL, "cabinet top, carcass top, case top, body top, top slab, top skin, top deck, =top"),
-    (PartLabel.BOTTOM_PANEL, "bottom panel, bottompanel, bottom board, bottom plate, base panel, floor panel"),
-    (PartLabel.BOTTOM_PANEL, "base plate, cabinet bottom, carcass bottom, case bottom, bottom skin, =bottom"),
-    (PartLabel.SIDE_PANEL, "side panel, sidepanel, side board, side plate, side wall, gable, toe kick, plinth, cheek"),
-    (
-        PartLabel.SIDE_PANEL,
-        "kickboard, baseboard, skirting, end panel, left panel, right panel, outer side, inner side",
-    ),
-    (PartLabel.SIDE_PANEL, "lateral panel, =lateral, wall"),
-    (PartLabel.SIDE_PANEL, "left side, right side, cabinet side, carcass side, case side, side skin, left wall"),
-    (PartLabel.SIDE_PANEL, "right wall, wall left, wall right, =side, =left, =right"),
-    (
-        PartLabel.MISC,
-        "misc, connector, glass, pane, window, mirror, lamp, light, led, sink, basin, cushion, pillow, book, clock",
-    ),
-    (PartLabel.MISC, "decoration, cord, cable, hook, key, vase, rail, runner, slider, cloth, mattress, grille, vent"),
-    (PartLabel.MISC, "blanket, quilt, duvet, bedspread, backrest, armrest, headrest, burner, hotplate, hob, cooktop"),
-    (PartLabel.MISC, "bottle, bowl, cup, mug, candle, statue, plant, flower, lampshade, curtain, toilet, bidet"),
-    (PartLabel.MISC, "gap, shadow, reveal, recess, cavity, slot, groove, trim, molding, moulding, bead, band"),
-    (
-        PartLabel.MISC,
-        "control panel, display, slide, support, collar, sleeve, tube, ceiling, cover, handrail, rug, carpet",
-    ),
-)
 
 # Things that furniture annotations give joints to although no hinge or rail carries them.
 _CONTROLS = frozenset({"wheel", "caster", "castor", "knob", "nob", "button", "switch", "lever", "dial", "lock", "key"})
@@ -90,6 +35,10 @@ _VOIDS = word_set("recess shadow gap cavity slot groove cutout hole pocket")
 _VALVES = word_set("tap faucet hot cold heat water burner")  # whose handles are on no door or drawer
 _FITTINGS = word_set("hinge lock rail slide slider runner screw knuckle bearing bracket wheel caster castor")
 _HARDWARE = frozenset({"hinge", "lock", "latch", "knuckle"})
+_LEADING = (  # `hinge_plate_left_door`: a fitting, and then which door or drawer it is on
+    (PartLabel.DRAWER, word_set("rail runner bracket")),
+    (PartLabel.DOOR, word_set("plate leaf bracket arm knuckle barrel strap pin cup")),
+)
 _PLURALS = frozenset({"doors", "drawers"})
 _CONTAINERS = word_set(
     "unit set group stack chest cabinet collection compartment section case carcass body cupboard wardrobe "
@@ -228,6 +177,8 @@ def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sen
     tail = said[end:]
     if (tail or end - start > 1) and set(said[:start]) & _HARDWARE:
         return None  # `hinge_door_leaf`: the leaf of the hinge that is on the door
+    if _leads(said[:start], label):
+        return None
     own = _PIECES | (_LEAF_PIECES if label is PartLabel.DOOR else frozenset())
     known = _without_strange_end(tail)
     if all(w in own or w in _PLACES for w in known):
@@ -238,6 +189,14 @@ def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sen
     if later or any(w in _CONTAINERS for w in tail):
         return None
     return Sense(label, is_piece=bool(set(tail) & own), is_blurred=True)
+
+
+def _leads(before: tuple[str, ...], label: PartLabel) -> bool:
+    """Whether the words before a door or drawer name a fitting that is on it: nothing is called a `rail drawer`."""
+    for moving, fittings in _LEADING:
+        if label is moving and set(before) & fittings:
+            return label is PartLabel.DRAWER or bool(set(before) & _HARDWARE)
+    return False
 
 
 def _without_strange_end(tail: tuple[str, ...]) -> tuple[str, ...]:

@@ -51,7 +51,7 @@ def read_mjcf(path: Path, options: LoadOptions, files: ModelFiles | None = None)
     """
     files = files or ModelFiles(path, options.limits)
     model = _Model(path, whole_text(path, files))
-    return model.document().reading("mjcf", CONVENTION, files)
+    return model.document().reading("mjcf", CONVENTION, files, options.parts)
 
 
 @final

@@ -14,6 +14,8 @@ from lxml import etree
 
 from grafu.asset.bodies import annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
+from grafu.asset.link_groups import with_links_as_groups
+from grafu.asset.options import Division
 from grafu.asset.part import AssetKind
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
@@ -113,7 +115,7 @@ class RobotDocument:
             about = {"joint": leader, "multiplier": repr(float(multiplier)), "offset": repr(float(offset))}
             etree.SubElement(element, "mimic", about)
 
-    def reading(self, kind: AssetKind, convention: Convention, files: ModelFiles) -> Reading:
+    def reading(self, kind: AssetKind, convention: Convention, files: ModelFiles, division: Division) -> Reading:
         """Returns the model in the coordinates of the link that was added first; what hangs on no joint stands on it.
 
         Raises:
@@ -126,7 +128,7 @@ class RobotDocument:
             if link not in moved:
                 self.add_joint(RobotJoint(f"{link} stands", "fixed", world, link))
         found = bodies_of_robot(self._robot, self.path, files)
-        parts = parts_of_drafts(drafts_of_visuals(found.visuals))
+        parts = parts_of_drafts(drafts_of_visuals(with_links_as_groups(found.visuals, found.base, division)))
         annotation = annotation_of_bodies(list(found.bodies), up=2)
         return Reading(kind, parts, convention, annotation, notes=tuple(dict.fromkeys((*self.notes, *found.notes))))
 

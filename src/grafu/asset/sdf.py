@@ -52,7 +52,7 @@ def read_sdf(path: Path, options: LoadOptions, files: ModelFiles | None = None) 
     for element in (model for world in worlds for model in world.findall("model")):
         _Model(element, path, document, _version(root)).add("", np.eye(4))
     document.notes += [f"<include> {_text(e, 'uri')} is not followed" for e in root.iter("include")]
-    return document.reading("sdf", CONVENTION, files)
+    return document.reading("sdf", CONVENTION, files, options.parts)
 
 
 def _version(root: Any) -> tuple[int, ...]:

@@ -10,12 +10,15 @@ from typing import Final
 import numpy as np
 
 from grafu.asset.appliance_fronts import with_appliance_fronts
+from grafu.asset.boarded_drawers import with_boarded_drawers
 from grafu.asset.cutting import cut_where_fronts_appear
 from grafu.asset.door_frames import with_door_frames
 from grafu.asset.either_kind import with_either_kind
 from grafu.asset.folder import divide, looked_for_fronts
 from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
+from grafu.asset.framed_leaves import with_framed_leaves
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
+from grafu.asset.handle_stands import with_handle_stands
 from grafu.asset.leaf_pieces import with_leaf_pieces
 from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.named_fittings import with_named_fittings
@@ -59,6 +62,8 @@ def settled(
         reading = _joined(reading)
     if options.parts == "auto" and has_copies(reading):
         reading = joined_where_one_name(reading, settle_frame(reading, options, file))
+    if options.parts == "auto" and not reading.grouped and reading.parts:
+        reading = _assembled(reading)
     if reading.parts:
         reading = _plausible(reading)
     stands: Frame | None = None
@@ -116,6 +121,14 @@ def _joined(reading: Reading) -> Reading:
     fronts, told = with_leaf_pieces(framed, whole)
     parts, notes = with_joined_pieces(fronts, whole)
     return replace(reading, parts=parts, notes=(*reading.notes, *found, *told, *notes))
+
+
+def _assembled(reading: Reading) -> Reading:
+    """Returns the reading with the boards of leaves and of drawers joined that no names tell."""
+    whole = whole_box(reading.parts)
+    leaves, frames = with_framed_leaves(with_handle_stands(reading.parts, whole), whole)
+    parts, boards = with_boarded_drawers(leaves, whole)
+    return replace(reading, parts=parts, notes=(*reading.notes, *frames, *boards))
 
 
 def _plausible(reading: Reading) -> Reading:

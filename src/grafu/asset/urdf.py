@@ -16,6 +16,7 @@ from grafu.articulation.motion_kind import MotionKind, kind_named
 from grafu.asset.bodies import Body, BodyVisual, StatedMotion, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
 from grafu.asset.labels import is_whole_part, label_of
+from grafu.asset.link_groups import with_links_as_groups
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
@@ -37,13 +38,14 @@ _LOOSE = "floating"  # the link moves, the file does not say how
 class UrdfBodies:
     """The bodies of a URDF, its visuals link by link as the file has them, and notes on what was left out.
 
-    `up` is the root link's Z in the coordinates of the visuals.
+    `up` is the root link's Z in the coordinates of the visuals, `base` the link that the others hang on.
     """
 
     bodies: tuple[Body, ...]
     visuals: tuple[BodyVisual, ...]
     notes: tuple[str, ...]
     up: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    base: str = ""
 
 
 @final
@@ -85,7 +87,7 @@ def read_urdf(path: Path, options: LoadOptions, files: ModelFiles | None = None)
     robot = read_xml(path, files)
     check_parts(len(robot.findall("link/visual/geometry/*")), path, options.limits)
     found = bodies_of_robot(robot, path, files)
-    parts = parts_of_drafts(drafts_of_visuals(found.visuals))
+    parts = parts_of_drafts(drafts_of_visuals(with_links_as_groups(found.visuals, found.base, options.parts)))
     annotation = annotation_of_bodies(list(found.bodies), up=2)
     return Reading("urdf", parts, CONVENTION, annotation, notes=tuple(dict.fromkeys(found.notes)))
 
@@ -118,7 +120,7 @@ def bodies_of_robot(robot: Any, path: Path, files: ModelFiles, mesh_frame: bool 
         missing = f" ({shapes.notes[0]})" if shapes.notes else ""
         raise UnreadableAsset(f"{path} has no visual shape that can be read{missing}: expected visuals with meshes")
     x, y, z = T_base_root[:3, 2].tolist()
-    return UrdfBodies(bodies, in_order, (*shapes.notes, *_kind_notes(tree)), (x, y, z))
+    return UrdfBodies(bodies, in_order, (*shapes.notes, *_kind_notes(tree)), (x, y, z), _base_link(tree))
 
 
 def _read_tree(robot: Any, path: Path, files: ModelFiles) -> _Tree:
@@ -248,17 +250,18 @@ def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4
         if shape is None:
             continue
         T = T_base_link @ origin_of(element, tree.path)
-        name = _visual_name(element.get("name") or "", link, Path(shape.file).stem)
+        name = _visual_name(element.get("name") or "", link, Path(shape.file).stem, link in tree.roots)
         surfaces = tuple(s.transformed(T) for s in shape.surfaces)
         made.append(BodyVisual(name, surfaces, link, shape.file, _group(tree, link)))
     return made
 
 
-def _visual_name(visual: str, link: str, stem: str) -> str:
+def _visual_name(visual: str, link: str, stem: str, is_root: bool) -> str:
+    """Returns what a shape is called; a root is named as the whole or as its frame, which tells no shape of it."""
     if label_of(link) is PartLabel.HANDLE:
         return link
-    known = (name for name in (visual, link, stem) if name and label_of(name) is not PartLabel.UNKNOWN)
-    return next(known, visual or link or stem)
+    names = (visual, stem) if is_root and visual else (visual, link, stem)
+    return next((n for n in names if n and label_of(n) is not PartLabel.UNKNOWN), visual or link or stem)
 
 
 def _body(tree: _Tree, heads: dict[str, str], head: str, visuals: tuple[BodyVisual, ...], T_base_root: Mat4) -> Body:

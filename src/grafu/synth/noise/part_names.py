@@ -12,7 +12,8 @@ from typing import Final, Literal
 
 import numpy as np
 
-from grafu.asset.labels import TABLE, label_of
+from grafu.asset.label_phrases import TABLE
+from grafu.asset.labels import label_of
 from grafu.asset.languages import CHINESE, FRENCH, GERMAN, ITALIAN, JAPANESE, PORTUGUESE, SPANISH, table
 from grafu.asset.part import Asset, Part
 from grafu.synth.sampling.chance import chance, pick
