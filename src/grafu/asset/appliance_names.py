@@ -6,7 +6,6 @@ from grafu.asset.labels import APPLIANCES, is_appliance
 from grafu.asset.names import singular, spoken
 
 _DROPPING: Final = frozenset({"oven", "stove", "cooker", "dishwasher"})
-_DOORS: Final = frozenset({"door", "front"})
 
 
 def appliances(name: str) -> frozenset[str]:
@@ -15,10 +14,13 @@ def appliances(name: str) -> frozenset[str]:
     return frozenset(said) & APPLIANCES if said and said[-1] in APPLIANCES and is_appliance(name) else frozenset()
 
 
+def is_dropping_door(name: str) -> bool:
+    """Whether a name is that of the door of an oven or a dishwasher, which drops."""
+    said = [singular(word) for word in spoken(name)]
+    return len(said) > 1 and said[-1] == "door" and said[-2] in _DROPPING and "microwave" not in said
+
+
 def is_drop_down(name: str) -> bool:
     """Whether a name is that of an oven or a dishwasher, whose doors drop, or of such a door; no microwave oven."""
-    said = [singular(word) for word in spoken(name)]
-    if len(said) > 1 and said[-1] in _DOORS and said[-2] in _DROPPING:
-        return "microwave" not in said
     found = appliances(name)
-    return bool(found & _DROPPING) and "microwave" not in found
+    return is_dropping_door(name) or (bool(found & _DROPPING) and "microwave" not in found)

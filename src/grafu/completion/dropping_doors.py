@@ -5,7 +5,7 @@ Names tell which these are. It builds nothing.
 
 from typing import final
 
-from grafu.asset.appliance_names import is_drop_down
+from grafu.asset.appliance_names import is_drop_down, is_dropping_door
 from grafu.asset.part import Asset
 from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border
 from grafu.dataclass import dataclass
@@ -45,12 +45,19 @@ def with_dropping_doors(
 ) -> GraphCompletion:
     """Returns the completion in which doors that are called an oven's or a dishwasher's drop.
 
-    Those with a handle that may show a side, which is any but a level bar in the middle, stay as they are predicted.
+    Those with a handle stay as they are predicted; what is called an oven's door itself, and not as the whole oven,
+    drops with a level bar in its middle, too.
     """
     named = {part.id for part in asset.parts if part.labelled_by == "name" and is_drop_down(part.source.name)}
     graph, given = completion.completed, {part.id for part in asset.parts}
     handles = [edge for edge in graph.attachments if edge.child in given and _is_handle(graph.node(edge.child))]
-    held = {e.parent for e in handles if not _is_level_bar(graph.node(e.child).box, graph.node(e.parent).box, config)}
+    doors = {part.id for part in asset.parts if is_dropping_door(part.source.name)}
+    held = {
+        edge.parent
+        for edge in handles
+        if edge.parent not in doors
+        or not _is_level_bar(graph.node(edge.child).box, graph.node(edge.parent).box, config)
+    }
     found = {}
     for hinge in graph.hinges:
         box = graph.node(hinge.child).box

@@ -5,7 +5,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.appliance_names import is_drop_down
+from grafu.asset.appliance_names import is_dropping_door
 from grafu.completion.lone_fronts import as_doors, is_alone
 from grafu.completion.static_guesses import taken_for, with_static
 from grafu.dataclass import dataclass
@@ -47,7 +47,7 @@ class OvenDoorConfig:
 def with_oven_doors(completion: GraphCompletion, config: OvenDoorConfig = OvenDoorConfig()) -> GraphCompletion:
     """Returns the completion in which guessed drawers below panels with knobs drop, and guessed panels are fixed.
 
-    What the input labels stays as it is. Above the door of what is named an oven a panel needs no knobs.
+    What the input labels stays as it is. Above what is named an oven's door a panel needs no knobs.
     """
     graph = completion.completed
     guesses = {d.part: d for d in completion.decisions if d.question == "label"}
@@ -57,7 +57,7 @@ def with_oven_doors(completion: GraphCompletion, config: OvenDoorConfig = OvenDo
         if rail.child in guesses and rail.axis == _FRONT and rail.coupling is None and is_alone(rail.child, graph)
         for panel in _panels(rail.child, graph, _KNOBS, config)
     }
-    named = [node.id for node in graph.labelled(PartLabel.DOOR) if is_drop_down(node.source_name)]
+    named = [node.id for node in graph.labelled(PartLabel.DOOR) if is_dropping_door(node.source_name)]
     panels = {*above.values(), *(panel for door in named for panel in _panels(door, graph, 0, config))}
     lower = face_to_border(_DEPTH, signed_axis(_UP, positive=False))
     turned = as_doors(completion, dict.fromkeys(above, lower)) if above else completion
