@@ -6,17 +6,20 @@ import numpy as np
 import pytest
 
 from grafu.asset.part import Asset
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.graph.edges import Contact
 from grafu.graph.parse import parse_graph
 from grafu.joints.lifts import with_lifts
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
-from grafu.joints.plan import RealizationPlan
+from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
 from grafu.pipeline.shown_by_shape import shown_by_shape
 from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import JointType
 from judging import hardware, installed, realized, swept_collisions
 from small_scenes import box, scene, sliding
 
@@ -168,3 +171,14 @@ def test_what_was_only_predicted_to_be_missing_is_not_lifted():
     plan, _ = shown_by_shape(RealizationPlan(), asset, completed, PipelineConfig().joints)
     assert {request.moving for request in plan.joints} == {"tube_0", "tube_1"}
     assert {part for request in plan.joints for part in request.attached} <= {part.id for part in asset.parts}
+
+
+@pytest.mark.parametrize(
+    ("mounts", "rides"), [(("runner_left", "sleeve_1_left"), True), (("sleeve_0_right", "sleeve_1_left"), False)]
+)
+def test_of_the_mounts_of_a_drawer_the_nearest_ones_tell_whether_it_rises(mounts, rides):
+    axis = Axis(vec3(0.0, 0.0, 0.64), vec3(0.0, -1.0, 0.0))
+    drawer = JointRequest("drawer", JointType.PRISMATIC, axis, "network", mounts=mounts)
+    plan = with_lifts(RealizationPlan((drawer,)), parse_graph(desk()))
+    (found,) = (request for request in plan.joints if request.moving == "drawer")
+    assert found.parent == ("tube_0" if rides else "")

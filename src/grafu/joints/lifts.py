@@ -39,7 +39,7 @@ def with_lifts(plan: RealizationPlan, graph: FunctionalGraph, config: LiftConfig
     if not _bears_a_top((graph.node(part).box for part in carried), graph.box, config):
         return plan
     leader, *others = columns
-    riding = [r for r in plan.joints if not r.parent and _rides(r, carried, graph)]
+    riding = [r for r in plan.joints if not r.parent and _rides(r, carried, graph, config)]
     parts = [part for r in riding for part in (r.moving, *r.attached)]
     ids = {node.id for node in columns}
     travel = config.travel * min(top - float(node.box.low[2]) for node, top in columns.items())
@@ -111,7 +111,13 @@ def _bears_a_top(carried: Iterable[Box], whole: Box, config: LiftConfig) -> bool
     return any(float(np.prod(box.size[:2])) >= least for box in carried)
 
 
-def _rides(request: JointRequest, carried: list[str], graph: FunctionalGraph) -> bool:
-    """Whether what carries a joint is carried by the columns: its mounts, else all static parts that it touches."""
-    holders = request.mounts or tuple(graph.neighbours[request.moving])
+def _rides(request: JointRequest, carried: list[str], graph: FunctionalGraph, config: LiftConfig) -> bool:
+    """Whether what carries a joint is carried by the columns: its mounts, else all static parts that it touches.
+
+    Of mounts the nearest counts, and those within `config.gap` of it: a predicted one that is farther off, such as the
+    sleeve of a column, carries nothing.
+    """
+    moving, holders = graph.node(request.moving).box, request.mounts or tuple(graph.neighbours[request.moving])
+    gaps = [moving.gap(graph.node(part).box) for part in holders]
+    holders = tuple(part for part, gap in zip(holders, gaps, strict=True) if gap <= min(gaps) + config.gap)
     return bool(holders) and sum(part in carried for part in holders) * 2 > len(holders)
