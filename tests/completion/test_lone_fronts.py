@@ -92,6 +92,7 @@ def test_a_handle_alone_shows_no_flap(handle):
         [],
         [box("shelf", (-0.48, 0.0, 0.79), (0.48, 0.38, 0.81))],  # above the front
         [box("shelf", (-0.48, 0.3, 0.6), (0.48, 0.38, 0.62))],  # far behind it
+        [box("bottom", (-0.48, 0.0, 0.48), (0.48, 0.36, 0.49))],  # the bottom of a drawer's box
         [box("shelf", (-0.48, 0.1, 0.6), (-0.2, 0.38, 0.62))],  # beside most of it
         [box("block", (-0.48, 0.1, 0.5), (0.48, 0.38, 0.7))],  # no board
         [SHELF, box("box_1", (-0.47, 0.0, 0.42), (-0.46, 0.3, 0.7))],  # a box of its own rides on it

@@ -33,7 +33,7 @@ class BoardBehindConfig:
     """How much of a row of rays meets it, or goes on beyond it (fraction)."""
     thick: float = 0.15
     """Greatest thickness (fraction of the front between the same borders)."""
-    inside: float = 0.15
+    inside: float = 0.25
     """How far it is from both borders at least (the same fraction): nearer ones may be the bottom of a drawer."""
 
     def __post_init__(self) -> None:
