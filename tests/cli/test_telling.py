@@ -162,4 +162,5 @@ def test_a_bar_on_a_terminal_names_the_models_in_work_from_the_first_moment(tmp_
     assert seen == ""  # no bar between lines of JSON
     assert json.loads(out)["name"] == "cabinet"
     _, seen = on_terminal([*command(tmp_path), "--overwrite"])
-    assert re.search(r"━ cabinet: (reading|deciding what moves|placing hinges)", seen)
+    shown = set(re.findall(r"━ cabinet: ([a-z]+ing)", seen)) - {"starting"}
+    assert len(shown) > 1  # the terminal is drawn ten times a second: which stages are seen depends on the machine
