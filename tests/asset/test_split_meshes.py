@@ -144,3 +144,11 @@ def test_neighbours_are_pieces_of_the_mesh_that_their_own_name_begins_with(tmp_p
     found = named(tmp_path, "", *zip(names, beside(5), (OAK, GLASS) * 2 + (OAK,), strict=False))
 
     assert found == ["leg_1", "leg_2", "door_e0e0e1"]
+
+
+@pytest.mark.parametrize(
+    ("endings", "count"), [(("516266", "123456"), 1), (("51626e", "123456"), 1), (("000001", "000002"), 2)]
+)
+def test_what_trimesh_draws_at_random_may_be_digits_alone(tmp_path, endings, count):
+    names = [f"drawer_1_{ending}" for ending in endings]
+    assert len(named(tmp_path, "", *zip(names, beside(2), (OAK, OAK), strict=True))) == count

@@ -45,6 +45,9 @@ class SplitMeshConfig:
     alike: float = 0.9
     """Copies: each side of each box has at least this fraction of the longest such side."""
 
+    counted: float = 1e-4
+    """Numbers of six digits that count pieces are no farther apart than this, in the mean (fraction of a million)."""
+
     def __post_init__(self) -> None:
         require_ratios(self, *self.__dataclass_fields__)
 
@@ -65,7 +68,7 @@ def is_one_mesh(
         return False
     endings = [piece[len(name) :] for piece in names]
     if all(map(_BY_CHANCE.fullmatch, endings)):
-        return _has(endings, str.isdigit) and _has(endings, str.isalpha)
+        return _are_by_chance(endings, config)
     if all(_is_material(ending, surfaces) for ending, surfaces in zip(endings, pieces, strict=True)):
         return True
     if not all(map(_NUMBER.fullmatch, endings)):
@@ -100,6 +103,14 @@ def _row_of_pieces(names: Sequence[str]) -> tuple[str, int]:
         alike = ((other := _WITH_CHANCE.fullmatch(name)) is not None and other[1] == mesh for name in names)
         return mesh, sum(1 for _ in takewhile(bool, alike))
     return names[0], 0
+
+
+def _are_by_chance(endings: Sequence[str], config: SplitMeshConfig) -> bool:
+    """Whether endings of six hexadecimal digits are drawn at random: words have no digits, counted ones lie close."""
+    if not _has(endings, str.isalpha):
+        drawn = [int(ending[1:]) / 1e6 for ending in endings]
+        return max(drawn) - min(drawn) > config.counted * len(drawn)
+    return _has(endings, str.isdigit)
 
 
 def _has(endings: Sequence[str], is_such: Callable[[str], bool]) -> bool:
