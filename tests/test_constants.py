@@ -50,6 +50,7 @@ from grafu.completion.dropping_doors import DroppingDoorConfig
 from grafu.completion.fixed_shelves import FixedShelfConfig
 from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
+from grafu.completion.level_bars import LevelBarConfig
 from grafu.completion.lone_fronts import LoneFrontConfig
 from grafu.completion.oven_doors import OvenDoorConfig
 from grafu.completion.round_doors import RoundDoorConfig
@@ -239,7 +240,7 @@ CONFIGS = (
     LassoConfig,
     FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LeafPieceConfig,
     BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
-    LoneFrontConfig, OvenDoorConfig,
+    LevelBarConfig, LoneFrontConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,

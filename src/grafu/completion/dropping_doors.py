@@ -7,6 +7,7 @@ from typing import final
 
 from grafu.asset.appliance_names import is_drop_down, is_dropping_door
 from grafu.asset.part import Asset
+from grafu.completion.level_bars import are_level_bars
 from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
@@ -31,10 +32,6 @@ class DroppingDoorConfig:
 
     high: float = 1.5
     """Height over width at most: the tall door of a cooker that stands alone may hang on a side."""
-    centred: float = 0.15
-    """A handle no farther off the middle of the width than this (fraction of it) shows no side ..."""
-    level: float = 2.0
-    """... where it is so many times as wide as high: a bar that the door is pulled down by."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -50,14 +47,12 @@ def with_dropping_doors(
     """
     named = {part.id for part in asset.parts if part.labelled_by == "name" and is_drop_down(part.source.name)}
     graph, given = completion.completed, {part.id for part in asset.parts}
-    handles = [edge for edge in graph.attachments if edge.child in given and _is_handle(graph.node(edge.child))]
+    handles: dict[str, list[Box]] = {}
+    for edge in graph.attachments:
+        if edge.child in given and _is_handle(graph.node(edge.child)):
+            handles.setdefault(edge.parent, []).append(graph.node(edge.child).box)
     doors = {part.id for part in asset.parts if is_dropping_door(part.source.name)}
-    held = {
-        edge.parent
-        for edge in handles
-        if edge.parent not in doors
-        or not _is_level_bar(graph.node(edge.child).box, graph.node(edge.parent).box, config)
-    }
+    held = {name for name, of in handles.items() if name not in doors or not are_level_bars(of, graph.node(name).box)}
     found = {}
     for hinge in graph.hinges:
         box = graph.node(hinge.child).box
@@ -69,13 +64,6 @@ def with_dropping_doors(
 
 def _is_handle(node: PartNode) -> bool:
     return node.label is PartLabel.HANDLE
-
-
-def _is_level_bar(handle: Box, door: Box, config: DroppingDoorConfig) -> bool:
-    """Whether a handle is a level bar in the middle of an upright door's width."""
-    level = next((axis for axis in plane_axes(door.thin_axis) if axis != _UP), 0)
-    is_bar = handle.size[level] >= config.level * handle.size[_UP]
-    return bool(is_bar and abs(handle.center[level] - door.center[level]) <= config.centred * door.size[level])
 
 
 def _may_drop(hinge: Hinge, box: Box, graph: FunctionalGraph, config: DroppingDoorConfig) -> bool:

@@ -9,6 +9,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.completion.level_bars import are_level_bars
 from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border, upright_borders
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
@@ -40,13 +41,9 @@ class HandleSideConfig:
     wide: float = 2.0
     """No door that is wider than this (ratio of width to height) is turned so."""
 
-    level: float = 2.0
-    """A handle this many times as wide as it is high is a level bar ..."""
-    centred: float = 0.15
-    """... in the middle where it is no farther off (fraction of the door's width) ..."""
     flap: float = 1.35
-    """... and turns a door this much wider than high about its lower or upper border. Of 21 real doors with such a bar
-    that are narrower, 13 hang on a side; of four that are wider none does."""
+    """A level bar in the middle turns a door this much wider than high about its lower or upper border. Of 21 real
+    doors with such a bar that are narrower, 13 hang on a side; of four that are wider none does."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -82,19 +79,14 @@ def _stated_side(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: 
     level = next(axis for axis in plane_axes(box.thin_axis) if axis != _UP)
     middle = np.mean([handle.center for handle in handles], axis=0) - box.center
     off, up = float(middle[level] / box.size[level]), float(middle[_UP] / box.size[_UP])
-    if _is_pulled_down_or_up(handles, box, level, off, config) and config.off <= abs(up) <= config.within:
+    is_wide = box.size[level] >= config.flap * box.size[_UP]
+    if is_wide and are_level_bars(handles, box) and config.off <= abs(up) <= config.within:
         return face_to_border(box.thin_axis, signed_axis(_UP, positive=up < 0))
     if not config.off <= abs(off) <= config.within:
         return None
     if stands_on_a_level_border(hinge, graph) and not _opens_sideways(handles, box, level, config):
         return None
     return upright_borders(box.thin_axis)[0 if off > 0 else 1]
-
-
-def _is_pulled_down_or_up(handles: list[Box], door: Box, level: int, off: float, config: HandleSideConfig) -> bool:
-    """Whether handles are level bars in the middle of a wide front."""
-    are_level = all(handle.size[level] >= config.level * handle.size[_UP] for handle in handles)
-    return bool(are_level and abs(off) <= config.centred and door.size[level] >= config.flap * door.size[_UP])
 
 
 def _opens_sideways(handles: list[Box], door: Box, level: int, config: HandleSideConfig) -> bool:
