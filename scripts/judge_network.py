@@ -163,7 +163,8 @@ def door_table(doors: Sequence[Doors]) -> str:
 
 def complete_by_weights(network: NetworkSession, graph: FunctionalGraph) -> GraphCompletion:
     """Returns a graph as a network completes it."""
-    return complete_by_network(graph, network, network.features)
+    named = {node.id for node in graph.nodes if node.source_name}
+    return complete_by_network(graph, network, network.features, named=named)
 
 
 def table(found: Sequence[Accuracies]) -> str:

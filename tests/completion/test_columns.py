@@ -31,7 +31,7 @@ def labels_of(odds, *fronts, config=DecodeConfig()):
     """What fronts become where the network takes each for a door with these odds against a drawer."""
     graph = FunctionalGraph("made", (*SIDES, *fronts))
     said = Answers(labels={n.id: {DOOR: 8.0 + log(odd), DRAWER: 8.0} for n, odd in zip(fronts, odds, strict=True)})
-    labelled, decisions = label_parts(graph, said.about(graph), FEW, config)
+    labelled, decisions, _ = label_parts(graph, said.about(graph), FEW, config)
     scores = {decision.part: decision.score for decision in decisions}
     return [labelled.node(n.id).label for n in fronts], [scores[n.id] for n in fronts]
 

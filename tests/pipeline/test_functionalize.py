@@ -66,7 +66,7 @@ def test_the_network_without_weights_says_so_in_one_line(
 def test_the_network_sees_points_and_no_annotation(asset: Asset, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = []
 
-    def complete(graph: FunctionalGraph, _: object, features: FeatureConfig) -> GraphCompletion:
+    def complete(graph: FunctionalGraph, _: object, features: FeatureConfig, named: set[str]) -> GraphCompletion:
         seen.append(graph)
         assert features == FeatureConfig(points=64)
         return replace(complete_by_rule(graph), source="network")

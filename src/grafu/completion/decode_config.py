@@ -2,6 +2,7 @@
 
 from typing import final
 
+from grafu.completion.misnamed_fronts import MisnamedConfig
 from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.visible import ShortRepr
@@ -190,7 +191,6 @@ class DecodeConfig:
 
     grasp: float = 0.08
     """A door or drawer farther than this from a handle is not its: a bar stands off by the length of its posts."""
-
     at_side: float = 0.25
     """What lies behind a door is inside the body where the middle of the door is at least this far from that of all
     supports, along its thin axis (fraction of their size along it); leaves of buildings have two faces."""
@@ -205,7 +205,6 @@ class DecodeConfig:
 
     slides: float = 0.5
     """A door slides in its own plane from this probability of a slide on, if that of a hinge is lower."""
-
     other_motion: float = 0.5
     """What is neither door, drawer nor handle slides or turns from this probability of such an edge on."""
 
@@ -219,8 +218,8 @@ class DecodeConfig:
     """How far within a drawer's box a carrier may lie and still be on its flank (fraction of the drawer's width)."""
 
     outward: float = 0.5
-    """Power of a rule's score of where the front of a door or drawer is, in the choice of its direction of opening;
-    the reported scores stay the network's. 0 leaves it out."""
+    """Power of a rule's score of where the front is, in the choice of the direction of opening; scores that are
+    reported stay the network's. 0 leaves it out."""
 
     stacked: float = 10.0
     """What multiplies the odds that unlabelled fronts are drawers, and no doors, where they are wider than high, of one
@@ -263,6 +262,9 @@ class DecodeConfig:
     no_parent: float = 0.8
     """A handle is decoration from this probability of no parent on, if no edge states otherwise."""
 
+    misnamed: MisnamedConfig = MisnamedConfig()
+    """Of doors that are called drawers, and the other way round."""
+
     some_parent: float = 0.05
     """The chance of being a handle's parent that remains to each door and drawer, where no edge states it."""
 
@@ -275,9 +277,7 @@ class DecodeConfig:
 
     mirror: bool = True
     """Whether the last result is the mean of two passes, on the graph and on its mirror image across X. It costs one
-    pass, and 160 synthetic models (seed 990001) gained 0.018 of hinge F1 with labels and 0.012 without, 0.006 of
-    joints.
-    """
+    pass; 160 synthetic models (seed 990001) gained 0.018 of hinge F1 with labels and 0.012 without, 0.006 of joints."""
 
     def __post_init__(self) -> None:
         ratios = (

@@ -8,8 +8,11 @@ Labels of unlabelled parts: the network's category, weighed by whether anything 
 it is one of a row of fronts, which agree, or of a column of wide ones, which are rather drawers. A panel on which a
 smaller front with a handle lies is no front, nor is a rod or a button; what touches handles alone is a piece of one.
 
-Labels that the input states are kept, whatever the network states.
+Labels that the input states are kept, whatever the network states, but for fronts that are called something else
+(`misnamed_fronts`).
 """
+
+from collections.abc import Collection
 
 import numpy as np
 
@@ -18,6 +21,7 @@ from grafu.completion.decode import complete_decoded, decode_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
 from grafu.completion.label_shapes import held_by_handles, with_held, without_cases, without_overlaid, without_slim
+from grafu.completion.misnamed_fronts import corrected_fronts, has_named
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, regular_parts, with_parts
@@ -163,12 +167,17 @@ _ADDING = 0.6  # of the time: adding what is missing
 
 
 def complete_by_network(
-    graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig, config: DecodeConfig = DecodeConfig()
+    graph: FunctionalGraph,
+    network: GraphNetwork,
+    features: FeatureConfig,
+    config: DecodeConfig = DecodeConfig(),
+    named: Collection[str] = (),
 ) -> GraphCompletion:
     """Returns the graph with labels, handles, missing parts, and a motion or a refusal for each door and drawer.
 
     `features` states how many points the network takes. Nodes should have points; those without are sampled on their
-    boxes. Scores of decisions are the network's probabilities, renormalised over what could be chosen.
+    boxes. Scores of decisions are the network's probabilities, renormalised over what could be chosen. `named` are the
+    parts whose labels rest on their names alone: of these the network corrects doors and drawers.
 
     Raises:
         TooComplex: if there are more pairs of parts than the budget in force allows.
@@ -177,12 +186,13 @@ def complete_by_network(
         return GraphCompletion(graph, graph, "network")
     require_room(len(graph.nodes) ** 2, _PAIR_BYTES, f"the network's forward pass over {len(graph.nodes):,} parts")
     adding = present_budget().fraction(_ADDING)
-    seen, labelling = label_parts(graph, network, features, config)
+    seen, labelling, known = label_parts(graph, network, features, config, named)
     added: list[NewPart] = []
     given = frozenset(node.id for node in graph.nodes)
     rounds, asked_rows = 0, False
     while True:
-        inputs, probabilities = forward(seen, network, features)
+        inputs, probabilities = known or forward(seen, network, features)
+        known = None
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
         decoded = decode_graph(seen, probabilities, given, parents, config)
         most = config.rounds + len(decoded.view.moving_bodies) // _BODIES_PER_ROUND
@@ -199,14 +209,25 @@ def complete_by_network(
 
 
 def label_parts(
-    graph: FunctionalGraph, network: GraphNetwork, features: FeatureConfig, config: DecodeConfig
-) -> tuple[FunctionalGraph, tuple[Decision, ...]]:
-    """Returns the graph with a label for each unlabelled part, and its confidence; one forward pass if there is one."""
-    if all(node.label is not PartLabel.UNKNOWN for node in graph.nodes):
-        return graph, ()
-    _, probabilities = forward(graph, network, features)
-    labels, decisions = choose_labels(graph, probabilities, config)
-    return relabelled(graph, labels), decisions
+    graph: FunctionalGraph,
+    network: GraphNetwork,
+    features: FeatureConfig,
+    config: DecodeConfig,
+    named: Collection[str] = (),
+) -> tuple[FunctionalGraph, tuple[Decision, ...], tuple[GraphFeatures, Probabilities] | None]:
+    """Returns the graph with a label for each unlabelled part and each misnamed front, and the confidence of each.
+
+    With it comes the forward pass on that graph, where there was one. `named` is as in `complete_by_network`.
+    """
+    if all(node.label is not PartLabel.UNKNOWN for node in graph.nodes) and not has_named(graph, named):
+        return graph, (), None
+    known = forward(graph, network, features)
+    corrections = corrected_fronts(graph, known[1], named, config.misnamed)
+    labels, decisions = choose_labels(graph, known[1], config)
+    if not labels and not corrections:
+        return graph, (), known
+    corrected = {decision.part: PartLabel(decision.choice) for decision in corrections}
+    return relabelled(graph, labels | corrected), (*decisions, *corrections), None
 
 
 def forward(

@@ -115,8 +115,7 @@ def static_guesses(
     What the input has a handle on moves as it is predicted, unless no door or drawer has its shape.
     """
     graph = completion.completed
-    labelled = ((d, graph.node(d.part)) for d in completion.decisions if d.question == "label")
-    guesses = [(d, node) for d, node in labelled if node.label.is_movable]
+    guesses = [(d, graph.node(d.part)) for d in guessed_to_move(completion)]
     bounds = {part.id: _Bounds.of(part) for part in asset.parts} if guesses else {}
     for guess, node in guesses:
         taken, held = taken_for(guess), _is_held(node, completion)
@@ -128,6 +127,13 @@ def static_guesses(
             why := shape_against(node, asset, graph, held)
         ):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but {why}")
+
+
+def guessed_to_move(completion: GraphCompletion) -> tuple[Decision, ...]:
+    """Returns the decisions on the labels of doors and drawers that the input does not call either."""
+    graph, given = completion.completed, {n.id for n in completion.input.nodes if n.label.is_movable}
+    labelled = (decision for decision in completion.decisions if decision.question == "label")
+    return tuple(d for d in labelled if graph.node(d.part).label.is_movable and d.part not in given)
 
 
 def taken_for(guess: Decision) -> str:

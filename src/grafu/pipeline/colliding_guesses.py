@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterable, Iterator
 
-from grafu.completion.static_guesses import StaticGuessConfig, taken_for
+from grafu.completion.static_guesses import StaticGuessConfig, guessed_to_move, taken_for
 from grafu.graph.completion import GraphCompletion
 from grafu.joints.report import Installed
 from grafu.refusal import Reason, Refusal
@@ -22,7 +22,7 @@ def colliding_guesses(
     """
     handles = {node.id for node in completion.input.nodes if node.label is PartLabel.HANDLE}
     held = {edge.parent for edge in completion.completed.attachments if edge.child in handles}
-    guesses = {decision.part: decision for decision in completion.decisions if decision.question == "label"}
+    guesses = {decision.part: decision for decision in guessed_to_move(completion)}
     for done in installed:
         guess = guesses.get(done.moving)
         if guess is None or done.moving in held or done.moving in settled:

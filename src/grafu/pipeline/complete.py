@@ -61,7 +61,8 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
-    drawn = with_thick_doors(complete_by_network(seen, network, network.features), asset)
+    named = {part.id for part in asset.parts if part.labelled_by in ("name", "shape")}
+    drawn = with_thick_doors(complete_by_network(seen, network, network.features, named=named), asset)
     predicted = with_lone_fronts(drawn, asset)
     moved = _shaped(with_oven_doors(with_fixed_shelves(predicted, asset)), asset)
     found = with_static_guesses(moved, asset)

@@ -117,8 +117,7 @@ def _moved(part: Part, choice: MotionChoice | None, labels: Mapping[str, PartLab
     label = label_of_motion(part, choice, drawers)
     if labels.get(part.id, label) is not label:
         raise OptionError(f"`{part.id}` {choice.moves} and so is a {label}: its category must not be {part.label}")
-    by = part.labelled_by if part.label is label else "user"
-    return replace(part, label=label, labelled_by=by, carried_by=None)
+    return replace(part, label=label, labelled_by="user", carried_by=None)
 
 
 def with_motions(completion: GraphCompletion, motions: Motions, asset: Asset) -> GraphCompletion:
