@@ -27,6 +27,7 @@ from grafu.geometry.transform import from_rotation, rotation_matrix
 
 _USUAL_FRONT = {"+Y": "+Z", "-Y": "+Z", "+Z": "-Y", "-Z": "-Y", "+X": "+Z", "-X": "+Z"}
 
+_BY_HABIT = "assumed, as all sides look alike; --front changes it"
 _BY_HANDLES = "small parts stand out there alone, as handles do"
 
 _DATA_SETS = ("partnet-mobility", "hssd", "release")  # their models face one way
@@ -98,6 +99,11 @@ def turned_before(frame: Frame, T: Mat4) -> Frame:
     words = f"the piece stands askew by {degrees:.0f} degrees in its file: from most of its upright area"
     up, front, *rest = frame.assumed
     return replace(frame, input_to_output=frame.input_to_output @ T, assumed=(up, f"{front}; {words}", *rest))
+
+
+def front_is_assumed(frame: Frame) -> bool:
+    """Whether nothing showed which side is the front."""
+    return any(_BY_HABIT in words for words in frame.assumed)
 
 
 def whole_box(parts: tuple[Part, ...]) -> Box:
@@ -179,7 +185,7 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     reasons = {
         "geometry": f"doors, drawers, handles or the back panel face or open there{sure}",
         "convention": f"stated by {convention.origin}",
-        "habit": "assumed, as all sides look alike; --front changes it",
+        "habit": _BY_HABIT,
     }
     return _Choice(front, reasons[why])
 

@@ -14,6 +14,7 @@ from grafu.dataclass import dataclass
 from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.completion import GraphCompletion
+from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.joints.catches import with_catches
 from grafu.joints.folding import as_turning, folds_in
@@ -26,6 +27,7 @@ from grafu.pipeline.built_graph import as_built, with_joints, without_removed
 from grafu.pipeline.finishing import with_lifts_of, with_small_joints_of, with_stays_of
 from grafu.pipeline.grasps import with_grasp_frames
 from grafu.pipeline.joint_stages import JointStages
+from grafu.pipeline.likeliest_front import with_likeliest_front
 from grafu.pipeline.motion_choices import corrected, require_fronts, with_motions, with_mounts, with_moving
 from grafu.pipeline.motion_methods import MOTIONS, choose_source, method_of, require_attached
 from grafu.pipeline.motion_source import MotionSource
@@ -130,6 +132,9 @@ def functionalize(
     motions = as_turning(settings.motions, folds)
     asset, chosen = _with_source(asset, source, replace(settings, motions=motions), drawers, stages)
     motion = method_of(chosen, settings.weights)
+    if chosen is MotionSource.NETWORK:
+        asked = partial(_completed, motion.complete, config.parsing)
+        asset = stages.timed("complete", partial(with_likeliest_front, asset, asked))
     parse = partial(cache.value, "parse", parse_graph, asset)  # contacts only
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
     complete = partial(cache.value, f"complete by {chosen} of {settings.weights}", motion.complete, asset, graph)
@@ -163,6 +168,12 @@ def functionalize(
         stated,
         frozenset(motions),
     )
+
+
+def _completed(
+    complete: Callable[[Asset, FunctionalGraph], GraphCompletion], parsing: ParsingConfig, asset: Asset
+) -> GraphCompletion:
+    return complete(asset, parse_graph(asset, parsing))
 
 
 def _with_source(
