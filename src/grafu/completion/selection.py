@@ -149,7 +149,7 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene, agreed: Scal
     mounts, motions = _hinges(door, slots, view)
     motion = np.einsum("k,kbs->bs", mounts, motions)
     leaned = leaned_motion(door, motion, view.config.outward, scene)
-    border = chosen_of(BORDERS, motion.sum(axis=1), leaned.sum(axis=1) * agreed)
+    border = chosen_of(BORDERS, _stated(motion.sum(axis=1), door, view), leaned.sum(axis=1) * agreed)
     flap = _plain_flap(door, border.choice, scene)
     border = flap or border
     sign = chosen_of(SIGNS, motion[border.choice], leaned[border.choice])
@@ -162,6 +162,13 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene, agreed: Scal
         decision_of(door.id, "mount", mount, "" if on is None else BY_RULE),
     )
     return (edge,), decisions
+
+
+def _stated(borders: Scalars, door: PartNode, view: GraphView) -> Scalars:
+    """Returns what is stated of the network's borders: of a door on which the input shows no handle it is too sure."""
+    if any(edge.parent == door.id and edge.child in view.given for edge in view.graph.attachments):
+        return borders
+    return np.asarray(borders ** (1.0 / view.config.handleless))
 
 
 def _choose_slide(door: PartNode, slots: Indices, slid: Scalars, view: GraphView) -> MotionAnswer:
