@@ -46,6 +46,7 @@ from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
+from grafu.completion.drawers_above_doors import DrawerAboveConfig
 from grafu.completion.dropping_doors import DroppingDoorConfig
 from grafu.completion.fixed_shelves import FixedShelfConfig
 from grafu.completion.guessed_shapes import GuessedShapeConfig
@@ -246,7 +247,7 @@ CONFIGS = (
     MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
     RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
     ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StandingOutConfig, StaticGuessConfig,
-    ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DroppingDoorConfig, JoiningConfig,
+    ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DrawerAboveConfig, DroppingDoorConfig, JoiningConfig,
     TallDoorConfig, ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
     WayOutConfig,
 )  # fmt: skip

@@ -13,6 +13,7 @@ from grafu.articulation.collision_shapes import (
     collision_shapes,
     corners_of,
     extent_of,
+    shapes_of,
 )
 from grafu.articulation.convex_pieces import (
     ConvexPieceConfig,
@@ -327,3 +328,38 @@ def test_a_mesh_that_lacks_a_corner_of_its_box_has_a_hull():
     inside = points[_is_inside_hull(mesh, points, 0.004)]
     assert 0.1 * len(points) < len(inside) < 0.3 * len(points)
     assert (inside.sum(axis=1) < 1).all()
+
+
+def uneven_tray(step, off=0.0015):
+    """A drawer box of 0.4 x 0.4 x 0.15 m, open above, in small triangles whose vertices are off by up to `off`."""
+    tray = trimesh.creation.box((0.4, 0.4, 0.15)).difference(
+        trimesh.creation.box((0.36, 0.36, 0.15)).apply_translation((0.0, 0.0, 0.02)), engine="manifold"
+    )
+    tray = tray.subdivide_to_size(step)
+    tray.merge_vertices()
+    shift = np.random.default_rng(0).uniform(-off, off, tray.vertices.shape)
+    return TriangleMesh(np.asarray(tray.vertices) + shift, np.asarray(tray.faces))
+
+
+def test_a_drawer_of_many_faces_is_simplified_and_stays_open_above(monkeypatch):
+    seen = []
+    monkeypatch.setattr(
+        "grafu.articulation.collision_shapes.convex_pieces", lambda m, c: seen.append(m) or convex_pieces(m, c)
+    )
+    tray = uneven_tray(0.012)
+    visual = Visual("drawer", (Surface(tray),), VisualRole.PART, PartLabel.DRAWER)
+    shapes = shapes_of(visual)
+
+    assert len(tray.faces) > CollisionShapeConfig().many_faces
+    assert len(seen[0].faces) < 0.5 * len(tray.faces)
+    inside = np.array([[0.0, 0.0, z] for z in (0.0, 0.05)])
+    assert not any(Box.around(corners_of(shape)).contains(inside).any() for shape in shapes)
+
+
+def test_what_has_fewer_faces_keeps_them(monkeypatch):
+    seen = []
+    monkeypatch.setattr("grafu.articulation.collision_shapes.convex_pieces", lambda m, c: seen.append(m) or [m])
+    tray = uneven_tray(0.04)
+    shapes_of(Visual("drawer", (Surface(tray),), VisualRole.PART, PartLabel.DRAWER))
+
+    assert len(seen[0].faces) >= 0.95 * len(tray.faces)

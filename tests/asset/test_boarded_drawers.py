@@ -68,6 +68,32 @@ def test_boards_and_what_they_end_at_are_a_drawer_each(front, face: str) -> None
         assert drawer.box.size.tolist() == pytest.approx([0.56, 0.42 + (0.005 if front is SLAB else 0.0), 0.2])
 
 
+def _loose(name: str, thick: float = 0.01) -> Part:
+    return _part(name, (0.06, 0.0, LOW + 0.02), (0.54, 0.39, LOW + 0.02 + thick))
+
+
+@pytest.mark.parametrize("name", ["drawer_bottom", "fondo cassetto", "fond de tiroir", "trasera cajón", "Schubboden"])
+def test_a_board_of_a_drawer_that_is_joined_to_nothing_is_no_drawer(name: str) -> None:
+    boards = [_loose(name), _loose("drawer_back")]
+    kept = _joined([*CASE, *boards])
+
+    assert {kept[board.id].label for board in boards} == {PartLabel.UNKNOWN}
+
+
+@pytest.mark.parametrize(
+    "boards",
+    [
+        [_loose("drawer_bottom", 0.2), _loose("drawer_back", 0.2)],
+        [_loose("drawer_bottom"), _loose("drawer_back"), _part("drawer", (0.06, -0.02, LOW), (0.54, 0.4, LOW + 0.2))],
+    ],
+    ids=["a body", "beside its drawer"],
+)
+def test_what_is_no_mere_board_or_has_its_drawer_keeps_its_name(boards: list[Part]) -> None:
+    kept = _joined([*CASE, *boards])
+
+    assert {kept[board.id].label for board in boards} == {PartLabel.DRAWER}
+
+
 def test_the_back_of_the_piece_is_no_front() -> None:
     """The boards reach the rear board of the piece, and nothing closes them before."""
     low = _part("rear_board", (0.0, 0.45, 0.05), (0.6, 0.46, 0.35))

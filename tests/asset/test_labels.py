@@ -167,7 +167,10 @@ LANGUAGES = {
     PartLabel.TOP_PANEL: ["Tischplatte", "dessus", "encimera", "tampo", "台面", "天板"],
     PartLabel.BACK_PANEL: ["Rückwand", "panneau arrière", "schienale", "背板"],
     PartLabel.SIDE_PANEL: ["Seitenwand", "fianco destro", "侧板"],
-    PartLabel.MISC: ["Scharnier", "charnière de porte", "bisagra", "cerniera", "dobradiça", "滑轨", "蝶番"],
+    PartLabel.MISC: [
+        *("Scharnier", "charnière de porte", "bisagra", "cerniera", "dobradiça", "滑轨", "蝶番"),
+        *("Bodenträger_2", "portaestante", "reggipiano", "shelf pin", "dowel 8x35", "confirmat 7x50", "cam lock 15"),
+    ],
 }
 
 

@@ -95,6 +95,36 @@ def test_a_board_moves_with_one_part_only():
     assert {request.moving: set(request.attached) for request in made} == {"front": ITS_BOX, "other": {"pull"}}
 
 
+def fitted(wall: float) -> list[Part]:
+    """What a cabinet-maker draws of one drawer: a board behind its front, a screw through both, and rails at one side.
+
+    The outer profile of the rails lies on the wall of the case where `wall` is 0, else so far from it (metres).
+    """
+    return [
+        nameless("sub_front", (-0.188, -0.005, 0.05), (0.188, 0.007, 0.2)),
+        nameless("screw", (0.1, -0.016, 0.1), (0.104, 0.01, 0.104)),
+        nameless("outer", (-0.22 + wall, 0.0, 0.06), (-0.216 + wall, 0.5, 0.1)),
+        nameless("inner", (-0.212, 0.0, 0.07), (-0.208, 0.5, 0.09)),
+    ]
+
+
+def test_a_board_behind_the_front_and_the_screws_in_it_go_with_the_drawer():
+    (request,) = requested(FRONT, *case(), *boards(width=0.416), *fitted(0.0))
+    assert set(request.attached) == {*ITS_BOX, "sub_front", "screw", "inner"}
+
+
+def test_the_profile_of_a_rail_that_lies_on_no_wall_goes_with_the_drawer():
+    (request,) = requested(FRONT, *case(), *boards(width=0.416), *fitted(0.0035))
+    assert "outer" in request.attached
+
+
+def test_a_shelf_that_begins_in_the_front_stays():
+    shelf = nameless("shelf", (-0.2, -0.01, 0.22), (0.2, 0.56, 0.235))
+    long = nameless("long", (0.1, -0.016, 0.1), (0.104, 0.6, 0.104))
+    (request,) = requested(FRONT, *case(), *boards(high=0.2), shelf, long)
+    assert set(request.attached) == ITS_BOX
+
+
 LOOK_ALIKES = {
     "the case alone": (FRONT, case(), False),
     "a case that is open above": (FRONT, [part for part in case() if part.id != "above"], False),

@@ -26,6 +26,7 @@ from grafu.scene.scene import Scene
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Door
 from grafu.synth.noise import edits
+from grafu.vocabulary import PartLabel
 from judging import installed, made_kind, realized, realized_kind, solid, swept_collisions
 from small_scenes import DOOR, SIDE, box, drawer, hinged, scene, sliding
 
@@ -148,6 +149,28 @@ def test_what_lies_enclosed_in_a_drawer_moves_with_it():
     result = realized(replace(asset, parts=(*parts, runner)))
     assert [(c.part, c.kind) for c in installed(result)["drawer"].clearances] == [("runner", "joined")]
     assert "runner" in {v.name for v in result.object.link("drawer").visuals}
+
+
+def labelled(part, label=PartLabel.MISC):
+    return replace(part, label=label)
+
+
+@pytest.mark.parametrize(
+    ("change", "ride"),
+    [
+        (lambda part: part, True),
+        (lambda part: replace(part, label=PartLabel.SHELF), False),
+        (lambda part: replace(part, surfaces=box("", (0.001, -0.008, 0.08), (0.05, 0.05, 0.3)).surfaces), False),
+        (lambda part: replace(part, surfaces=box("", (0.2, -0.008, 0.08), (0.249, 0.05, 0.13)).surfaces), False),
+    ],
+    ids=["a fitting", "a shelf", "a long strip", "far from the pin"],
+)
+def test_a_fitting_at_its_hinge_that_a_door_is_sunk_into_moves_with_it(change, ride):
+    hinge = change(labelled(box("hinge", (0.001, -0.008, 0.08), (0.05, 0.05, 0.13))))
+    result = realized(scene(DOOR, SIDE, hinge, joints=(hinged(),)))
+
+    assert ("hinge" in {v.name for v in result.object.link("door").visuals}) is ride
+    assert (("hinge", "joined") in {(c.part, c.kind) for c in installed(result)["door"].clearances}) is ride
 
 
 @pytest.mark.parametrize(("sides_from", "is_trimmed"), [(-0.188, True), (-0.2, False)], ids=["hidden", "seen"])

@@ -70,6 +70,23 @@ def test_a_door_turns_about_the_border_that_has_its_hinges():
     assert after.mounts == ()
 
 
+def dowels(z):
+    """What joins the bottom to both sides, on one level line behind the door's lower border."""
+    return [cylinder(f"dowel_{x}", ((x - 0.015, 0.03, z), (x + 0.015, 0.03, z)), radius=0.004) for x in (0.0, 0.4)]
+
+
+def test_dowels_that_join_boards_are_no_hinges():
+    before, after = told(LEAF, *CASE, *dowels(-0.01))
+
+    assert after is before
+
+
+def test_barrels_on_the_same_line_outside_the_boards_are():
+    _, after = told(LEAF, *CASE, *dowels(-0.024))
+
+    assert np.allclose(np.abs(after.axis.direction), (1, 0, 0))
+
+
 @pytest.mark.parametrize("bore", [True, False])
 def test_the_barrel_of_a_hinge_may_be_one_shell_with_its_leaf(bore):
     _, after = told(LEAF, *CASE, leaved(0.404, -0.022, 0.08, bore), leaved(0.404, -0.022, 0.46, bore))

@@ -90,7 +90,7 @@ REASONS = {
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_arms.py": {"_UP": NUMBERING},
-    "drawn_hinges.py": {"_POINT": TOLERANCE, "_CORNERS": NUMBERING},
+    "drawn_hinges.py": {"_ALONG": EFFORT, "_POINT": TOLERANCE, "_CORNERS": NUMBERING},
     "drop_leaves.py": {"_UP": NUMBERING},
     "drop_supports.py": {"_UP": NUMBERING, "_QUARTER": GEOMETRY},
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},

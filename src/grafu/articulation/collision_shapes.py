@@ -25,6 +25,7 @@ from grafu.geometry.box import Box, OrientedBox, yaw_of
 from grafu.geometry.components import clustered
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.simplify import simplified
 from grafu.geometry.solids import ConvexSolid, few_corners
 from grafu.geometry.transform import rotation_matrix
 from grafu.vocabulary import PartLabel
@@ -52,6 +53,10 @@ class CollisionShapeConfig:
     """Gaps in handles are kept down to this depth, so that a finger fits."""
     resolution: float = 0.001
     """What is finer is left out of dense meshes."""
+    many_faces: int = 5_000
+    """A watertight mesh of more faces than this, of a scan or a generated surface, is simplified ..."""
+    coarse: float = 0.002
+    """... by leaving out what is finer than this, about as much as such surfaces are uneven (metres)."""
     within: float = 0.003
     """A shape that sticks out of another by no more adds nothing; hardware as near as this is carried."""
     on_floor: float = 0.005
@@ -79,6 +84,8 @@ def shapes_of(visual: Visual, config: CollisionShapeConfig = DEFAULT_COLLISION_C
     mesh = visual.mesh
     if not len(mesh.faces) or not _collides(visual):
         return []
+    if len(mesh.faces) > config.many_faces:
+        mesh = simplified(mesh, config.coarse)
     if len(mesh.faces) > _DENSE:
         mesh = clustered(mesh, config.resolution)
     R = _yaw_rotation(mesh.vertices)

@@ -10,7 +10,6 @@ from functools import cached_property
 from itertools import islice
 from typing import Any, final
 
-import manifold3d
 import numpy as np
 
 from grafu.articulation.board_holes import BoardHole, holes_through, is_board
@@ -19,11 +18,12 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
-from grafu.geometry.components import tidy_parts, welded
+from grafu.geometry.components import tidy_parts
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.halves import halves_of
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.simplify import mesh_of, solid_of
 from grafu.geometry.solids import ConvexSolid, few_corners
 from grafu.shapes import Bool
 
@@ -148,7 +148,7 @@ class _Piece:
         """Returns the connected parts, each as a solid where it bounds one."""
         if self.solid is not None:
             return [self._of_solid(part) for part in self.solid.decompose()]
-        parts = ((part, _solid(part) if closed else None) for part, closed in tidy_parts(self.mesh))
+        parts = ((part, solid_of(part) if closed else None) for part, closed in tidy_parts(self.mesh))
         return [
             _Piece(part, self.config, known=self.passed_on) if solid is None else self._of_solid(solid)
             for part, solid in parts
@@ -167,19 +167,7 @@ class _Piece:
         return _Piece(beyond, self.config, known=known), _Piece(rest, self.config, known=known)
 
     def _of_solid(self, solid: Any) -> "_Piece":
-        made = solid.to_mesh()
-        vertices = np.asarray(made.vert_properties, dtype=np.float64)[:, :3].reshape(-1, 3)
-        faces = np.asarray(made.tri_verts, dtype=np.int64).reshape(-1, 3)
-        return _Piece(TriangleMesh(vertices, faces), self.config, solid, self.passed_on)
-
-
-def _solid(mesh: TriangleMesh) -> Any:
-    """Returns a watertight mesh, turned one way, as a solid; None where manifold3d sees none."""
-    position = welded(mesh.vertices)
-    first = np.unique(position, return_index=True)[1]
-    made = manifold3d.Mesh(mesh.vertices[first].astype(np.float32), position[mesh.faces].astype(np.uint32))
-    solid = manifold3d.Manifold(made)
-    return solid if solid.status() == manifold3d.Error.NoError and solid.volume() > 0 else None
+        return _Piece(mesh_of(solid), self.config, solid, self.passed_on)
 
 
 def _taken_apart(whole: _Piece) -> list[_Piece]:

@@ -19,7 +19,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.vocabulary import PartLabel
 
-_BOARDS = frozenset({"side", "back", "bottom"})
+_BOARDS = frozenset({"side", "back", "bottom", "base", "floor"})
 _FRONTS = frozenset({"front", "face"})
 
 
@@ -38,12 +38,14 @@ class BoardedDrawerConfig:
     """How far a band or a moulding stands out of the front (fraction of the diagonal of all)."""
     thin: float = 0.4
     """Greatest thickness of a front (fraction of its shorter other side)."""
+    board: float = 0.2
+    """Greatest thickness of a board that is no drawer by itself (fraction of its shorter other side)."""
     most: float = 4.0
     """Greatest outline of a front (fraction of the outline of its box): what is larger is a wall of the piece."""
 
     def __post_init__(self) -> None:
         require_positive(self, "most")
-        require_ratios(self, "touch", "beside", "thin")
+        require_ratios(self, "touch", "beside", "thin", "board")
 
 
 @final
@@ -62,7 +64,8 @@ def with_boarded_drawers(
     """Returns the parts in which the boards of a drawer and the plates that they end at are one, and notes on that.
 
     A box that touches what is called a drawer or a front has its front by name, and stays. So does one that ends at
-    plates on two sides, and one that shares a plate with another.
+    plates on two sides, and one that shares a plate with another. A thin board that is joined to nothing, with no
+    drawer beside it, is no drawer by itself: its shape tells what it is.
 
     Args:
         parts: labelled parts in any one frame.
@@ -88,7 +91,9 @@ def with_boarded_drawers(
         pieces = [*front.plates, *_on_front(front, free, touch, config.beside * whole.diagonal)]
         members[face.id] = [p for p in (*pieces, *box) if p is not face]
     joined = {piece.id: host for host, pieces in members.items() for piece in pieces}
+    loose = {p.id for p in boards if p.id not in joined and _is_loose(p, parts, boards, touch, config)}
     kept = tuple(_joined(p, members, joined) for p in parts if p.id not in joined)
+    kept = tuple(replace(p, label=PartLabel.UNKNOWN, labelled_by="none") if p.id in loose else p for p in kept)
     return kept, [
         f"{in_words(pieces)} joined to {host}, the front that they end at" for host, pieces in members.items()
     ]
@@ -97,6 +102,17 @@ def with_boarded_drawers(
 def _is_board(part: Part) -> bool:
     said = set(spoken(part.source.name))
     return is_piece(part.source.name) and bool(said & _BOARDS) and not said & _FRONTS
+
+
+def _is_loose(
+    board: Part, parts: Sequence[Part], boards: Sequence[Part], touch: float, config: BoardedDrawerConfig
+) -> bool:
+    """Whether a board of a drawer is no drawer by itself: it is thin, and no drawer's front or body is beside it."""
+    thin, other = np.sort(board.box.size)[:2]
+    if float(thin) > config.board * float(other):
+        return False
+    drawers = (p for p in parts if p.label is PartLabel.DRAWER and not any(p is one for one in boards))
+    return not any(p.box.overlaps(board.box, touch) for p in drawers)
 
 
 def _joined(part: Part, members: dict[str, list[Part]], joined: dict[str, str]) -> Part:

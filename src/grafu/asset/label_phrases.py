@@ -15,6 +15,7 @@ TABLE: Final[tuple[tuple[PartLabel, str], ...]] = (
     (PartLabel.DOOR, "door, door leaf, cabinetdoor, flap, lid, shutter, hatch, tambour"),
     (PartLabel.HANDLE, "handle, doorhandle, knob, nob, doorknob, grip, handgrip, pull, grasp"),
     (PartLabel.MISC, "tabletop connector, drawer rail, drawer slider, drawer slide, drawer runner, hinge, lock"),
+    (PartLabel.MISC, "dowel, confirmat, cam lock, shelf pin, shelf peg, shelf support, shelf bracket, mounting plate"),
     (PartLabel.MISC, "keyhole, screw, nail, bolt, wheel, caster, castor, button, switch, lever, dial, faucet, tap"),
     (
         PartLabel.MISC,

@@ -32,6 +32,7 @@ GERMAN: Final = """
     bottom panel: unterboden bodenplatte
     back panel: ruckwand rueckwand
     side panel: seitenwand seitenteil seitenplatte wange
+    shelf support: bodentrager regalbodentrager
     shelf: einlegeboden fachboden regalboden ablage ablageboden
     divider: trennwand mittelwand zwischenwand mittelseite
     leg: bein beine tischbein fuss fuesse fusse stellfuss
@@ -84,7 +85,7 @@ FRENCH: Final = """
     stile: montant montants
     toe kick: socle plinthe
     panel: panneau panneaux
-    side: cote cotes
+    side: cote cotes joue joues; base: fond
     frame: cadre
     bar: barre barres
     cabinet: armoire meuble placard commode buffet
@@ -119,7 +120,8 @@ SPANISH: Final = """
     rail: riel rieles corredera correderas guia
     toe kick: zocalo
     board: tablero tabla; panel: tapa tapas
-    side: costado
+    side: costado; base: fondo
+    bracket: portaestante portaestantes
     frame: marco
     bar: barra barras travesano
     cabinet: armario armarios mueble gabinete comoda aparador
@@ -176,6 +178,8 @@ ITALIAN: Final = """
     right: destra destro dx; upper: alto alta superiore; lower: basso bassa inferiore
     middle: centrale; front: anteriore; back: posteriore retro; lateral: laterale
     of: di della dello degli dei per
+    side: sponda sponde
+    bracket: reggipiano reggipiani
 """
 
 PORTUGUESE: Final = """

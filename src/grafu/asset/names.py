@@ -87,7 +87,7 @@ _RANKS: Final[dict[str, int]] = {
     **dict.fromkeys(("panel", "board", "wall", "plate", "kick"), 4),
     **dict.fromkeys(("rail", "hinge", "screw", "wheel", "lock"), 5),
     **dict.fromkeys(("handle", "knob"), 6),
-    **dict.fromkeys(("shelf", "divider", "leg", "tabletop", "stile", "mirror", "front", "side", "back"), 3),
+    **dict.fromkeys(("shelf", "divider", "leg", "tabletop", "stile", "mirror", "front", "side", "back", "base"), 3),
 }
 _HEAD_LAST = table(GERMAN)
 _ROMANCE = table(*ROMANCE)

@@ -1,5 +1,6 @@
 """What is only guessed to be a door, and is too thick for one, is a drawer where it reaches back as one does."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final, final
 
@@ -52,7 +53,7 @@ def with_thick_doors(
         and _reaches_back(hinge.child, graph, config)
         and is_thick(asset.part(hinge.child).mesh)
     ]
-    return _as_drawers(completion, doors) if doors else completion
+    return as_drawers(completion, doors) if doors else completion
 
 
 def _reaches_back(door: str, graph: FunctionalGraph, config: ThickDoorConfig) -> bool:
@@ -61,7 +62,8 @@ def _reaches_back(door: str, graph: FunctionalGraph, config: ThickDoorConfig) ->
     return bool(is_in_front and box.size[_DEPTH] >= config.deep * depth)
 
 
-def _as_drawers(completion: GraphCompletion, doors: list[Hinge]) -> GraphCompletion:
+def as_drawers(completion: GraphCompletion, doors: Sequence[Hinge]) -> GraphCompletion:
+    """Returns the completion in which doors are drawers that slide out to the front."""
     rails = [Rail(hinge.parent, hinge.child, _FRONT) for hinge in doors]
     drawers = {rail.child for rail in rails}
     graph = relabelled(completion.completed, dict.fromkeys(drawers, PartLabel.DRAWER))

@@ -56,6 +56,8 @@ class BoxBehindConfig:
     """How far beside the box a wall of the case stands at most (metres)."""
     along: float = 0.5
     """Along how much of its depth such walls stand at least (fraction)."""
+    wall: float = 0.5
+    """Boards of a box that are this high are its walls (fraction of the highest one's)."""
     deep: float = 0.4
     """Least depth of the box (fraction of the depth of the whole)."""
     wide: float = 0.6
@@ -76,7 +78,7 @@ class BoxBehindConfig:
     def __post_init__(self) -> None:
         require_positive(self, "clear", "reach", "slack", "beside")
         require_ratios(
-            self, "plate", "out", "along", "deep", "wide", "tall", "open", "floor", "walls", "front", "middle"
+            self, "plate", "out", "along", "deep", "wide", "tall", "open", "floor", "walls", "wall", "front", "middle"
         )
 
 
@@ -129,13 +131,30 @@ def _box_of(
     boards = [box for box in starts if box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]]
     if not boards or not _fills(hull := Box.enclosing(boards), front, config):
         return ()
-    around = hull.grown(config.slack)
-    held = tuple(name for name, box in within.items() if around.contains(box.corners()).all())
+    around = Box(np.minimum(hull.low, (np.inf, front.low[_DEPTH], np.inf)), hull.high).grown(config.slack)
+    through = {name: box for name, box in others.items() if is_within_outline(box, front, config.clear)}  # screws, too
+    inside = {name: box for name, box in through.items() if around.contains(box.corners()).all()}
+    on_case = _on_case(inside, [box for name, box in others.items() if name not in inside], boards, config)
+    held = tuple(name for name in inside if name not in on_case)
     mesh = merge_meshes([asset.part(name).mesh for name in held])
     walls = [asset.part(name) for name in others if name not in held]
     is_box = _is_box(mesh, config) and _stands_between(mesh.box, walls, config)
     has_front = is_box and request.kind.turns and _front_ratio(mesh, config) > config.front
     return held if is_box and not has_front else ()
+
+
+def _on_case(
+    inside: Mapping[str, Box], around: Sequence[Box], boards: Sequence[Box], config: BoxBehindConfig
+) -> set[str]:
+    """Returns the parts beside the walls of a box that lie on the case and not on it: the outer profiles of rails."""
+    height = config.wall * max(box.size[_UP] for box in boards)
+    walls = Box.enclosing(box for box in boards if box.size[_UP] >= height)
+    found = set[str]()
+    for name, box in inside.items():
+        beside = max(walls.low[_WIDTH] - box.high[_WIDTH], box.low[_WIDTH] - walls.high[_WIDTH])
+        if beside > config.slack and any(other.gap(box) <= config.slack for other in around):
+            found.add(name)
+    return found
 
 
 def _is_loose(name: str, asset: Asset, made: Mapping[str, JointRequest]) -> bool:

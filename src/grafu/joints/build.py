@@ -107,7 +107,7 @@ def _on_drawn_hinges(search: DoorSearch) -> _Found | None:
     path, config = _path(search.request, search.scene, pin.axis, search.wanted), search.config
     if obstruction(search.scene, path, config, pin.parts).ratio > config.hinge.drawn.blocked:
         return None
-    cleared = make_clearance(search.scene, path, config)
+    cleared = make_clearance(search.scene, path, config, pin.parts)
     placement = door_on_drawn_hinges(pin.axis, door_search(search.request, cleared.scene, config))
     return (placement, cleared.scene, cleared.clearances) if placement else None
 

@@ -15,13 +15,16 @@ class ClearanceConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("beside", "lapped")
+    LENGTHS = ("beside", "lapped", "fitting")
     play: float = 2.5
     """Distance to what a path is freed from (in tolerated penetrations)."""
     touching: float = 0.9
     """What is nearer than this touches, where what touches is pressed back as well (fraction of `play`)."""
     enclosed: float = 2.0
     """How far what lies enclosed in a moving part may stand out of it (in tolerated penetrations)."""
+    fitting: float = 0.09
+    """A part of no category that a door is drawn sunk into is a fitting of its hinge where all of it is no farther from
+    the pin than this, and no side longer than twice this (metres)."""
     beside: float = 0.001
     """Static parts whose boxes are nearer to a drawer's than this are walls that it may touch (metres)."""
     shells: int = 64
@@ -49,5 +52,5 @@ class ClearanceConfig:
     """... and their edges lie beside each other along this much of the shorter one (fraction)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "play", "enclosed", "beside", "shells", "sides", "lapped", "seam")
+        require_positive(self, "play", "enclosed", "beside", "shells", "sides", "lapped", "seam", "fitting")
         require_ratios(self, "touching", "frame", "sliver", "slivers", "inside", "through", "parallel", "meeting")

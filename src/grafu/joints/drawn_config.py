@@ -15,7 +15,7 @@ class DrawnConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("reach", "line", "bearing", "radii")
+    LENGTHS = ("reach", "line", "bearing", "radii", "board", "flush")
     reach: float = 0.06
     """How far from the border a barrel lies at most (metres)."""
     line: float = 0.0015
@@ -28,6 +28,10 @@ class DrawnConfig:
     """How far from the end of such a rod what holds it may be (metres)."""
     radii: tuple[float, float] = (0.0015, 0.02)
     """Smallest and largest radius of a barrel (metres)."""
+    board: float = 0.05
+    """A board is at most so thick: a barrel that lies in static boards all along is a dowel, no hinge (metres)."""
+    flush: float = 0.0005
+    """How far such a dowel may stand out of its boards (metres)."""
     round: float = 0.9
     """Fraction of a barrel's vertices on its rim or in a cap's middle, and of its radius at which the rim begins."""
     corners: int = 12

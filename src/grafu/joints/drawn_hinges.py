@@ -10,7 +10,7 @@ from typing import TypeAlias, final
 
 import numpy as np
 
-from grafu.asset.part import Asset
+from grafu.asset.part import Asset, Part
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, median, vec3
 from grafu.geometry.axis import Axis
@@ -30,19 +30,21 @@ from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 _Shells: TypeAlias = Callable[[str], Sequence[TriangleMesh]]
+_ALONG = 9  # points of a pin, from end to end, that are looked for in boards
 _POINT = 1e-4  # metres: half the side of the cube that stands for the end of a rod
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """The barrel of a drawn hinge, or a rod, of a part: its pin at (x, y) of a border frame, from `low` to `high`."""
+    """The barrel of a drawn hinge, or a rod, of a part: its pin at (x, y) of a border frame (metres)."""
 
     part: str
     x: float
     y: float
     low: float
     high: float
+    radius: float
 
     @property
     def length(self) -> float:
@@ -191,8 +193,22 @@ def _barrels(frame: BorderFrame, moving: str, model: _Model) -> Iterator[Barrel]
     for part in (near[k] for k in np.flatnonzero(meets)):
         if len(part.mesh.faces) > model.config.carved_faces:
             continue
+        is_static = part.id not in scene.moving_ids
         for shell in model.shells(part.id):
-            yield from _as_barrel(shell, part.id, frame, model.drawn)
+            found = _as_barrel(shell, part.id, frame, model.drawn)
+            yield from (barrel for barrel in found if not (is_static and _is_buried(barrel, frame, near, model)))
+
+
+def _is_buried(barrel: Barrel, frame: BorderFrame, near: Sequence[Part], model: _Model) -> bool:
+    """Whether a round part lies in static boards all along: it joins them, as dowels, cams and screws do."""
+    ends = frame.to_object(np.array([[barrel.x, barrel.y, z] for z in (barrel.low, barrel.high)]))
+    direction = (ends[1] - ends[0]) / barrel.length
+    beside = barrel.radius * np.sqrt(np.maximum(1.0 - direction**2, 0.0)) - model.drawn.flush
+    points = ends[0] + np.linspace(0.0, 1.0, _ALONG)[:, None] * (ends[1] - ends[0])
+    fixed = (p.box for p in near if p.id != barrel.part and p.id not in model.scene.moving_ids)
+    boards = [box for box in fixed if box.size.min() <= model.drawn.board]
+    inside = [(points >= b.low + beside).all(axis=1) & (points <= b.high - beside).all(axis=1) for b in boards]
+    return bool(np.any(inside, axis=0).all()) if inside else False
 
 
 _CORNERS = np.array([[bool(k & 1 << axis) for axis in range(3)] for k in range(8)])
@@ -235,7 +251,7 @@ def _as_barrel(shell: TriangleMesh, part: str, frame: BorderFrame, config: Drawn
             side * (local[:, along] - middle[along]) >= 0
         ]  # all of a cylinder, the half at a leaf's end
         if _lies_on_rim(outer - middle, radius, config):
-            yield Barrel(part, float(middle[0]), float(middle[1]), float(box.low[2]), float(box.high[2]))
+            yield Barrel(part, float(middle[0]), float(middle[1]), float(box.low[2]), float(box.high[2]), radius)
 
 
 def _lies_on_rim(points: Float[np.ndarray, "n 2"], radius: float, config: DrawnConfig) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grafu.asset.part import Asset
+from grafu.completion.drawers_above_doors import with_drawers_above_doors
 from grafu.completion.dropping_doors import with_dropping_doors
 from grafu.completion.fixed_shelves import with_fixed_shelves
 from grafu.completion.handle_sides import with_handle_sides
@@ -48,9 +49,10 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
     left or right side (`with_round_doors`), and so do high ones (`with_tall_doors`); those of ovens hang on their lower
     border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`). What is only
-    guessed to be a door, and is too thick, is a drawer (`with_thick_doors`), what is only guessed to be a drawer, and
-    can be none, a door (`with_lone_fronts`), as below a panel with knobs (`with_oven_doors`); what is only guessed to
-    be a door or drawer stays static where it cannot be one (`with_static_guesses`). A shelf that is a board is fixed
+    guessed to be a door, and is too thick, is a drawer (`with_thick_doors`), and so is what is low and wide above a
+    door (`with_drawers_above_doors`); what is only guessed to be a drawer, and can be none, is a door
+    (`with_lone_fronts`), as below a panel with knobs (`with_oven_doors`); what is only guessed to be a door or drawer
+    stays static where it cannot be one (`with_static_guesses`). A shelf that is a board is fixed
     (`with_fixed_shelves`).
 
     Raises:
@@ -63,7 +65,7 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     seen = without_names(replace(graph, nodes=pointed), hidden)
     named = {part.id for part in asset.parts if part.labelled_by in ("name", "shape")}
     drawn = with_thick_doors(complete_by_network(seen, network, network.features, named=named), asset)
-    predicted = with_lone_fronts(drawn, asset)
+    predicted = with_lone_fronts(with_drawers_above_doors(drawn, asset), asset)
     moved = _shaped(with_oven_doors(with_fixed_shelves(predicted, asset)), asset)
     found = with_static_guesses(moved, asset)
     names = {node.id: node.source_name for node in graph.nodes}

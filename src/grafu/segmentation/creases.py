@@ -201,12 +201,20 @@ def _part(
     across = mesh.vertices[mesh.faces[members]] @ np.stack([np.cross((0.0, 0.0, 1.0), towards), (0.0, 0.0, 1.0)]).T
     low, high = across.min(axis=1), across.max(axis=1)
     near = config.near * float(mesh.box.size.max())
-    own = facet[members]
-    for one in np.unique(own[ahead[members]]).tolist():
-        inside = own == one
-        left, right = low[inside].min(axis=0) - near, high[inside].max(axis=0) + near
-        behind = (low >= left).all(axis=1) & (high <= right).all(axis=1) & ~ahead[members]
-        number[members[inside | behind]] = len(mesh.faces) + one
+    is_ahead = ahead[members]
+    own = facet[members[is_ahead]]
+    number[members[is_ahead]] = len(mesh.faces) + own
+    order = np.argsort(own, kind="stable")
+    facets, begin = np.unique(own[order], return_index=True)
+    left = np.minimum.reduceat(low[is_ahead][order], begin, axis=0) - near
+    right = np.maximum.reduceat(high[is_ahead][order], begin, axis=0) + near
+    behind = np.flatnonzero(~is_ahead)
+    behind = behind[np.argsort(low[behind, 0], kind="stable")]  # so that what may lie in an outline is found at once
+    low, high = low[behind], high[behind]
+    starts, ends = np.searchsorted(low[:, 0], left[:, 0], "left"), np.searchsorted(low[:, 0], right[:, 0], "right")
+    for k, (one, start, end) in enumerate(zip(facets.tolist(), starts.tolist(), ends.tolist(), strict=True)):
+        inside = (low[start:end, 1] >= left[k, 1]) & (high[start:end] <= right[k]).all(axis=1)
+        number[members[behind[start:end][inside]]] = len(mesh.faces) + one
 
 
 def _edges(mesh: TriangleMesh, config: CreaseConfig) -> tuple[Edges, Edges, MaskOfEdges]:

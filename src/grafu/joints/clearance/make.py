@@ -1,7 +1,8 @@
 """Makes a path free, step by step, only as far as needed.
 
-What lies enclosed in the moving part moves with it; the moving part is trimmed; a static part that fits without
-clearance is shrunk; a static part that intrudes into the path is carved. A step stays only if it helps.
+What lies enclosed in the moving part, or is a fitting of its hinge, moves with it; the moving part is trimmed; a static
+part that fits without clearance is shrunk; a static part that intrudes into the path is carved. A step stays only if it
+helps.
 """
 
 from collections.abc import Sequence
@@ -13,7 +14,7 @@ import numpy as np
 
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Mat3, Vec3
+from grafu.geometry.arrays import Mat3, Points, Vec3
 from grafu.geometry.transform import from_rotation
 from grafu.joints.clearance.behind import narrow_behind
 from grafu.joints.clearance.carve import Carving, Change, ClearanceStep, Path, box_in, carve, obstruction
@@ -24,6 +25,7 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import SweepVerdict
 from grafu.joints.report import Clearance
 from grafu.scene.scene import MovingBody, Scene
+from grafu.vocabulary import PartLabel
 
 
 @final
@@ -36,18 +38,24 @@ class Cleared:
     blockers: tuple[str, ...]
 
 
-def make_clearance(scene: Scene, path: Path, config: RealizationConfig) -> Cleared:
-    """Returns the scene in which the path is free, or as free as the limits allow."""
+def make_clearance(
+    scene: Scene, path: Path, config: RealizationConfig, carrying: frozenset[str] = frozenset()
+) -> Cleared:
+    """Returns the scene in which the path is free, or as free as the limits allow.
+
+    The parts that are `carrying` what moves, drawn hinges, do not move with it.
+    """
     done: list[Change] = []
     vain: set[ClearanceStep] = set()  # what does not help this scene does not help it later either
     left = obstruction(scene, path, config)
-    for step in _STEPS if config.trim else (adopt, separate):
+    for step in _STEPS if config.trim else (adopt, adopt_fittings, separate):
         if not left.blockers:
             break
         if step in vain:
             continue
         vain.add(step)
-        tried, clearances = step(scene, path, left.blockers, config)
+        ids = tuple(name for name in left.blockers if step is not adopt_fittings or name not in carrying)
+        tried, clearances = step(scene, path, ids, config)
         if not clearances:
             continue
         remaining = obstruction(tried, path, config)
@@ -68,12 +76,42 @@ def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfi
     """Lets static parts that lie enclosed in the moving part move with it: the drawer's own half of its old rails."""
     box = scene.parts[path.moving].box.grown(config.clearance.enclosed * config.depth * scene.extent)
     inside = [name for name in ids if bool(box.contains(scene.parts[name].box.corners()).all())]
-    if not inside:
+    return _joined(scene, path, inside, f"lies enclosed in {path.moving} and moves with it")
+
+
+def adopt_fittings(
+    scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig
+) -> tuple[Scene, list[Clearance]]:
+    """Lets small static parts at the pin of a leaf, which are drawn sunk into it, move with it: hinges and clamps."""
+    if not path.is_turn:
+        return scene, []
+    leaf, least = scene.parts[path.moving].box, config.depth * scene.extent
+    sunk = [
+        name
+        for name in ids
+        if scene.parts[name].label in _FITTINGS
+        and float(scene.parts[name].box.axis_gaps(leaf).max()) < -least
+        and float(scene.parts[name].box.size.max()) <= 2 * config.clearance.fitting
+        and _from_pin(scene.parts[name].box.corners(), path) <= config.clearance.fitting
+    ]
+    return _joined(scene, path, sunk, f"is a fitting at the hinge of {path.moving}, sunk into it, and moves with it")
+
+
+def _from_pin(points: Points, path: Path) -> float:
+    """Returns how far the farthest of some points is from the axis of a turn, metres."""
+    angle = min(path.reach, 1.0)
+    T = path.motion(angle)
+    moved = np.linalg.norm(points @ T[:3, :3].T + T[:3, 3] - points, axis=1)
+    return float(moved.max()) / (2.0 * float(np.sin(angle / 2)))
+
+
+def _joined(scene: Scene, path: Path, ids: Sequence[str], why: str) -> tuple[Scene, list[Clearance]]:
+    """Returns the scene in which static parts move with the moving part."""
+    if not ids:
         return scene, []
     moving = scene.moving_bodies[path.moving]
-    moving_bodies = {**scene.moving_bodies, path.moving: MovingBody(moving.id, (*moving.members, *inside))}
-    why = f"lies enclosed in {path.moving} and moves with it"
-    return replace(scene, moving_bodies=moving_bodies), [Clearance(part, "joined", 0.0, 0.0, why) for part in inside]
+    moving_bodies = {**scene.moving_bodies, path.moving: MovingBody(moving.id, (*moving.members, *ids))}
+    return replace(scene, moving_bodies=moving_bodies), [Clearance(part, "joined", 0.0, 0.0, why) for part in ids]
 
 
 def shrink(
@@ -127,9 +165,11 @@ def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 
+_FITTINGS = (PartLabel.MISC, PartLabel.UNKNOWN)
 _FINELY = 2000  # solids with which a path is cut by triangles where hulls would cut away too much
 _STEPS: tuple[ClearanceStep, ...] = (
     adopt,
+    adopt_fittings,
     separate,
     trim,
     narrow_behind,

@@ -1,0 +1,89 @@
+"""What is only guessed to be a door, low and wide right above a higher door of its width, is a drawer.
+
+So cupboards, sideboards and washstands are built: a drawer below the top, and doors below it. A flap above a door is
+rare, and stands higher.
+"""
+
+from typing import Final, final
+
+from grafu.asset.part import Asset
+from grafu.completion.lone_fronts import is_alone
+from grafu.completion.thick_doors import as_drawers
+from grafu.dataclass import dataclass
+from grafu.geometry.box import Box
+from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.graph.completion import GraphCompletion
+from grafu.graph.edges import Hinge
+from grafu.graph.functional_graph import FunctionalGraph
+from grafu.vocabulary import PartLabel
+
+_LEVEL: Final = 0
+_DEPTH: Final = 1
+_UP: Final = 2
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class DrawerAboveConfig:
+    """Which fronts above a door are drawers. On furniture of usual size.
+
+    Raises:
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
+    """
+
+    wide: float = 1.4
+    """Least width (ratio to the height)."""
+    low: float = 0.6
+    """Greatest height (fraction of that of the door below it)."""
+    aligned: float = 0.05
+    """How far its sides, and the door's upper border, lie from those of the other at most (fraction of its width)."""
+    top: float = 1.1
+    """How high above the floor it ends at most (m)."""
+    off: float = 0.25
+    """A handle so far off its middle (fraction of the width) is that of a door."""
+
+    def __post_init__(self) -> None:
+        require_positive(self, "wide", "top")
+        require_ratios(self, "low", "aligned", "off")
+
+
+def with_drawers_above_doors(
+    completion: GraphCompletion, asset: Asset, config: DrawerAboveConfig = DrawerAboveConfig()
+) -> GraphCompletion:
+    """Returns the completion in which guessed doors that are low, wide and right above a door slide out.
+
+    What the input labels as a door stays one, and so does what has a handle off its middle.
+    """
+    graph = completion.completed
+    guessed = {d.part for d in completion.decisions if d.question == "label" and d.choice == PartLabel.DOOR}
+    given = {part.id for part in asset.parts}
+    hinges = [h for h in graph.hinges if h.coupling is None and graph.node(h.child).box.thin_axis == _DEPTH]
+    boxes = [graph.node(hinge.child).box for hinge in hinges]
+    found = [
+        hinge
+        for hinge, box in zip(hinges, boxes, strict=True)
+        if hinge.child in guessed
+        and box.high[_UP] - graph.box.low[_UP] <= config.top
+        and is_alone(hinge.child, graph)
+        and any(_is_above(box, other, config) for other in boxes)
+        and not _is_held_aside(hinge, graph, given, config)
+    ]
+    return as_drawers(completion, found) if found else completion
+
+
+def _is_above(front: Box, door: Box, config: DrawerAboveConfig) -> bool:
+    """Whether a front is low and wide, and right above a higher one of its width, in one plane with it."""
+    width, height = float(front.size[_LEVEL]), float(front.size[_UP])
+    near = config.aligned * width
+    apart = max(abs(float(end)) for end in (*(front.low - door.low)[:2], (front.high - door.high)[_LEVEL]))
+    is_right_above = -near <= float(front.low[_UP] - door.high[_UP]) <= near
+    is_low = height <= config.low * float(door.size[_UP]) and width >= config.wide * height
+    return apart <= near and is_right_above and is_low
+
+
+def _is_held_aside(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: DrawerAboveConfig) -> bool:
+    """Whether a handle that the input has is off the middle of a front."""
+    nodes = (graph.node(edge.child) for edge in graph.attachments if edge.parent == hinge.child and edge.child in given)
+    box = graph.node(hinge.child).box
+    off = (abs(float(n.box.center[_LEVEL] - box.center[_LEVEL])) for n in nodes if n.label is PartLabel.HANDLE)
+    return any(one > config.off * float(box.size[_LEVEL]) for one in off)
