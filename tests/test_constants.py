@@ -40,6 +40,7 @@ from grafu.asset.plausibility import PlausibilityConfig
 from grafu.asset.resting import RestConfig
 from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
+from grafu.asset.shown_lids import ShownLidConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.asset.standing_out import StandingOutConfig
 from grafu.completion.boards_behind import BoardBehindConfig
@@ -64,6 +65,7 @@ from grafu.export.gltf_packing import DracoConfig
 from grafu.judging.coverage import CoverageTestConfig
 from grafu.judging.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
+from grafu.segmentation.boxes_in_case import BoxInCaseConfig
 from grafu.segmentation.config import (
     CandidateConfig,
     DivisionConfig,
@@ -146,6 +148,7 @@ OF_MODULES = {
         "plausibility.py": {},
         "reading.py": {"_FLATNESS": TOLERANCE},
         "scale.py": {"DOOR": SOLD, "STORAGE": SOLD, "TABLE": SOLD, "WINDOW": SOLD, "UNITS": SOLD},
+        "shown_lids.py": {"_UP": NUMBERING, "_RAYS": SAMPLES},
         "standing.py": {"_PLACES": NUMBERING},
     },
     "judging": {"handles.py": {"POSES": SAMPLES}, "panels.py": {"POSES": SAMPLES}},
@@ -157,6 +160,7 @@ OF_MODULES = {
         "shapes.py": {"MOST_SHAPES": KEPT, "MOST_USES": KEPT},
     },
     "segmentation": {
+        "boxes_in_case.py": {"_TURNS": NUMBERING},
         "creases.py": {"_SAME_UV": TOLERANCE},
         "division.py": {"_Z": NUMBERING},
         "fronts.py": {"SHEET": TOLERANCE},
@@ -232,7 +236,7 @@ IN_FUNCTIONS = {
 }
 CONFIGS = (
     AgreementConfig, BoardBehindConfig,
-    BodyKindConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
+    BodyKindConfig, BoxInCaseConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     CoverageTestConfig, DrawnGripConfig,
@@ -246,7 +250,8 @@ CONFIGS = (
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
     RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
-    ScaleConfig, SeenSideConfig, SegmentationConfig, StandingConfig, StandingOutConfig, StaticGuessConfig,
+    ScaleConfig, SeenSideConfig, SegmentationConfig, ShownLidConfig,
+    StandingConfig, StandingOutConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DrawerAboveConfig, DroppingDoorConfig, JoiningConfig,
     TallDoorConfig, ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
     WayOutConfig,

@@ -115,3 +115,17 @@ def test_one_plate_before_two_boxes_is_the_front_of_neither() -> None:
     parts = [*CASE, wide, *_drawer([]), *_drawer([], 1, 0.22)]
 
     assert {*_joined(parts)} == {part.id for part in parts}
+
+
+@pytest.mark.parametrize(("height", "is_front"), [(0.035, True), (0.025, False)])
+def test_a_low_front_is_one_and_a_beam_as_thick_as_high_is_none(height: float, is_front: bool) -> None:
+    """Drawers of tool chests are as low as 35 mm, with fronts of 18 mm."""
+    slab = ("slab", (0.02, -0.018, LOW), (0.58, 0.0, LOW + height))
+    boards = [
+        ("drawer_side_left", (0.05, 0.0, LOW + 0.004), (0.06, 0.4, LOW + 0.02)),
+        ("drawer_side_right", (0.54, 0.0, LOW + 0.004), (0.55, 0.4, LOW + 0.02)),
+        ("drawer_bottom", (0.06, 0.0, LOW + 0.004), (0.54, 0.4, LOW + 0.01)),
+    ]
+    kept = _joined([*CASE, *(_part(*one) for one in (slab, *boards))])
+
+    assert ("drawer_bottom" not in kept) is is_front

@@ -91,3 +91,31 @@ def test_bands_around_a_panel_as_thick_as_they_are_of_it() -> None:
 )
 def test_a_thin_field_in_the_middle_of_a_panel_is_of_it(low, high, is_joined: bool) -> None:
     assert ("infill" not in _joined(SLAB, _part("infill", low, high))) is is_joined
+
+
+@pytest.mark.parametrize(("depth", "is_leaf"), [(0.03, True), (0.1, False)])
+def test_the_boards_of_a_shallow_case_on_edge_around_its_door_are_no_frame_of_it(depth: float, is_leaf: bool) -> None:
+    """A medicine cabinet is hardly deeper than a stile is wide; bands may be a little thicker than the panel."""
+    door = replace(_part("door", (0.0, -0.02, 0.0), (0.6, 0.0, 0.7)))
+    boards = [
+        _part("side_a", (-0.016, -0.02, 0.0), (0.0, depth - 0.02, 0.7)),
+        _part("side_b", (0.6, -0.02, 0.0), (0.616, depth - 0.02, 0.7)),
+        _part("board_c", (0.0, -0.02, -0.016), (0.6, depth - 0.02, 0.0)),
+        _part("board_d", (0.0, -0.02, 0.7), (0.6, depth - 0.02, 0.716)),
+    ]
+    made = (door, *boards)
+    kept, _ = with_framed_leaves(made, Box.enclosing(part.box for part in made))
+
+    assert (len(kept) == 1) is is_leaf
+
+
+def test_folded_edges_of_a_sheet_frame_it() -> None:
+    skin = _part("skin", (0.0, -0.02, 0.0), (0.5, -0.019, 0.3))
+    edges = [
+        _part("edge_a", (-0.001, -0.02, 0.0), (0.0, 0.0, 0.3)),
+        _part("edge_b", (0.5, -0.02, 0.0), (0.501, 0.0, 0.3)),
+        _part("edge_c", (0.0, -0.02, -0.001), (0.5, 0.0, 0.0)),
+        _part("edge_d", (0.0, -0.02, 0.3), (0.5, 0.0, 0.301)),
+    ]
+
+    assert {*_joined(skin, *edges)} == {"skin"}

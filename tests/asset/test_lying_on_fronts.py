@@ -133,3 +133,18 @@ def test_a_piece_stands_as_it_stood_when_its_lid_was_found():
     (lid,) = (part for part in chest.parts if part.label is PartLabel.DOOR)
     assert (chest.frame.up, chest.frame.front) == ("+Z", "-Y")
     assert lid.box.size[2] == pytest.approx(0.048 * chest.frame.scale)
+
+
+@pytest.mark.parametrize("is_trunk", [True, False], ids=["on feet", "on its walls"])
+def test_the_rim_of_a_lid_that_stands_out_is_no_part_of_the_lower_side(is_trunk):
+    """Seen from below, it shows all round beside the walls: a box with a lid does not lie on its front."""
+    walls = [box(f"y{y}", (-0.4, y, 0.05), (0.4, y + 0.02, 0.475)) for y in (-0.21, 0.19)]
+    walls += [box(f"x{x}", (x, -0.19, 0.05), (x + 0.02, 0.19, 0.475)) for x in (-0.4, 0.38)]
+    walls = walls if is_trunk else [box("body", (-0.4, -0.21, 0.0), (0.4, 0.21, 0.475))]
+    parts = [*walls, box("lid", (-0.42, -0.23, 0.475), (0.42, 0.22, 0.5))]
+    places = [(x, y) for x in (-0.38, 0.34) for y in (-0.19, 0.15)] if is_trunk else []
+    parts += [box(f"f{x}{y}", (x, y, 0.0), (x + 0.04, y + 0.04, 0.05)) for x, y in places]
+    parts += [box("floor", (-0.38, -0.19, 0.06), (0.38, 0.19, 0.08))] if is_trunk else []
+    made = in_pose(tuple(parts), "+Y", "+Z")
+
+    assert not lies_on_its_front(made, whole_box(made), "+Y")

@@ -35,6 +35,20 @@ def test_several_fronts_may_be_doors_and_drawers_one_is_a_board():
     assert labels(*named) == [PartLabel.FACE_FRAME] * 3
 
 
+@pytest.mark.parametrize("name", ["front", "front panel", "front_panel_2", "fascia_0"])
+def test_a_single_front_with_a_handle_on_it_alone_is_no_fixed_board(name):
+    handle = part("handle", (0.25, -0.03, 0.5), (0.35, 0, 0.52))
+    beside = part("side panel", (0.24, 0, 0.2), (0.36, 0.4, 0.6))
+    drawer = part("drawer", (0.2, -0.001, 0.45), (0.4, 0.3, 0.55))
+    board = part(name, *UPPER)
+
+    assert labels(board, handle) == [PartLabel.UNKNOWN, PartLabel.HANDLE]
+    assert labels(board, handle, drawer)[0] is PartLabel.FACE_FRAME
+    assert labels(board, handle, beside)[0] is PartLabel.FACE_FRAME
+    assert labels(part(f"fixed {name}", *UPPER), handle)[0] is PartLabel.FACE_FRAME
+    assert labels(part(name, (0, 0, 0.41), (0.6, 0.2, 0.7)), handle)[0] is PartLabel.FACE_FRAME
+
+
 @pytest.mark.parametrize("turn", [0, 1])
 def test_left_and_right_beside_each_other_are_no_sides_of_a_case(turn):
     def turned(name, low, high):

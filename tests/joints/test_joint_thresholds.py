@@ -20,6 +20,7 @@ from grafu.joints.extension_leaves import ExtensionConfig
 from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.candidates import hinge_count
 from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, PivotConfig, SurveyConfig
+from grafu.joints.hung_parts import HungPartsConfig
 from grafu.joints.lever_config import LeverConfig
 from grafu.joints.lift_arm_config import LiftArmConfig
 from grafu.joints.plan import PlanConfig
@@ -125,6 +126,7 @@ REASONS = {
     "order.py": {"_RATIOS": SAMPLES},
     "plan.py": {"SCALES": CHOICE, "MOST_HINGES": CHOICE},
     "portholes.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING},
+    "hung_parts.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING},
     "pull_outs.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING},
     "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_RAYS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
@@ -142,7 +144,8 @@ CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BoxBehindConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig,
     ConcealedConfig,
     DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
-    DrawnArmConfig, FootingConfig, HingeConfig, LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
+    DrawnArmConfig, FootingConfig, HingeConfig, HungPartsConfig,
+    LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
     PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RackGuideConfig, RailConfig, RailFootingConfig,
     RaisedLeafConfig,
     RealizationConfig,

@@ -107,3 +107,75 @@ def test_a_bin_on_its_front_slides_out_with_it_and_a_board_does_not():
 
     assert [r.attached for r in requests(FRONT, *CASE, bucket)] == [("bucket",)]
     assert [r.attached for r in requests(FRONT, *CASE, board)] == [()]
+
+
+def pails(width: float = 0.3, runners: bool = True):
+    """A front with two rails on it that a pail hangs in; the rails run in runners on the sides of the case."""
+    side = (width - 0.018 - 0.018) / 2
+    middle, out = width / 2, side - 0.014
+    case = [
+        box("left", (0.0, 0.0, 0.1), (0.018, 0.5, 0.8)),
+        box("right", (width - 0.018, 0.0, 0.1), (width, 0.5, 0.8)),
+        box("back", (0.018, 0.482, 0.1), (width - 0.018, 0.5, 0.8)),
+    ]
+    name = "fixed_runner" if runners else "ledge"
+    held = []
+    for sign in (-1, 1):
+        edges = sorted((middle + sign * side, middle + sign * out))
+        held.append(box(f"{name}_{sign}", (edges[0], 0.01, 0.4), (edges[1], 0.47, 0.43)))
+        edges = sorted((middle + sign * out, middle + sign * (out - 0.015)))
+        held.append(box(f"carrier_rail_{sign}", (edges[0], -0.001, 0.405), (edges[1], 0.45, 0.425)))
+        edges = sorted((middle + sign * (out - 0.005), middle + sign * (out - 0.025)))
+        held.append(box(f"pail_rim_{sign}", (edges[0], 0.02, 0.425), (edges[1], 0.4, 0.435)))
+    inner = out - 0.02
+    ends = (middle - inner, middle + inner)
+    held += [
+        box("pail_floor", (ends[0], 0.02, 0.15), (ends[1], 0.4, 0.155)),
+        *(box(f"pail_wall_{x > middle}", (min(x, x - d), 0.02, 0.15), (max(x, x - d), 0.4, 0.56))
+          for x, d in ((ends[0], -0.004), (ends[1], 0.004))),
+    ]  # fmt: skip
+    return box("door", (0.0, -0.021, 0.1), (width, -0.001, 0.8)), case, held
+
+
+@pytest.mark.parametrize("width", [0.3, 0.6])
+def test_what_hangs_on_rails_of_the_front_slides_out_though_these_run_in_runners(width):
+    front, case, held = pails(width)
+    (request,) = requests(front, *case, *held)
+
+    assert request.type is JointType.PRISMATIC
+    assert set(request.attached) == {part.id for part in held if not part.id.startswith("fixed_runner")}
+
+
+def test_what_lies_on_ledges_of_the_case_as_well_stays_in_it():
+    front, case, held = pails(runners=False)
+
+    assert [r.type for r in requests(front, *case, *held)] == [JointType.REVOLUTE]
+
+
+def test_what_runs_in_runners_and_does_not_touch_the_front_stays_behind_it():
+    front, case, held = pails()
+    clear = [part for part in held if not part.id.startswith("carrier")]
+    carriers = [part for part in held if part.id.startswith("carrier")]
+    cut = [box(p.id, (p.box.low[0], 0.005, p.box.low[2]), tuple(p.box.high)) for p in carriers]
+
+    assert [r.type for r in requests(front, *case, *clear, *cut)] == [JointType.REVOLUTE]
+
+
+def test_a_front_wider_than_high_stays_hinged():
+    front, case, held = pails(0.8)
+
+    assert [r.type for r in requests(front, *case, *held)] == [JointType.REVOLUTE]
+
+
+def test_baskets_that_were_guessed_to_move_by_themselves_are_pieces_of_the_rack():
+    basket = RACK[2]
+    own = JointRequest(basket.id, JointType.PRISMATIC, Axis(vec3(0.15, 0.2, 0.15), vec3(0.0, -1.0, 0.0)), "network")
+    hinge = JointRequest("door", JointType.REVOLUTE, Axis(vec3(0.0, -0.02, 0.45), vec3(0.0, 0.0, -1.0)), "network")
+
+    def moving(label):
+        rack = [replace(part, label=label) if part is basket else part for part in RACK]
+        asset = scene(FRONT, *CASE, *rack)
+        return [r.moving for r in with_pull_outs(RealizationPlan((hinge, own), ()), asset, parse_graph(asset)).joints]
+
+    assert moving(PartLabel.UNKNOWN) == ["door"]
+    assert moving(PartLabel.DRAWER) == ["door", basket.id]

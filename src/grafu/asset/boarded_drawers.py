@@ -36,7 +36,7 @@ class BoardedDrawerConfig:
     """How far apart boards and plates that hang together lie at most (fraction of the diagonal of all)."""
     beside: float = 0.003
     """How far a band or a moulding stands out of the front (fraction of the diagonal of all)."""
-    thin: float = 0.4
+    thin: float = 0.6
     """Greatest thickness of a front (fraction of its shorter other side)."""
     board: float = 0.2
     """Greatest thickness of a board that is no drawer by itself (fraction of its shorter other side)."""

@@ -15,7 +15,7 @@ from grafu.asset.part import Part
 from grafu.asset.pieces import in_words, with_pieces
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
-from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.vocabulary import PartLabel
 
 _OTHERS: Final = frozenset({PartLabel.DRAWER, PartLabel.HANDLE, PartLabel.LEG, PartLabel.SHELF})
@@ -27,7 +27,7 @@ class FramedLeafConfig:
     """Which boards are the frame of which panel.
 
     Raises:
-        ValueError: if a fraction is not between 0 and 1.
+        ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
     touch: float = 0.0006
@@ -44,13 +44,21 @@ class FramedLeafConfig:
     """Greatest thickness of an infill (fraction of its frame's): a door in a face frame is as thick as that ..."""
     band: float = 0.03
     """... but an infill may be if its strips are bands, no wider than this (fraction of the infill's other side)."""
+    edge: float = 3.0
+    """Greatest thickness of a strip (multiple of its width) ..."""
+    deep: float = 2.0
+    """... unless it is no thicker than this (multiple of the infill's thickness) ..."""
+    folded: float = 0.12
+    """... or than this, as the folded edges of a front of sheet metal are (fraction of the infill's shorter other
+    side): boards of a case stand on edge, too."""
     field: float = 0.2
     """Least face of a thin field on a panel (fraction of the panel's) ..."""
     middle: float = 0.05
     """... and how far it lies from the middle of the panel at most (fraction of the panel's side)."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
+        require_positive(self, "edge", "deep")
+        require_ratios(self, *(set(self.__dataclass_fields__) - {"edge", "deep"}))
 
 
 def with_framed_leaves(
@@ -137,6 +145,8 @@ def _frame(infill: Part, boards: Sequence[Part], touch: float, config: FramedLea
     if not all(sides):
         return []
     strips = list({part.id: part for found in sides for part in found}.values())
+    if any(_stands_on_edge(part.box, box, axis, config) for part in strips):
+        return []
     is_thin = all(box.size[axis] <= config.thinner * part.box.size[axis] for part in strips)
     return strips if is_thin or all(_is_band(part.box, box, axis, config) for part in strips) else []
 
@@ -176,6 +186,13 @@ def _is_strip(
     is_at_border = strip.low[side] - touch <= border <= strip.high[side] + touch
     is_slim = strip.size[side] <= config.wide * box.size[side]
     return bool(is_at_border and is_slim and shared >= config.along * box.size[along])
+
+
+def _stands_on_edge(strip: Box, infill: Box, axis: int, config: FramedLeafConfig) -> bool:
+    width, side = (float(np.delete(box.size, axis).min()) for box in (strip, infill))
+    return float(strip.size[axis]) > max(
+        config.edge * width, config.deep * float(infill.size[axis]), config.folded * side
+    )
 
 
 def _is_band(strip: Box, box: Box, axis: int, config: FramedLeafConfig) -> bool:

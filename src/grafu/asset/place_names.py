@@ -1,6 +1,7 @@
 """Names that state a place or a material alone (`front`, `left`, `mirror`), held against shapes. It reads no files.
 
-A single `front` is a fixed board, several are the fronts of doors and drawers (`A1_front1`, `A1_front2`). A `left` and
+A single `front` is a fixed board, unless a handle sits on it alone; several are the fronts of doors and drawers
+(`A1_front1`, `A1_front2`). A `left` and
 a `right` are the sides of a case where they stand opposite each other; two plates beside each other are two doors.
 What is called a `frame` is that of a door where a handle sits on it, and on no door or drawer; so is a mirror or a pane
 of glass a door where a handle sits on it alone.
@@ -19,6 +20,8 @@ from grafu.geometry.config_checks import require_ratios
 from grafu.vocabulary import PartLabel
 
 _FRONTS = (("front",), ("fronts",))
+_BOARDS = {"front", "fronts", "fascia"}
+_FIXED = {"false", "fixed", "blind", "dummy", "frame"}
 _SIDES = (("left",), ("right",))
 _FRAMES = (("frame",), ("frames",))
 _PANES = {"mirror", "glass", "pane"}
@@ -48,6 +51,8 @@ def with_place_names(
     """Returns the parts, those without a label whose names state a place and no more than that, and notes on that."""
     fronts = [part for part in parts if _is_called(part, _FRONTS, PartLabel.FACE_FRAME)]
     opened = {part.id for part in fronts} if len(fronts) > 1 else set()
+    boards = [part for part in parts if _is_front_board(part)]
+    opened |= {part.id for part in boards if _is_held(part, parts, config, alone=True)}
     sides = [part for part in parts if _is_called(part, _SIDES, PartLabel.SIDE_PANEL)]
     leaves = _beside_each_other([part for part in sides if _is_plate(part, config)])
     opened |= leaves and leaves | {part.id for part in sides if not _is_plate(part, config)}
@@ -63,6 +68,13 @@ def with_place_names(
 
 def _is_called(part: Part, names: Sequence[tuple[str, ...]], label: PartLabel) -> bool:
     return part.labelled_by == "name" and part.label is label and spoken(part.source.name) in names
+
+
+def _is_front_board(part: Part) -> bool:
+    """Whether a name tells of a board in front, and not that it is fixed: `front_panel`, `fascia_2`."""
+    said = {*spoken(part.source.name)}
+    is_frame = part.labelled_by == "name" and part.label is PartLabel.FACE_FRAME
+    return is_frame and bool(said & _BOARDS) and not said & _FIXED
 
 
 def _is_plate(part: Part, config: PlaceNamesConfig) -> bool:

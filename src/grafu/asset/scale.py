@@ -108,6 +108,9 @@ class ScaleConfig:
     """Greatest thickness of a panel (fraction of its middle side): a whole case that is called a side is none."""
     doorway: float = 0.4
     """Greatest depth of a door with its frame (fraction of its width)."""
+    shallow: float = 0.28
+    """What is less deep hangs on a wall or closes a doorway: how deep it is does not tell how large (fraction of its
+    width or height, whichever is less)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -221,8 +224,10 @@ def _longest_shell(handle: Part) -> float:
 
 
 def _measures(parts: tuple[Part, ...], whole: Box, up: int, config: ScaleConfig) -> dict[str, float]:
-    across = np.delete(whole.size, up)
-    found = {"height": float(whole.size[up]), "width": float(across.max()), "depth": float(across.min())}
+    height, (depth, width) = float(whole.size[up]), np.sort(np.delete(whole.size, up)).tolist()
+    found = {"height": height, "width": width}
+    if depth >= config.shallow * min(width, height):
+        found["depth"] = depth
     for label, noun in ((PartLabel.DOOR, "door"), (PartLabel.DRAWER, "drawer")):
         boxes = [p.box.size for p in parts if p.label is label]
         if boxes:

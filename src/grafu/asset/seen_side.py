@@ -19,7 +19,7 @@ from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
-from grafu.shapes import Float, Int
+from grafu.shapes import Bool, Float, Int
 
 
 @final
@@ -61,6 +61,10 @@ class SeenSideConfig:
     """How far from the lower end lies what is close to it (fraction of the height) ..."""
     covered: float = 0.6
     """... and how much of the outline that covers at least where it is a front (fraction): legs cover less."""
+
+    far: float = 0.5
+    """From where on what is seen beside all that is close to the lower end is no front, but the rim of a top (the
+    same)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -128,7 +132,7 @@ def lies_on_its_front(
     number = np.unique(links if len(set(links)) > 1 else [part.id for part in parts], return_inverse=True)[1]
     below = spelled("XYZ".index(up[1]), up[0] == "-")
     by_parts, by_shells = (
-        {side: _appearance(caster, owners, whole, side, config) for side in DIRECTIONS}
+        {side: _appearance(caster, owners, whole, side, config, side == below) for side in DIRECTIONS}
         for owners in (np.repeat(number, [len(mesh.faces) for mesh in meshes]), shells)
     )
     if by_parts[below].covered < config.covered:
@@ -160,8 +164,14 @@ def _most(appearances: Mapping[str, _Appearance], least: float, plain: float, co
 
 
 def _appearance(
-    caster: RayCaster, owners: Int[np.ndarray, " faces"], whole: Box, side: str, config: SeenSideConfig
+    caster: RayCaster,
+    owners: Int[np.ndarray, " faces"],
+    whole: Box,
+    side: str,
+    config: SeenSideConfig,
+    is_base: bool = False,
 ) -> _Appearance:
+    """Returns what one side shows; where it is the base, what lies far behind this end and beside it does not count."""
     axis, sign = "XYZ".index(side[1]), 1.0 if side[0] == "+" else -1.0
     largest = max(float(whole.size.max()), 1e-12)
     ratio = (np.arange(config.rays) + 0.5) / config.rays
@@ -171,11 +181,23 @@ def _appearance(
     origins[..., second] = (whole.low[second] + ratio * whole.size[second])[None, :]
     origins[..., axis] = (whole.high if sign > 0 else whole.low)[axis] + sign * 0.1 * largest
     faces, distances = caster.first_faces(origins.reshape(-1, 3), -sign * np.eye(3)[axis])
+    depth = distances.reshape(config.rays, config.rays) / largest
+    near = (depth - 0.1) * largest <= config.close * whole.size[axis]
+    covered = float(np.mean(near))
+    if is_base and near.any():
+        beside = ~_filled(near) & ((depth - 0.1) * largest > config.far * whole.size[axis])
+        faces, depth = np.where(beside.reshape(-1), -1, faces), np.where(beside, np.inf, depth)
     areas = np.bincount(owners[faces[faces >= 0]])
     fractions = areas[areas > 0] / max(areas.sum(), 1)
-    depth = distances.reshape(config.rays, config.rays) / largest
-    covered = float(np.mean((depth - 0.1) * largest <= config.close * whole.size[axis]))
     return _Appearance(float(-(fractions * np.log(fractions)).sum()), _steps(depth, config.step), covered)
+
+
+def _filled(cells: Bool[np.ndarray, "n m"]) -> Bool[np.ndarray, "n m"]:
+    """Returns the cells of the smallest rectangle around those that are set, of which there is one at least."""
+    found = np.zeros_like(cells)
+    rows, columns = (np.flatnonzero(cells.any(axis=k)) for k in (1, 0))
+    found[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1] = True
+    return found
 
 
 def _steps(depth: Float[np.ndarray, "n m"], least: float) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.asset.appliance_fronts import with_appliance_fronts
 from grafu.asset.boarded_drawers import with_boarded_drawers
+from grafu.asset.boxes_in_cases import with_boxes_from_cases
 from grafu.asset.cutting import cut_where_fronts_appear
 from grafu.asset.door_frames import with_door_frames
 from grafu.asset.either_kind import with_either_kind
@@ -29,6 +30,7 @@ from grafu.asset.pieces import with_joined_pieces
 from grafu.asset.place_names import with_place_names
 from grafu.asset.plausibility import with_blind_fronts, with_bodies, with_control_panels, with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
+from grafu.asset.shown_lids import with_shown_lid
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
 
@@ -68,9 +70,11 @@ def settled(
         reading = _plausible(reading)
     stands: Frame | None = None
     if options.parts == "auto" and reading.parts:
-        stands = settle_frame(reading, options, file)
+        hidden = options.labels == "none"  # of what is hidden nothing tells how the piece stands
+        stands = settle_frame(_without_labels(reading) if hidden else reading, options, file)
         reading = cut_where_fronts_appear(reading, stands, name)
         reading = joined_where_nameless(reading, stands)
+        reading = with_shown_lid(with_boxes_from_cases(reading, stands), stands, name)
         reading = replace(reading, parts=with_appliance_fronts(reading.parts, stands))
         reading = _with_split_handles(reading)
     reading = replace(reading, parts=with_bodies(with_control_panels(reading.parts)))

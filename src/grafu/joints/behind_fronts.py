@@ -7,13 +7,16 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from grafu.asset.labels import sense_of
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
+from grafu.geometry.touching import near_pairs, touching_pairs
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.joints.plan import JointRequest
+from grafu.vocabulary import PartLabel
 
 _DEPTH = 1
 _ACROSS = [0, 2]
@@ -40,6 +43,35 @@ def touched_by(group: Collection[str], asset: Asset, graph: FunctionalGraph, own
     """
     parts = {part.id for part in asset.parts}
     return {name for member in group for name in graph.neighbours[member] if name in parts} - {*group, *own}
+
+
+def groups_held_by(
+    own: Collection[str], inside: Collection[str], asset: Asset, tolerance: float, soft: Collection[str] = ()
+) -> Iterator[tuple[str, ...]]:
+    """Yields the ids of parts in groups that hang together, and touch one of `own`, and nothing that holds them.
+
+    Handles hold nothing, nor do runners, hinges and the like that `own` does not touch; their names tell them.
+
+    Args:
+        own: what moves as one.
+        inside: the parts that may hang on it; others hold what they touch.
+        asset: all parts.
+        tolerance: as near as this, meshes touch (metres).
+        soft: parts that hold nothing either, such as gaskets.
+    """
+    hard = (part for part in asset.parts if part.id not in soft or part.id in own)
+    parts = [part for part in hard if part.label is not PartLabel.HANDLE or part.id in own]
+    near = [(a, b) for a, b in near_pairs([p.box for p in parts], tolerance) if {parts[a].id, parts[b].id} & {*inside}]
+    touching: dict[str, set[str]] = {part.id: set() for part in parts}
+    for a, b in touching_pairs([part.mesh for part in parts], near, tolerance):
+        touching[parts[a].id].add(parts[b].id)
+        touching[parts[b].id].add(parts[a].id)
+    runners = {p.id for p in parts if sense_of(p.source.name).is_fitting and not touching[p.id] & {*own}} - {*own}
+    hanging = {name for name in inside if name in touching} - runners
+    for group in joined_groups({name: touching[name] & hanging for name in hanging}):
+        touched = {other for name in group for other in touching[name]} - group - runners
+        if touched and touched <= {*own}:
+            yield tuple(sorted(group))
 
 
 def sliding_out(parts: Sequence[Part], source: str) -> JointRequest:

@@ -23,7 +23,7 @@ class SurveyConfig(ShortRepr):
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("even", "rounding")
+    LENGTHS = ("even", "rounding", "overhang")
     front: float = 0.1
     """How much of what is seen of a door from in front its front is at least; less is a handle (fraction)."""
     heights: int = 7
@@ -66,6 +66,8 @@ class SurveyConfig(ShortRepr):
     """Distances from the border outwards to which the face behind the door is followed, ascending (in boards)."""
     outside: tuple[float, ...] = (0.25, 0.6, 1.0)
     """Depths in what stands behind the door at which its outer side is measured (in boards)."""
+    overhang: float = 0.15
+    """How far a lid stands out behind the case that it lies on at most (metres)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)

@@ -1,6 +1,7 @@
 """Pull-out units: a slim front with a rack behind it that nothing else holds. Both slide out as one.
 
-They are found by boxes and contacts, so fronts that stand turned about Z stay as they were predicted.
+They are found by boxes and contacts, so fronts that stand turned about Z stay as they were predicted. What touches its
+front is a rack also where runners, known by their names, carry it, and where parts stand close beside it.
 """
 
 from collections.abc import Sequence
@@ -18,10 +19,11 @@ from grafu.geometry.config_checks import at_scale, require_positive, require_rat
 from grafu.geometry.mesh import merge_meshes
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.joints.behind_fronts import groups_within, is_within_outline, touched_by
+from grafu.joints.behind_fronts import groups_held_by, groups_within, is_within_outline, touched_by
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.waste_bins import is_bucket
 from grafu.scene.scale import metre_on
+from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"
 """`JointRequest.source` of a pull-out unit: the rack behind the front shows that it slides."""
@@ -38,9 +40,13 @@ class PullOutConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("reach", "clear")
+    LENGTHS = ("reach", "clear", "touching")
     slim: float = 0.6
-    """Greatest width of the front (fraction of its height)."""
+    """Greatest width of the front (fraction of its height) ..."""
+    wide: float = 1.0
+    """... and where the rack touches it (fraction of its height)."""
+    touching: float = 0.0003
+    """As near as this a rack touches its front, or what holds it (metres): rounding, and no clearance."""
     upright: float = 0.9
     """From this cosine on to the vertical the predicted hinge is at a side of the front."""
     pieces: int = 3
@@ -59,18 +65,29 @@ class PullOutConfig:
     """What stands behind all but this far part of the rack's depth may touch it: the back of the case (fraction)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "reach", "clear", "pieces")
+        require_positive(self, "reach", "clear", "pieces", "wide", "touching")
         require_ratios(self, "slim", "upright", "tall", "deep", "wall", "back")
 
 
 def with_pull_outs(
     plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, config: PullOutConfig = PullOutConfig()
 ) -> RealizationPlan:
-    """Returns the plan in which a front with a rack behind it slides out with the rack, and does not turn."""
+    """Returns the plan in which a front with a rack behind it slides out with the rack, and does not turn.
+
+    Pieces of that rack, such as baskets, that were guessed to move by themselves do not.
+    """
     config = at_scale(config, metre_on(asset.extent))
-    moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
-    static = [part for part in asset.parts if part.id not in moving]
-    return replace(plan, joints=tuple(_pulled_out(r, asset, static, graph, config) for r in plan.joints))
+    made = {request.moving: request for request in plan.joints}
+    for request in plan.joints:
+        if request.moving in made:
+            guessed = {name for name in made if asset.part(name).label is PartLabel.UNKNOWN} - {request.moving}
+            kept = (other for name, other in made.items() if name not in guessed)
+            moving = {part for other in kept for part in (other.moving, *other.attached)}
+            static = [part for part in asset.parts if part.id not in moving]
+            pulled = _pulled_out(request, asset, static, graph, config)
+            made = {name: other for name, other in made.items() if name not in pulled.attached}
+            made[request.moving] = pulled
+    return replace(plan, joints=tuple(made[r.moving] for r in plan.joints if r.moving in made))
 
 
 def _pulled_out(
@@ -79,10 +96,11 @@ def _pulled_out(
     """Returns the request of a door with a rack behind it as one that slides out; any other as it is."""
     front = asset.part(request.moving).box
     hinged = request.kind.turns and abs(float(request.axis.direction[_UP])) >= config.upright
-    slim = front.thin_axis == _DEPTH and front.size[0] <= config.slim * front.size[_UP]
-    if not (hinged and slim) or request.parent or request.coupling:
+    ratio = float(front.size[0] / max(front.size[_UP], 1e-9)) if front.thin_axis == _DEPTH else np.inf
+    if not (hinged and ratio <= config.wide) or request.parent or request.coupling:
         return request
-    rack = _rack(request, front, asset, static, graph, config)
+    rack = _rack(request, front, asset, static, graph, config) if ratio <= config.slim else []
+    rack = rack or _carried_rack(request, front, asset, static, config)
     if not rack:
         return request
     return JointRequest(
@@ -102,18 +120,33 @@ def _rack(
     own = {request.moving, *request.attached}
     inside = {part.id: part.box for part in static if _is_behind(part.box, front, config)}
     for found in groups_within(inside, graph):
-        box = Box.enclosing(inside[name] for name in found)
-        near = abs(float(box.low[_DEPTH] - front.high[_DEPTH])) <= config.reach
-        large = (
-            box.size[_UP] >= config.tall * front.size[_UP] and box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
-        )
-        if not (near and large and (len(found) >= config.pieces or _is_bin(found, asset))):
+        if not _is_rack(found, front, asset, config):
             continue
+        box = Box.enclosing(inside[name] for name in found)
         touched = touched_by(found, asset, graph, own)
         far = float(box.high[_DEPTH]) - config.back * float(box.size[_DEPTH])
         if all(float(asset.part(name).box.low[_DEPTH]) >= far for name in touched):
             return list(found)
     return []
+
+
+def _carried_rack(
+    request: JointRequest, front: Box, asset: Asset, static: list[Part], config: PullOutConfig
+) -> list[str]:
+    """Returns the parts behind a front that hang together and touch it, and else nothing but runners."""
+    own = {request.moving, *request.attached}
+    inside = {p.id for p in static if _is_behind(p.box, front, config)}
+    groups = groups_held_by(own, inside, asset, config.touching)
+    return next((list(found) for found in groups if _is_rack(found, front, asset, config)), [])
+
+
+def _is_rack(found: Sequence[str], front: Box, asset: Asset, config: PullOutConfig) -> bool:
+    """Whether parts that hang together begin near a front, are tall and deep, and several, or a bin."""
+    box = Box.enclosing(asset.part(name).box for name in found)
+    near = abs(float(box.low[_DEPTH] - front.high[_DEPTH])) <= config.reach
+    tall = box.size[_UP] >= config.tall * front.size[_UP]
+    deep = box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
+    return bool(near and tall and deep) and (len(found) >= config.pieces or _is_bin(found, asset))
 
 
 def _is_bin(parts: Sequence[str], asset: Asset) -> bool:

@@ -18,6 +18,7 @@ from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.drop_supports import with_supported_leaves
 from grafu.joints.extension_leaves import with_shown_extensions
 from grafu.joints.folding import with_folds
+from grafu.joints.hung_parts import with_hung_parts
 from grafu.joints.layered_fronts import with_layered_fronts
 from grafu.joints.lifts import with_lifts
 from grafu.joints.lone_leaves import with_lone_labels, with_lone_leaf
@@ -76,6 +77,7 @@ def shown_by_shape(
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_wide_bars(with_boxes_behind(plan, asset, settled), asset, settled)
+    plan = with_hung_parts(plan, asset, settled)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
     plan = with_raised_leaves(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset)
     plan = with_racks(plan, asset, graph)

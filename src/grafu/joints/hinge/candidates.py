@@ -143,6 +143,14 @@ def _inset_front(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: P
     return PinCandidate(MechanismClass.C, 0.0, 0.0, tol.radius, room, tol.radius, preference, inset=True)
 
 
+def _overhung(frame: BorderFrame, s: BorderSurvey, tol: Tolerances, config: PinConfig) -> PinCandidate | None:
+    """P in the corner under the border of a lid that stands out behind its case: one leaf under it, one on the case."""
+    if not config.corner_strip * tol.radius <= s.overhang < frame.width / 2:
+        return None
+    x, y = s.overhang - tol.radius, -frame.thickness - tol.radius
+    return PinCandidate(MechanismClass.P, pi, x, y, min(x, config.front_leaf * frame.width), tol.radius, 3)
+
+
 _RULES: tuple[_Rule, ...] = (
     _contact_front,
     _contact_behind,
@@ -151,6 +159,7 @@ _RULES: tuple[_Rule, ...] = (
     _corner_front,
     _corner_side,
     _inset_front,
+    _overhung,
 )
 
 

@@ -23,7 +23,8 @@ class BorderSurvey:
     how far it stands out beyond the door's front. `back_gap`: from the door's back (-y) to a face behind the border.
     `side_face`: the x of the outer face of what stands behind the door. `back_width`: how far (+x) the face behind
     reaches from the border inwards, `beside_width` how far it goes on outwards (-x). `side_depth`: how deep (-y, from
-    the door's front) the face beside the door reaches. `meets`: whether another moving body stands beside the border.
+    the door's front) the face beside the door reaches. `overhang`: how far the border stands out beyond what the door
+    lies on, where nothing is behind the border itself. `meets`: whether another moving body stands beside the border.
     """
 
     side_gap: float
@@ -33,6 +34,7 @@ class BorderSurvey:
     back_width: float
     side_face: float
     beside_width: float
+    overhang: float = float("inf")
     meets: bool = False
 
 
@@ -49,6 +51,7 @@ def survey(frame: BorderFrame, body: RayCaster, reach: float, config: SurveyConf
         back_width=back_width,
         side_face=probe.side_face(back_gap),
         beside_width=probe.beside_width(back_gap),
+        overhang=float("inf") if np.isfinite(back_gap) else probe.overhang(),
     )
 
 
@@ -148,3 +151,16 @@ class _Probe:
         even = np.array([abs(self._height_at(-x, play - level) - level) <= play for x in steps])
         end = int(np.argmin(even)) if not even.all() else len(even)
         return float(steps[end - 1]) if end else 0.0
+
+    def overhang(self) -> float:
+        """Returns how far inwards of the border the outer side lies of what the door lies on."""
+        board, thickness, farthest = self._frame.board, self._frame.thickness, self._config.overhang
+        below = (self.row(0.0, -thickness - self._reach - step * board, 1.0, 0.0) for step in self._config.outside)
+        found = [x for distances in below if np.isfinite(x := self.median_of(distances, farthest))]
+        if not found:
+            return float("inf")
+        x, start = median(found), self._config.start * thickness
+        gap = self.median_of(
+            self.row(x + self._config.outside[0] * board, start - thickness, 0.0, -1.0), self._reach + start
+        )
+        return x if np.isfinite(gap) else float("inf")

@@ -1,0 +1,143 @@
+"""A broad plate that alone closes a hollow body is a lid without a name; tops of tables and cabinets are none."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from grafu.asset.load import load_asset
+from grafu.asset.options import LoadOptions
+from grafu.vocabulary import PartLabel
+
+AUTO = LoadOptions(up="+Z", front="-Y", scale=1.0)
+W, D, H = 0.8, 0.5, 0.45
+
+
+def tub(thick=0.02, low=0.0, high=H):
+    """A box open above, as one shell."""
+    outer = trimesh.creation.box(bounds=[(0, 0, low), (W, D, high)])
+    inner = trimesh.creation.box(bounds=[(thick, thick, low + thick), (W - thick, D - thick, high)])
+    inner.invert()
+    walls = [m.submesh([np.flatnonzero(m.triangles_center[:, 2] < high - 1e-9)], append=True) for m in (outer, inner)]
+    rim = [((0, 0), (W, thick)), ((0, D - thick), (W, D)), ((0, thick), (thick, D - thick)),
+           ((W - thick, thick), (W, D - thick))]  # fmt: skip
+    rims = [trimesh.Trimesh([(a[0], a[1], high), (b[0], a[1], high), (b[0], b[1], high), (a[0], b[1], high)],
+                            [[0, 1, 2], [0, 2, 3]]) for a, b in rim]  # fmt: skip
+    made = trimesh.util.concatenate([*walls, *rims])
+    made.merge_vertices()
+    return made
+
+
+def solid(low, high):
+    return trimesh.creation.box(bounds=[low, high])
+
+
+def plate(over=0.01, low=H, thick=0.03):
+    return solid((-over, -over, low), (W + over, D + over, low + thick))
+
+
+def boards(front=0.02, back=0.02):
+    """Four walls and a bottom, apart."""
+    return {
+        "Cube_1": solid((0, 0, 0), (W, front, H)),
+        "Cube_2": solid((0, D - back, 0), (W, D, H)),
+        "Cube_3": solid((0, front, 0), (0.02, D - back, H)),
+        "Cube_4": solid((W - 0.02, front, 0), (W, D - back, H)),
+        "Cube_5": solid((0.02, front, 0), (W - 0.02, D - back, 0.02)),
+    }
+
+
+def read(tmp_path, name="piece", **objects):
+    """The parts of a file of some objects."""
+    scene = trimesh.Scene()
+    for called, mesh in objects.items():
+        scene.add_geometry(mesh, node_name=called, geom_name=called)
+    scene.export(tmp_path / f"{name}.glb")
+    return load_asset(tmp_path / f"{name}.glb", AUTO).parts
+
+
+def lids(tmp_path, name="piece", **objects):
+    """The parts that are lids by their shape."""
+    parts = read(tmp_path, name, **objects)
+    return [part for part in parts if part.label is PartLabel.DOOR and part.labelled_by == "shape"]
+
+
+@pytest.mark.parametrize("body", [{"Cube_9": tub()}, boards()], ids=["one shell", "boards"])
+def test_a_plate_on_a_hollow_body_is_a_lid(tmp_path, body):
+    (lid,) = lids(tmp_path, Cube=plate(), **body)
+
+    assert float(lid.box.low[2]) == pytest.approx(H, abs=1e-6)
+
+
+def test_a_cushion_on_it_is_a_piece_of_it_and_feet_and_knobs_are_none(tmp_path):
+    feet = {f"f{x}{y}": solid((x, y, -0.05), (x + 0.04, y + 0.04, 0)) for x in (0.05, 0.7) for y in (0.05, 0.4)}
+    cushion = solid((0.01, 0.01, H + 0.03), (W - 0.01, D - 0.01, H + 0.1))
+    knob = solid((0.38, -0.03, H + 0.005), (0.42, -0.011, H + 0.025))
+    (lid,) = lids(tmp_path, Cube=plate(), a=cushion, b=knob, c=tub(), **feet)
+
+    assert float(lid.box.high[2] - lid.box.low[2]) == pytest.approx(0.1, abs=1e-6)
+
+
+LOOK_ALIKES = {
+    "a top on a solid body": {"a": plate(), "b": solid((0, 0, 0), (W, D, H))},
+    "a top that stands out all round": {"a": plate(over=0.06), "b": tub()},
+    "a thick mattress": {"a": plate(thick=0.4), "b": tub()},
+    "a board over the floor of a crate": {"a": plate(over=-0.021, low=0.3), "b": tub()},
+    "a seat before a back": {"a": plate(), "b": tub(), "back": solid((0, D + 0.02, 0), (W, D + 0.06, 0.85))},
+    "a top above the body": {"a": plate(low=H + 0.05), "b": tub()},
+    "a case with a door": {"a": plate(), **boards(back=0.006)},
+    "a case with two doors": {
+        "a": plate(),
+        **{name: mesh for name, mesh in boards().items() if name != "Cube_1"},
+        "l": solid((0, 0, 0), (W / 2 - 0.001, 0.02, H)),
+        "r": solid((W / 2 + 0.001, 0, 0), (W, 0.02, H)),
+    },
+    "an open case": {"a": plate(), **{name: mesh for name, mesh in boards().items() if name != "Cube_1"}},
+    "an open case in one object": {
+        "a": plate(),
+        "b": trimesh.util.concatenate([mesh for name, mesh in boards().items() if name != "Cube_1"]),
+    },
+    "a top on legs": {
+        "a": plate(),
+        **{f"l{x}{y}": solid((x, y, 0), (x + 0.05, y + 0.05, H)) for x in (0, 0.75) for y in (0, 0.45)},
+    },
+    "a body with an inner floor near its rim": {"a": plate(), "b": tub(low=0.3), "c": solid((0, 0, 0), (W, D, 0.3))},
+}
+
+
+@pytest.mark.parametrize("what", LOOK_ALIKES)
+def test_other_plates_are_no_lids(tmp_path, what):
+    assert lids(tmp_path, **LOOK_ALIKES[what]) == []
+
+
+@pytest.mark.parametrize(("scale", "is_lid"), [(1.0, True), (1.9, False), (2.3, False)])
+def test_what_is_as_high_as_a_cupboard_or_as_long_as_a_bed_has_none(tmp_path, scale, is_lid):
+    size = (scale, 1.0, 1.0) if scale > 2 else (1.0, 1.0, scale if scale == 1 else 2.1)
+    meshes = {"a": plate(), "b": tub()}
+    for mesh in meshes.values():
+        mesh.apply_scale(size)
+    assert bool(lids(tmp_path, **meshes)) is is_lid
+
+
+def test_names_tell_first(tmp_path):
+    assert lids(tmp_path, name="coffee_table", a=plate(), b=tub()) == []
+    assert lids(tmp_path, top_panel=plate(), b=tub()) == []
+    assert lids(tmp_path, a=plate(), b=tub(), door=solid((0.1, -0.02, 0.1), (0.7, 0.0, 0.4))) == []
+
+
+@pytest.mark.parametrize("top", ["lid", "Cube"])
+def test_the_walls_below_a_lid_are_no_doors_unless_a_handle_sits_on_one(tmp_path, top):
+    walls = {"Cube_1", "Cube_2", "Cube_3", "Cube_4"}
+    bare = {p.source.name: p.label for p in read(tmp_path, **{top: plate()}, **boards())}
+    handle = solid((0.3, -0.03, 0.3), (0.5, 0.0, 0.32))
+    held = {p.source.name: p.label for p in read(tmp_path, **{top: plate()}, handle=handle, **boards())}
+
+    assert {bare[name] for name in walls} == {PartLabel.SIDE_PANEL}
+    assert held["Cube_1"] is PartLabel.UNKNOWN
+    assert held["Cube_2"] is PartLabel.SIDE_PANEL
+
+
+def test_walls_stay_what_they_are_where_something_else_is_a_door(tmp_path):
+    door = solid((0.1, -0.02, 0.1), (0.7, 0.0, 0.4))
+    parts = read(tmp_path, lid=plate(), cabinet_door=door, **boards())
+
+    assert {p.label for p in parts if p.source.name == "Cube_2"} == {PartLabel.UNKNOWN}
