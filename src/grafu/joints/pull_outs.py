@@ -85,7 +85,8 @@ def with_pull_outs(
             moving = {part for other in kept for part in (other.moving, *other.attached)}
             static = [part for part in asset.parts if part.id not in moving]
             pulled = _pulled_out(request, asset, static, graph, config)
-            made = {name: other for name, other in made.items() if name not in pulled.attached}
+            taken = {*pulled.attached} - {*request.attached}
+            made = {name: other for name, other in made.items() if name not in taken}
             made[request.moving] = pulled
     return replace(plan, joints=tuple(made[r.moving] for r in plan.joints if r.moving in made))
 
