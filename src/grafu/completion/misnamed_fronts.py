@@ -6,35 +6,13 @@ contradicts those of real furniture it is as often wrong as right, even where a 
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
-from typing import final
 
 from grafu.asset.part import Asset
 from grafu.completion.probabilities import Probabilities
-from grafu.dataclass import dataclass
-from grafu.geometry.config_checks import require_positive
 from grafu.graph.arrays import LABELS
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.visible import ShortRepr
 from grafu.vocabulary import PartLabel
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class MisnamedConfig(ShortRepr):
-    """From which probability on a front is what the network takes it for, though its name states another label.
-
-    Raises:
-        ValueError: if a number is not above 0.
-    """
-
-    front: float = 0.8
-    """What is called a door is a drawer, and the other way round. Of 300 synthetic pieces it corrects 4 of 5 that are
-    misnamed, of 250 real ones 20, and no other; the highest that is wrong has 0.69."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-
 
 _FRONTS = (PartLabel.DOOR, PartLabel.DRAWER)
 _CODES = [LABELS.index(label) for label in _FRONTS]
@@ -46,11 +24,11 @@ def has_named(graph: FunctionalGraph, named: Collection[str]) -> bool:
 
 
 def corrected_fronts(
-    graph: FunctionalGraph, probabilities: Probabilities, named: Collection[str], config: MisnamedConfig
+    graph: FunctionalGraph, probabilities: Probabilities, named: Collection[str], least: float
 ) -> tuple[Decision, ...]:
     """Returns for each misnamed front the decision that it is a drawer and no door, or a door and no drawer.
 
-    `named` are the parts whose labels rest on their names alone.
+    `named` are the parts whose labels rest on their names alone, `least` is the least probability that corrects one.
     """
     found = []
     for k, node in enumerate(graph.nodes):
@@ -58,7 +36,7 @@ def corrected_fronts(
             continue
         own = _FRONTS.index(node.label)
         scores = probabilities.label[k, _CODES]
-        if float(scores[1 - own]) >= config.front:
+        if float(scores[1 - own]) >= least:
             other, score = _FRONTS[1 - own].value, float(scores[1 - own])
             found.append(Decision(node.id, "label", other, score, node.label.value, float(scores[own])))
     return tuple(found)
@@ -68,7 +46,7 @@ def _is_open(node: PartNode, graph: FunctionalGraph, named: Collection[str]) -> 
     return node.label in _FRONTS and node.id in named and node.id not in graph.moving
 
 
-def misnamed_fronts(completion: GraphCompletion) -> Sequence[Decision]:
+def _misnamed_fronts(completion: GraphCompletion) -> Sequence[Decision]:
     """Returns the decisions that corrected a name, as the completion has them in the end."""
     label_of, given = {node.id: node.label for node in completion.completed.nodes}, completion.input
     return [
@@ -83,7 +61,7 @@ def misnamed_fronts(completion: GraphCompletion) -> Sequence[Decision]:
 
 def with_corrected_fronts(asset: Asset, completion: GraphCompletion) -> Asset:
     """Returns the asset in which misnamed doors and drawers are what the completion takes them for, and notes on it."""
-    found = misnamed_fronts(completion)
+    found = _misnamed_fronts(completion)
     if not found:
         return asset
     labels = {decision.part: PartLabel(decision.choice) for decision in found}
