@@ -241,3 +241,29 @@ def test_an_image_that_is_broken_is_drawn_grey():
     grey = _decode(Texture("a.png", b"\x89PNG\r\n\x1a\n and no more", "image/png"))
     assert grey.shape == (1, 1, 4)
     assert len(set(grey[0, 0, :3].tolist())) == 1
+
+
+def sliding(*leaves):
+    """Returns a case whose leaves (x from, x to, distance along x, y) slide, metres."""
+    links, joints = [Link("base", (block("back", [-1.0, 0.0, 0], [1.0, 0.5, 1]),))], []
+    for k, (left, right, distance, y) in enumerate(leaves):
+        links.append(Link(f"leaf_{k}", (block(f"leaf_{k}", [left, y, 0], [right, y + 0.02, 1]),)))
+        axis = Axis(vec3(0.0, 0.0, 0.0), vec3(np.sign(distance), 0.0, 0.0))
+        limits = JointLimits(0.0, abs(distance))
+        joints.append(Joint(f"joint_{k}", JointType.PRISMATIC, "base", f"leaf_{k}", axis, limits))
+    return ArticulatedObject("sliding", "base", tuple(links), tuple(joints))
+
+
+@pytest.mark.parametrize(
+    ("leaves", "shown"),
+    [
+        ([(-1.0, 0.02, 0.98, -0.05), (-0.02, 1.0, -0.98, -0.1)], [0.98, 0.0]),
+        ([(-1.0, 0.02, 0.3, -0.05), (-0.02, 1.0, -0.3, -0.1)], [0.3, 0.3]),
+        ([(-1.0, 0.0, -0.9, -0.05), (0.0, 1.0, 0.9, -0.05)], [0.9, 0.9]),
+        ([(-1.0, -0.3, 0.65, -0.05), (-0.35, 0.35, 0.65, -0.1), (0.3, 1.0, -0.65, -0.05)], [0.65, 0.65, 0.0]),
+    ],
+    ids=["change places", "meet half way", "part", "three leaves"],
+)
+def test_leaves_that_would_only_change_places_are_not_both_shown_open(leaves, shown):
+    values = opened_values(sliding(*leaves))
+    assert [values[f"joint_{k}"] for k in range(len(leaves))] == pytest.approx(shown)

@@ -18,6 +18,7 @@ from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
 from grafu.render.camera import Camera, three_quarter_view
+from grafu.render.changing_places import left_closed
 from grafu.render.exposure import SIDE, Exposure, PictureStyle, Samples
 from grafu.render.light import displayed
 from grafu.render.ray_scene import RayScene
@@ -99,8 +100,12 @@ def placed_visuals(
 
 
 def opened_values(articulated: ArticulatedObject, ratio: float = 1.0) -> dict[str, float]:
-    """Returns each moving joint's value at a fraction of its range, 0 closed and 1 wide open; coupled ones follow."""
-    free = {j.id: j.limits.lower + ratio * j.limits.range for j in articulated.free_joints}
+    """Returns each moving joint's value at a fraction of its range, 0 closed and 1 wide open; coupled ones follow.
+
+    Of sliding leaves that would only change places one stays closed (`left_closed`).
+    """
+    closed = left_closed(articulated)
+    free = {j.id: j.limits.lower + (0.0 if j.id in closed else ratio) * j.limits.range for j in articulated.free_joints}
     return with_coupled(articulated, free)
 
 
