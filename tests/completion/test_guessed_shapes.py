@@ -197,3 +197,23 @@ def test_what_no_rail_carries_is_judged_as_a_drawer_that_opens_to_the_front():
     asset, completion = made([TOP, *LEGS, trestle], "guess", Rail("board", "guess", FRONT))
     graph = without_edges(completion.completed, completion.completed.rails)
     assert "no bottom" in shape_against(graph.node("guess"), asset, graph)
+
+
+def test_a_board_of_a_post_is_no_door_and_that_of_a_slim_cabinet_is():
+    edge = Hinge("board", "guess", 0, 1)
+
+    def of_boards(width: float, depth: float) -> list[Part]:
+        end = 0.01 + width
+        return [
+            TOP,
+            box("left", (0.0, 0.01, 0.0), (0.01, depth, 0.8)),
+            box("right", (end, 0.01, 0.0), (end + 0.01, depth, 0.8)),
+            box("back", (0.01, depth - 0.01, 0.0), (end, depth, 0.8)),
+            box("guess", (0.0, 0.0, 0.0), (end + 0.01, 0.01, 0.8)),
+        ]
+
+    assert why(of_boards(0.1, 0.1), edge=edge) == "it is a board of a post, which holds nothing"
+    assert why(of_boards(0.1, 0.1), edge=edge, is_held=True) == "", "a handle is on it"
+    assert why(of_boards(0.1, 0.4), edge=edge) == "", "bottles stand behind each other"
+    assert why(of_boards(0.3, 0.1), edge=edge) == "", "a shallow wall cabinet"
+    assert why([part for part in of_boards(0.1, 0.1) if part.id in {"board", "guess"}], edge=edge) == "", "a board alone"

@@ -67,6 +67,10 @@ class GuessedShapeConfig:
     """A drawer that is only a front is closed, seen from where it slides to, on more than this (fraction) ..."""
     leaf: float = 0.12
     """... and a door on more than this. Of 69 real doors, some of them frames of glass, the least has 0.22."""
+    post: float = 0.16
+    """A post is no wider and no deeper than this (metres), with all that stands beside it for ..."""
+    beside: float = 0.5
+    """... as much of its height (fraction): a board of it is no door."""
     board: float = 0.1
     """A drawer may be a mere board that is at most so thick (fraction of the shorter of its level sides)."""
 
@@ -88,6 +92,8 @@ def shape_against(
     mesh, box = asset.part(node.id).mesh, node.box
     if node.label is PartLabel.DOOR and is_thick(mesh, config):
         return "it is too thick for a door"
+    if node.label is PartLabel.DOOR and not is_held and _is_of_post(node, graph, config):
+        return "it is a board of a post, which holds nothing"
     if not is_held and _straight(mesh, config) < config.rounded:
         return "it is round, which fronts are not"
     rest = partial(rest_of, asset, node.id, graph)  # of a large model it takes long, and most doors need none
@@ -103,6 +109,19 @@ def is_thick(mesh: TriangleMesh, config: GuessedShapeConfig = GuessedShapeConfig
     """Whether no door is as thick, along the axes or along its own main directions."""
     sides = (np.sort(np.ptp(mesh.vertices @ frame, axis=0)) for frame in _frames(mesh))
     return min(float(least / max(middle, 1e-9)) for least, middle, _ in sides) >= config.thick
+
+
+def _is_of_post(door: PartNode, graph: FunctionalGraph, config: GuessedShapeConfig) -> bool:
+    """Whether an upright board and what stands beside it are no wider and no deeper than a post, and higher."""
+    height = float(door.box.size[2])
+    touched = (graph.node(name).box for name in graph.neighbours[door.id])
+    beside = [box for box in touched if _shared_height(box, door.box) >= config.beside * height]
+    section = Box.enclosing([door.box, *beside]).size[:2].max()
+    return bool(beside and section <= min(config.post, height / 2))
+
+
+def _shared_height(one: Box, other: Box) -> float:
+    return float(min(one.high[2], other.high[2]) - max(one.low[2], other.low[2]))
 
 
 def _no_drawer(
