@@ -171,7 +171,7 @@ OF_MODULES = {
     "completion": {
         "doors.py": {},
         "drawers.py": {"_DIRECTIONS": NUMBERING},
-        "handles.py": {},
+        "handles.py": {"_FLUSH": TOLERANCE},
         "rows.py": {},
         "selection.py": {"_LEAST": VOTES},
         "slots.py": {},

@@ -216,4 +216,6 @@ def test_a_board_of_a_post_is_no_door_and_that_of_a_slim_cabinet_is():
     assert why(of_boards(0.1, 0.1), edge=edge, is_held=True) == "", "a handle is on it"
     assert why(of_boards(0.1, 0.4), edge=edge) == "", "bottles stand behind each other"
     assert why(of_boards(0.3, 0.1), edge=edge) == "", "a shallow wall cabinet"
-    assert why([part for part in of_boards(0.1, 0.1) if part.id in {"board", "guess"}], edge=edge) == "", "a board alone"
+    assert why([part for part in of_boards(0.1, 0.1) if part.id in {"board", "guess"}], edge=edge) == "", (
+        "a board alone"
+    )

@@ -88,3 +88,9 @@ def test_what_lies_on_the_disc_rides_on_it():
     )
     assert found.part("disc").label is PartLabel.DOOR
     assert "disc" not in labels(square)
+
+
+def test_the_ring_of_the_opening_in_which_the_door_lies_stays():
+    base = cabinet((0.6, 0.6, 0.85), (0.3, 0.4), 0.22)
+    ring = replace(cylinder("ring", ((0.3, -0.022, 0.4), (0.3, -0.01, 0.4)), 0.2), label=PartLabel.UNKNOWN)
+    assert with_porthole_labels(scene(*base.parts, ring)).part("ring").carried_by is None

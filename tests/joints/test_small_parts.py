@@ -156,6 +156,17 @@ def test_a_dial_on_the_body_turns_without_a_mark():
     assert np.allclose(joint.axis.direction, (0, -1, 0))
 
 
+def test_a_dial_on_a_plate_with_corners_turns_and_the_plate_stays():
+    plate = box("handle_plate", (0.47, -0.004, 0.26), (0.53, 0.0, 0.34))
+    knob_on_it = cylinder("handle_dial", ((0.5, -0.004, 0.3), (0.5, -0.024, 0.3)), 0.02)
+    cap = cylinder("handle_cap", ((0.5, -0.024, 0.3), (0.5, -0.026, 0.3)), 0.01)
+    made = made_of(*CASE, DOOR, PANEL, plate, knob_on_it, cap)
+    (joint,) = small_joints(made).values()
+    assert joint.child == "handle_dial"
+    assert {visual.name for visual in made.object.link(joint.child).visuals} == {"handle_dial", "handle_cap"}
+    assert {skip.request for skip in report_of(made).skipped}.isdisjoint({"handle_dial", "handle_cap", "handle_plate"})
+
+
 @pytest.mark.parametrize(
     ("label", "settled", "is_dropped"),
     [

@@ -16,7 +16,8 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
-_MOVES_WITH = frozenset({PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE})
+_FRONTS = (PartLabel.DOOR, PartLabel.DRAWER)
+_FLUSH = 1e-3  # of a handle's largest side: what overlaps by less ends in one plane
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
 
@@ -32,7 +33,7 @@ class Attachments:
 
 def attach_handles(graph: FunctionalGraph, config: RuleConfig = RuleConfig()) -> Attachments:
     """Returns the graph with an attached edge per handle; handles that are attached already stay as they are."""
-    movable = NodeBoxes(graph.labelled(PartLabel.DOOR, PartLabel.DRAWER))
+    movable = NodeBoxes(graph.labelled(*_FRONTS))
     held = {edge.child for edge in graph.attachments}
     edges: list[Attached] = []
     decisions: list[Decision] = []
@@ -54,18 +55,32 @@ def attach_handles(graph: FunctionalGraph, config: RuleConfig = RuleConfig()) ->
 
 
 def sits_on_static(handle: PartNode, graph: FunctionalGraph) -> bool:
-    """Whether a handle touches what is larger and does not move, and no door, drawer or handle: a knob of an oven.
+    """Whether a handle touches what is larger and does not move, and no door or drawer: a knob of an oven.
 
-    Smaller things that it touches are its own posts. What has a category of its own carries it only where the handle
-    stands beside all doors and drawers: a handle that hangs before one may touch a frame.
+    Handles that touch one another are pieces of one. Smaller things that it touches are its own posts. What has a
+    category of its own carries it only where the handle stands beside all doors and drawers: a handle that hangs before
+    one may touch a frame.
     """
-    touched = [graph.node(other) for other in graph.neighbours[handle.id]]
-    if any(node.label in _MOVES_WITH for node in touched):
+    pieces = _pieces(handle, graph)
+    touched = [(piece, graph.node(o)) for piece in pieces for o in graph.neighbours[piece.id]]
+    if any(node.label in _FRONTS for _, node in touched):
         return False
-    largest = float(handle.box.size.max())
-    beside = all(_stands_beside(handle.box, part) for part in graph.labelled(PartLabel.DOOR, PartLabel.DRAWER))
-    larger = (node for node in touched if float(np.sort(node.box.size)[1]) > largest)
+    beside = all(_stands_beside(handle.box, part) for part in graph.labelled(*_FRONTS))
+    others = ((piece, node) for piece, node in touched if node.label is not PartLabel.HANDLE)
+    larger = (node for piece, node in others if float(np.sort(node.box.size)[1]) > float(piece.box.size.max()))
     return any(beside or node.label is PartLabel.MISC for node in larger)
+
+
+def _pieces(handle: PartNode, graph: FunctionalGraph) -> list[PartNode]:
+    """Returns the handles that touch a handle, directly or through others, itself counted."""
+    found = {handle.id: handle}
+    queue = [handle.id]
+    while queue:
+        touched = (graph.node(other) for other in graph.neighbours[queue.pop()])
+        new = {n.id: n for n in touched if n.label is PartLabel.HANDLE and n.id not in found}
+        found |= new
+        queue += new
+    return list(found.values())
 
 
 def stands_apart(handle: Box, part: PartNode, reach: float) -> bool:
@@ -74,8 +89,12 @@ def stands_apart(handle: Box, part: PartNode, reach: float) -> bool:
 
 
 def _stands_beside(handle: Box, part: PartNode) -> bool:
-    """Whether nothing of a handle lies before or behind a door or drawer, seen from where it may face."""
-    apart = (handle.low > part.box.high) | (part.box.low > handle.high)
+    """Whether nothing of a handle lies before or behind a door or drawer, seen from where it may face.
+
+    One that ends in the plane of a face lies before or behind it, not beside.
+    """
+    flush = _FLUSH * float(handle.size.max())
+    apart = (handle.low > part.box.high - flush) | (part.box.low > handle.high - flush)
     faces = (part.box.thin_axis,) if part.label is PartLabel.DOOR else (0, 1)
     return all(bool(np.delete(apart, axis).any()) for axis in faces)
 

@@ -1,6 +1,6 @@
 """Round doors of washing machines and dryers: a disc before the front panel is the door, and the panel stays."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from typing import final
 
@@ -11,6 +11,7 @@ from grafu.asset.part import Asset, Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.intersection import MeshCollider, SweptBody
 from grafu.joints.framed_leaves import relabelled
 from grafu.vocabulary import PartLabel
 
@@ -46,6 +47,8 @@ class PortholeConfig:
     """How far the disc may stand out of the panel's outline (fraction of the object's width)."""
     controls: float = 0.5
     """Least width of the control panel above the disc (fraction of the object's): a drawer for powder is narrower."""
+    sunk: float = 5e-4
+    """A disc that cuts deeper into what is none is fixed in it (fraction of the object's largest side)."""
 
     def __post_init__(self) -> None:
         require_ratios(self, *self.__dataclass_fields__)
@@ -66,10 +69,19 @@ def with_porthole_labels(asset: Asset, config: PortholeConfig = PortholeConfig()
     if others or any(not _lies_on(part.box, door.box, asset.box, config) for part in discs):
         return asset
     panels = {part.id: PartLabel.FACE_FRAME for part in _panels(door.box, asset, config)}
-    riding = {part.id for part in discs if part is not door and part.label is PartLabel.UNKNOWN}
+    loose = (part for part in discs if part is not door and part.label is PartLabel.UNKNOWN)
+    riding = {part.id for part in loose if not _is_sunk(part, asset, [disc.id for disc in discs], config)}
     found = relabelled(asset, {door.id: PartLabel.DOOR, **panels, **dict.fromkeys(riding, PartLabel.MISC)})
     parts = tuple(replace(p, carried_by=door.id) if p.id in riding else p for p in found.parts)
     return replace(found, parts=parts)
+
+
+def _is_sunk(disc: Part, asset: Asset, discs: Collection[str], config: PortholeConfig) -> bool:
+    """Whether a disc cuts into what is no disc: the ring of an opening, which stays."""
+    body = SweptBody(disc.mesh, config.sunk * float(asset.box.size.max()))
+    body.place(np.eye(4))
+    near = (p for p in asset.parts if p.id not in discs and p.carried_by not in discs and p.box.overlaps(disc.box))
+    return any(body.penetrates(MeshCollider(part.mesh)) for part in near)
 
 
 def _is_disc(part: Part, whole: Box, config: PortholeConfig) -> bool:

@@ -37,8 +37,10 @@ def with_small_parts(
     made, scaled = realized.object, at_scale(config, metre_on(asset.extent))
     requests = stated_requests(asset, realized, config) or found_requests(made, asset, scaled, chosen)
     changed, outcomes = with_small_joints(made, requests, scaled)
-    built = {outcome.moving for outcome in outcomes if isinstance(outcome, Installed)}
-    before = (o for o in realized.report.outcomes if not (isinstance(o, Refusal) and o.part in built))
+    built = [outcome for outcome in outcomes if isinstance(outcome, Installed)]
+    answered = {visual.name for one in built for visual in changed.link(one.moving).visuals}
+    answered |= {one.mount for one in built}  # what a knob turns on may be called a knob as well
+    before = (o for o in realized.report.outcomes if not (isinstance(o, Refusal) and o.part in answered))
     report = replace(realized.report, outcomes=(*before, *outcomes))
     return replace(realized, object=changed, report=report)
 

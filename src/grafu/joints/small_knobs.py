@@ -130,6 +130,9 @@ def knobs(
     small = [p for p in pieces if p.is_part and p.visual.label in _KNOBS and p.largest <= largest]
     for cluster in _clusters(small, config):
         turned = _turned(cluster, largest, config)
+        if turned is None and (plates := _plates(cluster, config)):
+            cluster = [piece for piece in cluster if piece.name not in plates]
+            turned = _turned(cluster, largest, config)
         if turned is None:
             continue
         (widest, ends), names = turned, [piece.name for piece in cluster]
@@ -193,6 +196,24 @@ def _turned(
     if not (fits and stout and config.knob[0] <= widest.diameter <= largest):
         return None
     return Round(widest.piece, axis, widest.diameter, *ends), ends
+
+
+def _plates(cluster: Sequence[Piece], config: SmallPartConfig) -> frozenset[str]:
+    """Returns the flat pieces of a cluster that are no disc, and wider than all that are round: a knob stands on them.
+
+    None of a cluster that is flat itself.
+    """
+    rounds = [one.diameter for piece in cluster for one in _rounds(piece, config)]
+    if not rounds:
+        return frozenset()
+    sides = {p.name: np.sort(Box.around(p.mesh.vertices @ part_axes(p.mesh)).size) for p in cluster}
+    return frozenset(
+        piece.name
+        for piece in cluster
+        if sides[piece.name][0] < config.stout * sides[piece.name][1]
+        and sides[piece.name][2] > max(rounds)
+        and not _rounds(piece, config)
+    )
 
 
 def _rounds(piece: Piece, config: SmallPartConfig) -> list[Round]:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grafu.asset.part import Asset
+from grafu.completion.controls import without_controls
 from grafu.completion.drawers_above_doors import with_drawers_above_doors
 from grafu.completion.dropping_doors import with_dropping_doors
 from grafu.completion.fixed_shelves import with_fixed_shelves
@@ -53,7 +54,7 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     door (`with_drawers_above_doors`); what is only guessed to be a drawer, and can be none, is a door
     (`with_lone_fronts`), as below a panel with knobs (`with_oven_doors`); what is only guessed to be a door or drawer
     stays static where it cannot be one (`with_static_guesses`). A shelf that is a board is fixed
-    (`with_fixed_shelves`).
+    (`with_fixed_shelves`), and knobs of appliances are controls (`without_controls`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
@@ -67,7 +68,7 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     drawn = with_thick_doors(complete_by_network(seen, network, network.features, named=named), asset)
     predicted = with_lone_fronts(with_drawers_above_doors(drawn, asset), asset)
     moved = _shaped(with_oven_doors(with_fixed_shelves(predicted, asset)), asset)
-    found = with_static_guesses(moved, asset)
+    found = without_controls(with_static_guesses(moved, asset), asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
         replace(node, points=None, source_name=names.get(node.id, node.source_name)) for node in found.completed.nodes
