@@ -7,6 +7,7 @@ drawer's side, back or bottom among them is no drawer where the input names fron
 that it touches, where the input does not say.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import final
@@ -124,10 +125,18 @@ def with_joined_pieces(
 
 
 def _inside_doors(parts: Sequence[Part], size: float, config: PieceConfig) -> list[tuple[Part, Part]]:
-    """Returns what is called a door and lies within another one, with that: a pane in its frame."""
+    """Returns what is called a door and lies within another one, with that: a pane in its frame.
+
+    Pieces of one object by their names, `lid` and `lid_1` of two materials, may stand out farther: bands around it.
+    """
     doors = sorted((p for p in parts if p.label is PartLabel.DOOR), key=lambda p: -face_area(p.box))
-    around = [door.box.grown(config.touch * size) for door in doors]
-    inner = ((k, i) for k, p in enumerate(doors) for i in range(k) if around[i].contains(p.box.corners()).all())
+
+    def is_inside(inner: Part, outer: Part) -> bool:
+        numbered = re.fullmatch(rf"{re.escape(outer.source.name)}[_.]\d+", inner.source.name)
+        spare = (config.stand_out if numbered else config.touch) * size
+        return bool(outer.box.grown(spare).contains(inner.box.corners()).all())
+
+    inner = ((k, i) for k, door in enumerate(doors) for i in range(k) if is_inside(door, doors[i]))
     return _followed([(doors[k], doors[i]) for k, i in dict(reversed(list(inner))).items()])
 
 
