@@ -55,7 +55,9 @@ def test_what_is_called_a_door_within_another_is_its_pane(left, joins):
     assert {p.id: len(p.surfaces) for p in parts} == ({"Doors.003": 2} if joins else {"Doors.002": 1, "Doors.003": 1})
 
 
-@pytest.mark.parametrize(("name", "joins"), [("lid_1", True), ("lid.001", True), ("lid_band", False), ("door_1", False)])
+@pytest.mark.parametrize(
+    ("name", "joins"), [("lid_1", True), ("lid.001", True), ("lid_band", False), ("door_1", False)]
+)
 def test_bands_around_a_lid_join_it_where_their_names_are_those_of_one_object(name, joins):
     lid = part("lid", (0, 0, 0.6), (1, 0.5, 0.8), PartLabel.DOOR)
     band = part(name, (0.1, -0.01, 0.6), (0.15, 0.51, 0.81), PartLabel.DOOR)

@@ -95,6 +95,23 @@ def test_a_top_and_its_legs_may_be_one_part():
     assert reasons(*guessed([merged, APRON], "frame")) == [Reason.CARRIES]
 
 
+MATTRESS = at("mattress", (-0.47, -0.47, 0.4), (0.47, 0.47, 0.55), PartLabel.MISC)
+BASE = at("base", (-0.48, -0.48, 0.3), (0.48, 0.48, 0.4))
+HEADBOARD = at("headboard", (-0.5, 0.48, 0.0), (0.5, 0.5, 0.9), PartLabel.BACK_PANEL)
+
+
+def test_the_base_of_a_bed_stands_on_its_legs_and_is_no_drawer():
+    (refusal,) = static_guesses(*guessed([HEADBOARD, MATTRESS, BASE, *legs(0.3)], "base"))
+    assert (refusal.reason, "legs carry it" in refusal.why) == (Reason.CARRIES, True)
+
+
+def test_what_legs_do_not_carry_may_be_a_drawer():
+    on_two = [HEADBOARD, MATTRESS, BASE, *legs(0.3)[:2]]
+    beside = [HEADBOARD, MATTRESS, BASE, *legs(0.4, aside=0.51)]
+    for parts in (on_two, beside):
+        assert Reason.CARRIES not in reasons(*guessed(parts, "base"))
+
+
 def test_what_stands_on_the_floor_under_all_else_is_no_door():
     parts = [at("shaft", (-0.2, -0.2, 0.0), (0.2, 0.2, 0.9)), at("cap", (-0.3, -0.3, 0.9), (0.3, 0.3, 1.1))]
     assert reasons(*guessed(parts, "shaft", PartLabel.DOOR)) == [Reason.CARRIES]

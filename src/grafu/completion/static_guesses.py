@@ -14,7 +14,7 @@ from grafu.completion.guessed_shapes import shape_against
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
-from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import triangle_bounds
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail, ends_of
@@ -30,7 +30,7 @@ class StaticGuessConfig:
     """From where on a part that is guessed to be a door or drawer moves.
 
     Raises:
-        ValueError: if a number is not between 0 and 1.
+        ValueError: if a fraction is not between 0 and 1, or `legs` not above 0.
     """
 
     slide: float = 0.5
@@ -47,6 +47,8 @@ class StaticGuessConfig:
     """... and what is above covers as much of it, seen from above (fraction)."""
     touch: float = 0.01
     """How far a part may end above the floor, or what it carries below its top (fraction of the largest side)."""
+    legs: int = 3
+    """So many legs that end below a part carry it."""
     closed: float = 0.8
     """What slides away from another front that covers this much of it is the case behind that front (fraction) ..."""
     front: float = 0.3
@@ -56,7 +58,8 @@ class StaticGuessConfig:
     of 55 real pieces whose names were hidden does in any."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name != "legs"))
+        require_positive(self, "legs")
 
 
 _UP = 2
@@ -121,6 +124,8 @@ def static_guesses(
         taken, held = taken_for(guess), _is_held(node, completion)
         if not held and (carried := _carried(node, completion, bounds, asset.box, config)):
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but {carried} stands on it and on nothing else")
+        elif not held and _stands_on_legs(node, completion, asset.box, config):
+            yield Refusal(node.id, Reason.CARRIES, f"{taken}, but legs carry it")
         elif not held and (front := _front_of_case(node, graph, asset.box, config)):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but it would slide away from {front}, which closes it")
         elif (not held and (why := _unlikely(node, guess, completion, config))) or (
@@ -182,6 +187,20 @@ def _carried(
     if not stands:
         return ""
     return next((n for n in sorted(supports) if bounds[n].covered(node.box, high - touch) >= config.covers), "")
+
+
+def _stands_on_legs(node: PartNode, completion: GraphCompletion, whole: Box, config: StaticGuessConfig) -> bool:
+    """Whether several legs end below a part that they touch, within its outline: the frame of a bed or a table."""
+    touch = config.touch * float(whole.size.max())
+    touched = (completion.completed.node(name) for name in completion.input.neighbours[node.id])
+    boxes = [other.box for other in touched if other.label is PartLabel.LEG]
+    under = [
+        box
+        for box in boxes
+        if abs(float(box.high[2] - node.box.low[2])) <= touch
+        and bool((box.center[:2] >= node.box.low[:2]).all() and (box.center[:2] <= node.box.high[:2]).all())
+    ]
+    return len(under) >= config.legs
 
 
 def _front_of_case(node: PartNode, graph: FunctionalGraph, whole: Box, config: StaticGuessConfig) -> str:
