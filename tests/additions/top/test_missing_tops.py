@@ -236,6 +236,21 @@ def test_a_basin_that_a_tap_stands_over_has_no_top_whatever_was_predicted() -> N
     assert verdict.why == "`basin` is a basin: `tap` stands over it"
 
 
+def test_a_shallow_basin_that_a_tap_stands_over_has_no_top() -> None:
+    low, high, deep = (-0.25, -0.18, H - 0.07), (0.25, 0.16, H), H - 0.05
+    tray = [
+        board("basin", low, (0.25, 0.16, deep)),
+        board("left", low, (-0.23, 0.16, H)),
+        board("right", (0.23, -0.18, low[2]), high),
+        board("before", low, (0.25, -0.16, H)),
+        board("behind", (-0.25, 0.14, low[2]), high),
+    ]
+    shallow = replace(tray[0], surfaces=tuple(surface for piece in tray for surface in piece.surfaces))
+    base = board("base", (-0.25, -0.18, 0.0), (0.25, 0.16, H - 0.07))
+    assert missing_top([base, shallow, tap()]).covered
+    assert missing_top([base, shallow]).addition is not None
+
+
 @pytest.mark.parametrize(
     "beside",
     [

@@ -79,7 +79,7 @@ def basin_with_tap(
     """
     level, opened, grid = coverage.level, coverage.opened, coverage.grid
     assert level is not None
-    deep = level - config.shallowest_basin * metre
+    deep = level - tap.shallowest * metre
     for part in roles.still:
         if abs(float(part.box.high[2]) - level) > config.basin_below * metre:
             continue

@@ -17,11 +17,13 @@ class TapConfig:
 
     bottom: float = 0.6
     """Fraction of what one looks into that is the bottom of the part whose rim it is at least."""
+    shallowest: float = 0.03
+    """Least depth of a basin that a tap stands over, metres on furniture of usual size."""
     rises: float = 0.03
     """Distance that a tap rises above the rim at least, metres on furniture of usual size."""
     size: float = 0.5
     """How long a tap is at most (fraction of the basin's shorter side)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "rises")
+        require_positive(self, "shallowest", "rises")
         require_ratios(self, "bottom", "size")
