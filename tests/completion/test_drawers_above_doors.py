@@ -65,7 +65,54 @@ def test_look_alikes_stay_doors(change):
     assert {hinge.child for hinge in completed(**change).hinges} == {"upper", "lower"}
 
 
-@pytest.mark.parametrize("name", ["wide", "low", "top", "off"])
+@pytest.mark.parametrize("name", ["wide", "low", "top", "alike", "off"])
 def test_a_setting_that_is_not_above_0_is_refused(name):
     with pytest.raises(ValueError, match=name):
         DrawerAboveConfig(**{name: 0.0})
+
+
+def stacked(below=((-0.24, -0.02, 0.1), (0.24, 0.0, 0.46)), guessed=True, handle=None):
+    """Returns the completion of a drawer of 0.48 x 0.36 m above what hangs as a door."""
+    upper = replace(box("upper", (-0.24, -0.02, 0.47), (0.24, 0.0, 0.83)), label=PartLabel.DRAWER)
+    knobs = [replace(box("knob", *handle), label=PartLabel.HANDLE)] if handle else []
+    asset = Asset("made", "", "made", (BODY, upper, replace(box("lower", *below), label=PartLabel.DOOR), *knobs))
+    graph = parse_graph(asset)
+    edges = [Rail("body", "upper", 2), Hinge("body", "lower", 0, 1), *(Attached("lower", "knob") for _ in knobs)]
+    labels = (Decision("lower", "label", "door", 0.99, "drawer", 0.01),) if guessed else ()
+    before = GraphCompletion(graph, with_edges(graph, edges), "network", decisions=labels)
+    return with_drawers_above_doors(before, asset).completed
+
+
+def test_a_front_of_the_size_of_the_drawer_right_above_it_slides_out():
+    assert {rail.child for rail in stacked().rails} == {"upper", "lower"}
+    held = stacked(handle=((-0.02, -0.05, 0.4), (0.02, -0.02, 0.42)))
+    assert {rail.child for rail in held.rails} == {"upper", "lower"}
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"guessed": False},
+        {"below": ((-0.24, -0.02, 0.02), (0.24, 0.0, 0.46))},
+        {"below": ((-0.24, -0.02, 0.0), (0.24, 0.0, 0.36))},
+        {"below": ((0.02, -0.02, 0.1), (0.5, 0.0, 0.46))},
+        {"handle": ((0.18, -0.05, 0.3), (0.22, -0.02, 0.34))},
+    ],
+    ids=["the input labels it", "it is higher", "it is far below", "it is aside", "a handle at its side"],
+)
+def test_what_is_not_alike_stays_a_door_below_a_drawer(changed):
+    assert [hinge.child for hinge in stacked(**changed).hinges] == ["lower"]
+
+
+def test_a_whole_stack_slides_out_from_one_drawer_on():
+    fronts = [
+        replace(box(f"front_{k}", (-0.24, -0.02, z), (0.24, 0.0, z + 0.2)), label=PartLabel.DOOR)
+        for k, z in enumerate((0.02, 0.23, 0.44))
+    ]
+    fronts.append(replace(box("front_3", (-0.24, -0.02, 0.65), (0.24, 0.0, 0.85)), label=PartLabel.DRAWER))
+    asset = Asset("made", "", "made", (BODY, *fronts))
+    graph = parse_graph(asset)
+    edges = [*(Hinge("body", f"front_{k}", 0, 1) for k in range(3)), Rail("body", "front_3", 2)]
+    labels = tuple(Decision(f"front_{k}", "label", "door", 0.9, "drawer", 0.1) for k in range(3))
+    before = GraphCompletion(graph, with_edges(graph, edges), "network", decisions=labels)
+    assert len(with_drawers_above_doors(before, asset).completed.rails) == 4

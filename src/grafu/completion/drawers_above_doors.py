@@ -1,10 +1,12 @@
-"""What is only guessed to be a door, low and wide right above a higher door of its width, is a drawer.
+"""Guessed doors that are drawers: low and wide right above a higher door of their width, or in a stack with a drawer.
 
 So cupboards, sideboards and washstands are built: a drawer below the top, and doors below it. A flap above a door is
-rare, and stands higher.
+rare, and stands higher. Fronts of one size right above one another are those of a chest or a filing cabinet.
 """
 
 from typing import Final, final
+
+import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.completion.lone_fronts import is_alone
@@ -39,36 +41,68 @@ class DrawerAboveConfig:
     """How far its sides, and the door's upper border, lie from those of the other at most (fraction of its width)."""
     top: float = 1.1
     """How high above the floor it ends at most (m)."""
+    alike: float = 0.03
+    """By how much the sides of fronts of one size differ at most (fraction of each side)."""
     off: float = 0.25
     """A handle so far off its middle (fraction of the width) is that of a door."""
 
     def __post_init__(self) -> None:
         require_positive(self, "wide", "top")
-        require_ratios(self, "low", "aligned", "off")
+        require_ratios(self, "low", "aligned", "alike", "off")
 
 
 def with_drawers_above_doors(
     completion: GraphCompletion, asset: Asset, config: DrawerAboveConfig = DrawerAboveConfig()
 ) -> GraphCompletion:
-    """Returns the completion in which guessed doors that are low, wide and right above a door slide out.
+    """Returns the completion in which guessed doors slide out that are low, wide and right above a door, or in a stack.
 
     What the input labels as a door stays one, and so does what has a handle off its middle.
     """
     graph = completion.completed
+    doors = [graph.node(hinge.child).box for hinge in graph.hinges if graph.node(hinge.child).box.thin_axis == _DEPTH]
+    low = [
+        hinge
+        for hinge in _guessed(completion, asset, config)
+        if is_alone(hinge.child, graph)
+        and any(_is_above(graph.node(hinge.child).box, other, config) for other in doors)
+    ]
+    completion = as_drawers(completion, low) if low else completion
+    while stacked := [hinge for hinge in _guessed(completion, asset, config) if _is_stacked(hinge, completion, config)]:
+        completion = as_drawers(completion, stacked)
+    return completion
+
+
+def _guessed(completion: GraphCompletion, asset: Asset, config: DrawerAboveConfig) -> list[Hinge]:
+    """Returns the hinges of fronts that are only guessed to be doors, and may be drawers."""
+    graph = completion.completed
     guessed = {d.part for d in completion.decisions if d.question == "label" and d.choice == PartLabel.DOOR}
     given = {part.id for part in asset.parts}
-    hinges = [h for h in graph.hinges if h.coupling is None and graph.node(h.child).box.thin_axis == _DEPTH]
-    boxes = [graph.node(hinge.child).box for hinge in hinges]
-    found = [
+    return [
         hinge
-        for hinge, box in zip(hinges, boxes, strict=True)
+        for hinge in graph.hinges
         if hinge.child in guessed
-        and box.high[_UP] - graph.box.low[_UP] <= config.top
-        and is_alone(hinge.child, graph)
-        and any(_is_above(box, other, config) for other in boxes)
+        and hinge.coupling is None
+        and graph.node(hinge.child).box.thin_axis == _DEPTH
+        and graph.node(hinge.child).box.high[_UP] - graph.box.low[_UP] <= config.top
         and not _is_held_aside(hinge, graph, given, config)
     ]
-    return as_drawers(completion, found) if found else completion
+
+
+def _is_stacked(hinge: Hinge, completion: GraphCompletion, config: DrawerAboveConfig) -> bool:
+    """Whether the front of a drawer that has the size of a door is right above or below it."""
+    graph = completion.completed
+    door = graph.node(hinge.child).box
+    drawers = (graph.node(rail.child).box for rail in graph.rails if rail.child != hinge.child)
+    return any(_is_alike(door, box, config) for box in drawers)
+
+
+def _is_alike(door: Box, drawer: Box, config: DrawerAboveConfig) -> bool:
+    """Whether the outlines of two fronts are of one size, one right above the other, their faces in one plane."""
+    across, near = [_LEVEL, _UP], config.aligned * float(door.size[_LEVEL])
+    is_one_size = np.all(np.abs(door.size - drawer.size)[across] <= config.alike * door.size[across])
+    apart = max(abs(float(end)) for end in (*(door.low - drawer.low)[:2], (door.high - drawer.high)[_LEVEL]))
+    gap = max(float(door.low[_UP] - drawer.high[_UP]), float(drawer.low[_UP] - door.high[_UP]))
+    return bool(is_one_size and apart <= near and -near <= gap <= near)
 
 
 def _is_above(front: Box, door: Box, config: DrawerAboveConfig) -> bool:
