@@ -48,13 +48,14 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     """Returns the graph as the network completes it: that in the file `weights`, or the one that came with the package.
 
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
-    left or right side (`with_round_doors`), and so do high ones (`with_tall_doors`); those of ovens hang on their lower
-    border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`). What is only
-    guessed to be a door, and is too thick, is a drawer (`with_thick_doors`), and so is what is low and wide above a
-    door, or of the size of the drawer right above or below it (`with_drawers_above_doors`); what is only guessed to be a drawer, and can be none, is a door
-    (`with_lone_fronts`), as below a panel with knobs (`with_oven_doors`); what is only guessed to be a door or drawer
-    stays static where it cannot be one (`with_static_guesses`). A shelf that is a board is fixed
-    (`with_fixed_shelves`), and knobs of appliances are controls (`without_controls`).
+    left or right side (`with_round_doors`), and so do high ones (`with_tall_doors`); those of ovens hang on their
+    lower border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`). What is
+    only guessed to be a door, and is too thick, is a drawer (`with_thick_doors`), and so is what is low and wide
+    above a door, or of the size of the drawer right above or below it (`with_drawers_above_doors`); what is only
+    guessed to be a drawer, and can be none, is a door (`with_lone_fronts`), as below a panel with knobs
+    (`with_oven_doors`); what is only guessed to be a door or drawer stays static where it cannot be one
+    (`with_static_guesses`). A shelf that is a board is fixed (`with_fixed_shelves`), and knobs of appliances are
+    controls (`without_controls`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
