@@ -76,6 +76,38 @@ def test_what_the_input_calls_a_door_stays_one():
     assert set(moved(turning(TALL), turning(named), parts=[TALL, named])) == {"tall", "pane"}
 
 
+BEHIND_GLASS = board("frame", (0.02, -0.02, 0.0), (0.48, 0.0, 1.0), PartLabel.DOOR)
+PULLS = [
+    board(name, (x, -0.06, 0.5), (x + 0.02, -0.03, 0.6), label)
+    for name, x, label in (
+        ("pull", 0.4, PartLabel.HANDLE),
+        ("lever", 0.4, PartLabel.HANDLE),
+        ("pane", 0.1, PartLabel.MISC),
+    )
+]
+GLASS = board("glass", (0.0, -0.03, 0.0), (0.5, -0.02, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("frame", "glass", "is_one"),
+    [
+        (turning(BEHIND_GLASS), turning(GLASS, "pull"), True),
+        (turning(BEHIND_GLASS, "pull"), turning(GLASS), True),
+        (turning(BEHIND_GLASS, "pane"), turning(GLASS, "pull"), True),
+        (turning(BEHIND_GLASS), turning(GLASS), False),
+        (turning(BEHIND_GLASS, "lever"), turning(GLASS, "pull"), False),
+    ],
+    ids=["a pull on the glass", "a pull on the frame", "a pane on the frame", "no pull", "a pull on each"],
+)
+def test_layers_that_touch_and_have_one_pull_are_one_door_whatever_they_are_called(frame, glass, is_one):
+    assert (len(moved(frame, glass, parts=[BEHIND_GLASS, GLASS, *PULLS])) == 1) is is_one
+
+
+def test_what_the_user_states_to_move_by_itself_is_no_layer():
+    plan = RealizationPlan((turning(BEHIND_GLASS), turning(GLASS, "pull")))
+    assert len(with_layered_fronts(plan, scene(BEHIND_GLASS, GLASS, *PULLS), settled=("frame",)).joints) == 2
+
+
 TRAY = board("tray", (0.0, 0.0, 0.0), (0.5, 0.5, 0.15))
 PLATE = board("plate", (-0.02, -0.02, 0.01), (0.52, 0.0, 0.16))
 BEHIND = board("plate", (-0.02, 0.5, 0.01), (0.52, 0.52, 0.16))

@@ -1,8 +1,9 @@
-"""One front drawn as several parts that nothing names: a leaf in layers, a plate before the box of a drawer.
+"""One front drawn as several parts: a leaf in layers, a plate before the box of a drawer.
 
-Each part was guessed to be a door or a drawer of its own; they move as one.
+Each part was guessed to be a door or a drawer of its own, or is called a door; they move as one.
 """
 
+from collections.abc import Collection
 from dataclasses import replace
 from typing import final
 
@@ -26,9 +27,11 @@ class LayerConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("gap",)
+    LENGTHS = ("gap", "named_gap")
     gap: float = 0.01
     """How far a layer lies before or behind the other at most (metres): with more between them they are two."""
+    named_gap: float = 0.002
+    """The same where one of the two is called a door by the input (metres)."""
     shared: float = 0.8
     """What the outlines of two layers of a leaf share at least (fraction of the smaller one) ..."""
     plate: float = 0.5
@@ -39,23 +42,32 @@ class LayerConfig:
     """Greatest thickness of such a plate, of the depth of the drawer behind it (fraction)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "gap")
+        require_positive(self, "gap", "named_gap")
         require_ratios(self, "shared", "plate", "within", "thin")
 
 
-def with_layered_fronts(plan: RealizationPlan, asset: Asset, config: LayerConfig = LayerConfig()) -> RealizationPlan:
-    """Returns the plan in which nameless layers of one front move as one, by the joint of the largest.
+def with_layered_fronts(
+    plan: RealizationPlan, asset: Asset, settled: Collection[str] = (), config: LayerConfig = LayerConfig()
+) -> RealizationPlan:
+    """Returns the plan in which layers of one front move as one, by the joint of the largest.
 
-    What the input names and what moves on another part stay as they are, and so do two that lie before one another and
-    carry something each: handles of their own.
+    What moves on another part stays as it is, and so do two that lie before one another and carry something each:
+    handles of their own. What the input calls a door is a layer where just one of the two has a handle, and they touch.
+
+    Args:
+        plan: the joints.
+        asset: all parts.
+        settled: the parts whose motions the user states, which stay.
+        config: the thresholds.
     """
-    names = [r.moving for r in plan.joints if asset.part(r.moving).label is PartLabel.UNKNOWN]
-    if len(names) < 2:
+    if len(plan.joints) < 2:
         return plan
+    names = [r.moving for r in plan.joints if asset.part(r.moving).label is PartLabel.UNKNOWN]
     config, guessed = at_scale(config, metre_on(asset.extent)), frozenset(names)
     kept: list[JointRequest] = []
     for request in sorted(plan.joints, key=lambda r: -float(np.prod(np.sort(asset.part(r.moving).box.size)[1:]))):
         on = next((k for k, other in enumerate(kept) if _is_layer(request, other, guessed, asset, config)), None)
+        on = None if request.moving in settled else on
         if on is None:
             kept.append(request)
         else:
@@ -71,10 +83,13 @@ def _is_layer(
 ) -> bool:
     """Whether a part is a layer of a larger front: of a leaf that turns, or the plate before a drawer that slides."""
     both = (request, front)
-    if any(r.moving not in guessed or r.parent or r.coupling for r in both) or request.type is not front.type:
+    if any(r.parent or r.coupling for r in both) or request.type is not front.type:
         return False
     one, other = asset.part(request.moving).box, asset.part(front.moving).box
-    are_held = bool(request.attached and front.attached)
+    are_held, is_named = bool(request.attached and front.attached), any(r.moving not in guessed for r in both)
+    if is_named and (not front.kind.turns or sum(_has_handle(r, asset) for r in both) != 1):
+        return False
+    are_held = are_held and not is_named
     if not front.kind.turns:
         return not are_held and _is_plate(one, other, front, config)
     axis = other.thin_axis
@@ -82,7 +97,13 @@ def _is_layer(
         return False
     common = float(min(one.high[axis], other.high[axis]) - max(one.low[axis], other.low[axis]))
     thinner = float(min(one.size[axis], other.size[axis]))
-    return common >= -config.gap and (not are_held or 0 < config.within * thinner <= common)
+    return common >= -(config.named_gap if is_named else config.gap) and (
+        not are_held or 0 < config.within * thinner <= common
+    )
+
+
+def _has_handle(request: JointRequest, asset: Asset) -> bool:
+    return any(asset.part(name).label is PartLabel.HANDLE for name in request.attached)
 
 
 def _shared_ratios(one: Box, other: Box, axis: int) -> tuple[float, float]:

@@ -72,7 +72,7 @@ def shown_by_shape(
 
     `settled` are the parts whose motions the user states; `small` is as in the settings.
     """
-    plan = with_layered_fronts(_without_small(plan, asset, graph, settled, joints.plan), asset)
+    plan = with_layered_fronts(_without_small(plan, asset, graph, settled, joints.plan), asset, settled)
     plan = with_lone_leaf(with_windows(with_building_doors(plan, asset), asset), asset, settled)
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
