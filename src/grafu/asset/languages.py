@@ -39,7 +39,7 @@ GERMAN: Final = """
     hinge: scharnier scharniere topfband
     rail: schiene schienen fuhrungsschiene laufschiene
     toe kick: sockel sockelblende sockelleiste
-    panel: blende platte paneel
+    panel: blende platte paneel; filler panel: passblende passleiste
     wall: wand
     side: seite seiten
     floor: boden

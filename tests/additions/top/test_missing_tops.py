@@ -26,6 +26,8 @@ from topless import (
 
 from grafu.additions.top.complete import missing_top
 from grafu.additions.top.config import TopConfig
+from grafu.additions.top.evidence import basin_with_tap
+from grafu.additions.top.roles import roles_of
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
@@ -249,6 +251,15 @@ def test_a_shallow_basin_that_a_tap_stands_over_has_no_top() -> None:
     base = board("base", (-0.25, -0.18, 0.0), (0.25, 0.16, H - 0.07))
     assert missing_top([base, shallow, tap()]).covered
     assert missing_top([base, shallow]).addition is not None
+
+
+def test_where_nothing_is_open_there_is_no_basin() -> None:
+    parts = [basin(), tap()]
+    seen = missing_top(parts, hint=PREDICTED).coverage
+    assert seen is not None
+    roles, evidence = roles_of(parts, (), TopConfig().upright), TopConfig().evidence
+    assert basin_with_tap(roles, seen, evidence, 1.0) is not None
+    assert basin_with_tap(roles, replace(seen, near_top=seen.everything), evidence, 1.0) is None
 
 
 @pytest.mark.parametrize(

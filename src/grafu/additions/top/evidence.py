@@ -85,7 +85,7 @@ def basin_with_tap(
             continue
         own = heights_of(part.mesh.triangles, grid)[opened]
         bottom = (own <= deep) & (own >= level - config.deepest_basin * metre)
-        if bottom.sum() < tap.bottom * len(own):
+        if not bottom.any() or bottom.sum() < tap.bottom * len(own):
             continue
         low = float(own[bottom].min())
         if any(moves.mesh.box.low[2] < deep and moves.mesh.box.high[2] > low for moves in roles.moving):
