@@ -31,6 +31,7 @@ from grafu.asset.lasso_cut import LassoConfig
 from grafu.asset.leaf_pieces import LeafPieceConfig
 from grafu.asset.link_groups import LinkGroupConfig
 from grafu.asset.loose import LooseConfig
+from grafu.asset.lying_handles import LyingHandleConfig
 from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.one_front import HeldTogetherConfig
 from grafu.asset.partnet_mobility import StandingConfig
@@ -59,6 +60,7 @@ from grafu.completion.round_doors import RoundDoorConfig
 from grafu.completion.static_guesses import StaticGuessConfig
 from grafu.completion.tall_doors import TallDoorConfig
 from grafu.completion.thick_doors import ThickDoorConfig
+from grafu.completion.wall_panels import WallPanelConfig
 from grafu.completion.ways_out import WayOutConfig
 from grafu.dataset.config import DescriptorConfig
 from grafu.export.gltf_packing import DracoConfig
@@ -245,7 +247,7 @@ CONFIGS = (
     LassoConfig,
     FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LeafPieceConfig,
     BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
-    LevelBarConfig, LoneFrontConfig, OvenDoorConfig,
+    LevelBarConfig, LoneFrontConfig, LyingHandleConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
@@ -254,7 +256,7 @@ CONFIGS = (
     StandingConfig, StandingOutConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DrawerAboveConfig, DroppingDoorConfig, JoiningConfig,
     TallDoorConfig, ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
-    WayOutConfig,
+    WallPanelConfig, WayOutConfig,
 )  # fmt: skip
 NUMBERS = [
     (kind, f.name)

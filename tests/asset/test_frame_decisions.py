@@ -317,3 +317,14 @@ def test_where_labels_disagree_x_is_not_up():
     top = replace(box("top", (0.0, 0.9, 0.0), (2.1, 0.94, 0.6)), label=PartLabel.TOP_PANEL)
     assert up_votes((*fillers, top), whole_box((*fillers, top))).best == "+X"
     assert settle_frame(Reading("made", (*fillers, top), UNKNOWN), LoadOptions()).up == "+Y"
+
+
+@pytest.mark.parametrize(("by", "front"), [("shape", "-Y"), ("name", "-X")])
+def test_a_drawer_known_by_its_box_alone_does_not_turn_what_fronts_were_cut_out_of(by, front):
+    """At the end of a row of units such a box is nearest to that end; what a name calls a drawer is believed."""
+    case = replace(box("Object_1", (-1.0, -0.02, 0.0), (1.0, 0.6, 0.8)), labelled_by="none")
+    drawer = replace(box("Object_2", (-1.0, 0.08, 0.1), (-0.4, 0.5, 0.4)), label=PartLabel.DRAWER, labelled_by=by)
+    bars = [box(f"Object_b{k}", (x, -0.05, 0.2), (x + 0.1, -0.02, 0.22)) for k, x in enumerate((-0.75, -0.05, 0.65))]
+    parts = (case, drawer, *(replace(bar, labelled_by="none") for bar in bars))
+    reading = Reading("mesh file", parts, Convention("OBJ", usual_up="+Z"), fronts_face="-Y")
+    assert settle_frame(reading, LoadOptions(up="+Z")).front == front

@@ -1,5 +1,7 @@
 """What is called a door but stands around doors is their frame; a leaf's own frame stays a door with its pane."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -29,6 +31,10 @@ def ring(name="frame_door", sill=False, depth=0.1):
 
 def leaf(name, low, high, floor=0.0):
     return part(name, ((low, -0.02, floor), (high, 0.02, 2.04)))
+
+
+def nameless(number, *boards):
+    return replace(part(f"Object_{number}", *boards), label=PartLabel.UNKNOWN)
 
 
 PAIR = ((0.06, 0.899), (0.901, 1.74))
@@ -65,6 +71,18 @@ def test_doors_that_fill_little_of_a_ring_and_a_plate_behind_doors_make_no_frame
     assert frames(ring(sill=True), *hatches) == []
     panel = part("doors", ((0, 0.02, 0), (1.8, 0.04, 2.1)))
     assert frames(panel, *(leaf(f"door_{k}", *ends) for k, ends in enumerate(PAIR))) == []
+
+
+@pytest.mark.parametrize("name", ["door_frame", "Türrahmen"])
+def test_what_is_called_a_doors_frame_holds_leaves_without_a_name(name):
+    """The two leaves of a stable door stand one above the other; below the pane of one leaf runs a rail."""
+    heights = ((0, 1), (1.01, 2.04))
+    lower, upper = (nameless(k, ((0.06, -0.02, low), (1.74, 0.02, high))) for k, (low, high) in enumerate(heights))
+    assert frames(ring(name), lower, upper) == [name]
+    assert frames(ring("door"), lower, upper) == []
+    assert frames(ring(name), lower) == []
+    pane = nameless(3, ((0.06, -0.02, 0.06), (1.74, 0.02, 2.04)))
+    assert frames(ring(name, sill=True), pane) == []
 
 
 def test_what_the_input_states_to_open_is_the_leaf_and_what_stands_around_it_is_not():

@@ -78,6 +78,27 @@ def test_a_nameless_cabinet_on_its_knobs_has_the_other_usual_direction_up():
     assert stands_on_another_side(in_pose(cabinet(), "+Y", "+Z"), "+Y", "+Z") is None
 
 
+def kitchen_run(handle: float = 0.035) -> tuple[Part, ...]:
+    """Returns units in a row that rest on a thin plinth in front alone, a bar on each door, which stands out so far."""
+    doors = [(x, x + 0.597) for x in (-0.9, -0.3, 0.3)]
+    fronts = [box(f"d{x}", (x, -0.58, 0.1), (end, -0.56, 0.8)) for x, end in doors]
+    at = [doors[0][0] + 0.03, doors[1][0] + 0.03, doors[2][1] - 0.05]
+    bars = [box(f"h{x}", (x, -0.58 - handle, 0.13), (x + 0.02, -0.58, 0.78)) for x in at]
+    top = box("top", (-0.9, -0.58, 0.82), (0.9, 0.0, 0.86))
+    case, toe = box("case", (-0.9, -0.55, 0.1), (0.9, 0.0, 0.82)), box("toe", (-0.9, -0.5, 0.0), (0.9, -0.48, 0.1))
+    return (case, top, toe, *fronts, *bars)
+
+
+def test_handles_on_fronts_are_no_legs():
+    """The back of a row of units is broad, and its handles lie in a plane before it: it does not lie on them."""
+    upright = in_pose(kitchen_run(), "+Y", "+Z")
+    assert stands_on_another_side(upright, "+Y", "+Z") is None
+    # bars as long as legs, on nothing that is as broad within their length, are what it stands on
+    low = [box(f"leg_{x}{y}", (x, y, 0.0), (x + 0.05, y + 0.05, 0.2)) for x in (-0.6, 0.55) for y in (-0.4, 0.35)]
+    bench = in_pose((box("plate", (-0.65, -0.45, 0.2), (0.65, 0.45, 0.4)), *low), "+X", "+Z")
+    assert stands_on_another_side(bench, "+Y", "+Z") == "+X"
+
+
 def test_what_the_user_or_a_label_states_overrules_what_it_rests_on():
     parts = in_pose(table(), "+Z", "-Y")
     assert settle_frame(Reading("glb", parts, GLTF), LoadOptions(up="+Y")).up == "+Y"

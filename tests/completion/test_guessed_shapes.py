@@ -199,6 +199,15 @@ def test_what_no_rail_carries_is_judged_as_a_drawer_that_opens_to_the_front():
     assert "no bottom" in shape_against(graph.node("guess"), asset, graph)
 
 
+@pytest.mark.parametrize(("width", "is_static"), [(0.03, False), (0.3, True)])
+def test_a_knob_in_one_with_its_front_makes_no_door_too_thick(width, is_static):
+    """What stands out of it has little of its surface; a block on it makes it one."""
+    front, middle = box("front", (0.02, -0.02, 0.6), (0.58, 0.0, 0.72)), 0.3
+    knob = box("knob", (middle - width / 2, -0.06, 0.66 - min(width, 0.1) / 2), (middle + width / 2, -0.02, 0.68))
+    door = merged("guess", front, knob)
+    assert ("too thick" in why([*BASE_CASE, door], edge=Hinge("left", "guess", 0, 1))) is is_static
+
+
 def test_a_board_of_a_post_is_no_door_and_that_of_a_slim_cabinet_is():
     edge = Hinge("board", "guess", 0, 1)
 

@@ -320,3 +320,12 @@ def test_which_doors_slide_past_each_other_can_be_chosen(chosen, slides):
     graph = scene(**case(), door_1=([0.02, -0.02, 0.02], [0.55, 0.0, 0.98]), door_2=behind)
 
     assert len(complete_by_rule(graph, RuleConfig(rows=RowConfig(**chosen))).completed.slides) == slides
+
+
+@pytest.mark.parametrize(("gap", "planes", "slides"), [(0.004, 0.0, 0), (-0.04, 0.02, 2), (-0.04, 0.0, 0)])
+def test_doors_that_are_faces_slide_past_each_other_only_in_two_planes(gap, planes, slides):
+    """Drawn without thickness in one plane they would slide into each other: they are a pair that swings."""
+    left = ([0.02, 0.0, 0.02], [0.5 - gap / 2, 0.0, 0.98])
+    right = ([0.5 + gap / 2, planes, 0.02], [0.98, planes, 0.98])
+    completed = complete_by_rule(scene(**case(), door_1=left, door_2=right)).completed
+    assert (len(completed.slides), len(completed.hinges)) == (slides, 2 - slides)

@@ -118,3 +118,16 @@ def test_a_leaf_that_is_seen_from_above_and_below_stays_as_predicted(sign):
     graph = parse_graph(replace(asset, parts=boards), ParsingConfig(contact="none"))
     leaf = replace(completion, input=graph, completed=with_edges(graph, completion.completed.hinges))
     assert with_ways_out(leaf, replace(asset, parts=boards)) is leaf
+
+
+@pytest.mark.parametrize(("score", "without", "front"), [(0.5, (), 2), (0.9, (), 3), (0.5, ("back",), 3)])
+def test_an_upright_door_opens_to_where_it_is_seen_if_that_was_not_clear(score, without, front):
+    """What is clear is believed, and a leaf that is seen from both sides does not tell."""
+    boards = [replace(box(n, *ends), label=PartLabel.SIDE_PANEL) for n, ends in CASE.items() if n not in without]
+    asset = Asset("made", "", "made", (*boards, replace(box("door", *PLATE), label=PartLabel.DOOR)))
+    graph = parse_graph(asset, ParsingConfig(contact="none"))
+    inwards = next(sign for sign in (0, 1) if opening_face(1, 0, sign) == 3)
+    predicted = Decision("door", "sign", str(inwards), score, str(1 - inwards), 1 - score)
+    hinged = with_edges(graph, [Hinge("left", "door", 0, inwards)])
+    (hinge,) = with_ways_out(GraphCompletion(graph, hinged, "network", (), (predicted,)), asset).completed.hinges
+    assert opening_face(1, hinge.border, hinge.sign) == front

@@ -4,6 +4,7 @@ from math import pi, radians
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -44,6 +45,21 @@ def test_a_turned_board_among_straight_ones_turns_nothing():
     straight = [BOARD, BOARD.translated(vec3(0.0, 0.5, 0.0))]
     assert heading_of([*straight, turned(BOARD, 0.5)]) == 0.0
     assert heading_of([BOARD, *(turned(BOARD, 0.5) for _ in range(3))]) == pytest.approx(0.5, abs=1e-9)
+
+
+def rough(mesh: TriangleMesh, height: float, seed: int = 3) -> TriangleMesh:
+    """Cut into small faces, the corners of which lie off by up to this height, as a scan or a generator makes it."""
+    fine = mesh.to_trimesh().subdivide_to_size(0.03)
+    off = np.random.default_rng(seed).uniform(-height, height, fine.vertices.shape)
+    return TriangleMesh(np.asarray(fine.vertices) + off, np.asarray(fine.faces, dtype=np.int64))
+
+
+def test_a_rough_surface_says_how_its_walls_run_as_a_whole():
+    """Few of its faces lie along one direction; a round table has no direction, however rough."""
+    case = TriangleMesh.box_mesh(Box(vec3(-0.5, -0.25, 0.0), vec3(0.5, 0.25, 1.8)))
+    assert apart(heading_of([turned(rough(case, 0.001), radians(7.0))], least=0.5), radians(7.0)) < radians(0.5)
+    round_top = TriangleMesh.from_trimesh(trimesh.creation.cylinder(0.5, 0.7, sections=64))
+    assert heading_of([turned(rough(round_top, 0.001), radians(7.0))], least=0.5) == 0.0
 
 
 def test_a_corner_cabinet_stands_as_its_walls_do():

@@ -108,6 +108,22 @@ def test_doors_that_lie_on_walls_without_thickness_are_closed(angle: float):
     assert angles(asset) == pytest.approx({"door_0": angle, "door_1": angle}, abs=TOLERANCE)
 
 
+@pytest.mark.parametrize("count", [1, 2])
+def test_faces_side_by_side_in_one_plane_are_closed_as_they_are_drawn(count: int):
+    """Drawn without thickness, and with gaps below and above, a front alone would fit along the side of its case."""
+    walls = [
+        sheet("left", (-0.42, -0.25, 0.0), (-0.41, 0.25, 0.72)),
+        sheet("bottom", (-0.42, -0.25, 0.0), (0.42, 0.25, 0.01)),
+        sheet("top", (-0.42, -0.25, 0.72), (0.42, 0.25, 0.73)),
+        sheet("back", (-0.42, 0.25, 0.0), (0.42, 0.26, 0.72)),
+    ]
+    ends = ((-0.42, -0.002), (0.002, 0.42))[:count]
+    doors = [sheet(f"door_{k}", (x0, -0.25, 0.035), (x1, -0.24, 0.685)) for k, (x0, x1) in enumerate(ends)]
+    axes = (OVERLAY, Axis(vec3(0.42, -0.25, 0.0), UPRIGHT))[:count]
+    asset = scene(*walls, *doors, joints=tuple(hinged(f"door_{k}", axis) for k, axis in enumerate(axes)))
+    assert (max(angles(asset).values()) > 0) == (count == 1)
+
+
 @pytest.mark.parametrize(("left", "right"), [(0.5, 0.0), (0.4, 1.2), (pi / 2, pi / 2)])
 def test_each_door_of_a_pair_is_closed_by_itself(left: float, right: float):
     assert angles(pair(left, right)) == pytest.approx({"door": left, "door_2": right}, abs=TOLERANCE)

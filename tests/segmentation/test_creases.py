@@ -11,7 +11,8 @@ from grafu.asset.load import load_asset
 from grafu.errors import UnsegmentedAsset
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.creases import CreasedSurface, back_of, drawn_fronts
+from grafu.segmentation.backs import back_of
+from grafu.segmentation.creases import CreasedSurface, drawn_fronts
 from grafu.segmentation.surface_config import CreaseConfig
 from solids import as_mesh, solid
 
@@ -75,6 +76,14 @@ def test_a_low_step_along_a_wide_frame_is_a_corner():
             mesh = merge_meshes([TriangleMesh(*half) for half in halves])
     pieces = cut(mesh)[0]
     assert [mesh.with_faces(p.faces).box.high[1] for p in pieces if p.role == "front"] == pytest.approx([0.0, 0.0])
+
+
+def test_straps_on_the_edge_of_a_lid_do_not_part_it_into_drawers():
+    """Each face between two straps has a piece of the lid behind it, as deep as a drawer."""
+    lid = solid((-0.02, -0.02, 0.9), (1.02, 0.68, 0.97))
+    for x in (0.25, 0.6):
+        lid += solid((x, -0.03, 0.9), (x + 0.02, -0.01, 0.97))
+    assert cut(as_mesh(lid), as_mesh(solid((0, 0, 0), (1, 0.66, 0.9)))) == {}
 
 
 @pytest.mark.parametrize("turn", [1, 2, 3])

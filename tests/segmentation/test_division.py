@@ -376,6 +376,17 @@ def test_a_low_drawer_of_one_piece_of_a_wide_row_is_compared_with_that_piece(is_
     assert [role for role, _ in found[0]].count("front") == count
 
 
+@pytest.mark.parametrize(("height", "count"), [(0.09, 6), (0.06, 0)])
+def test_flat_drawers_for_plans_are_cut_out_where_a_handle_stands_on_them(height, count):
+    """They are more than twelve times as wide as high; rails and mouldings are flatter, whatever stands on them."""
+    body, levels = board((-0.6, 0.0, 0.0), (0.6, 0.8, 0.7)), [0.05 + 0.1 * k for k in range(6)]
+    fronts = [board((-0.58, -0.018, z), (0.58, 0.0, z + height)) for z in levels]
+    pulls = [board((-0.05, -0.04, z + 0.03), (0.05, -0.018, z + 0.05)) for z in levels]
+    found = cut(merge_meshes([body, *fronts, *pulls]))
+    assert len(boxes(found, "front")) == count
+    assert cut(merge_meshes([body, *fronts])) == {}, "no handle tells that these are no boards"
+
+
 def test_a_low_upright_strip_with_a_knob_is_no_drawer():
     stile = board((-0.67, -0.39, 0.05), (-0.61, -0.37, 0.70))
     knob = board((-0.65, -0.42, 0.4), (-0.63, -0.39, 0.42))
@@ -414,6 +425,23 @@ def test_a_handle_on_the_only_door_is_parted_from_the_case_that_it_is_one_object
     assert boxes(found, "on front") == rounded([bar])
     assert [role for role, _ in found[0]].count("rest") == 1
     assert cut(merge_meshes([*CHEST, through]), door) == {}
+
+
+UNITS = [
+    *(board((x, 0.0, 0.0), (x + 0.02, 0.4, 0.5)) for x in (-0.45, -0.01, 0.43)),
+    *(board((-0.43, 0.0, z), (0.43, 0.4, z + 0.02)) for z in (0.0, 0.48)),
+    *(board((x, 0.401, 0.01), (x + 0.42, 0.406, 0.49)) for x in (-0.44, 0.02)),  # their backs, seen from behind
+]
+LEAVES = [board((x, -0.02, 0.0), (x + 0.44, 0.0, 0.5)) for x in (-0.45, 0.01)]
+
+
+@pytest.mark.parametrize("bars", [2, 0])
+def test_handles_of_several_fronts_show_that_the_backs_of_units_are_none(bars):
+    """All handles are one object, and all boards of the case another; without any, what is cut is of no account."""
+    handles = [board((x, -0.05, 0.2), (x + 0.02, -0.02, 0.3)) for x in (-0.06, 0.04)][:bars]
+    found = cut(merge_meshes(UNITS), *LEAVES, *([merge_meshes(handles)] if bars else []))
+    assert boxes(found, "on front") == rounded(handles)
+    assert len(boxes(found, "front")) == (0 if bars else 2)
 
 
 def test_what_lies_on_one_front_alone_stays_whole():

@@ -14,6 +14,7 @@ import numpy as np
 from grafu.asset.drawn_cuts import handles_on_plates, with_drawn_fronts
 from grafu.asset.labels import is_appliance, is_bed, is_chest, is_washer, is_whole_part, sense_of
 from grafu.asset.loose import faces_of_part
+from grafu.asset.lying_handles import with_lying_handles
 from grafu.asset.names import unique_ids
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.plausibility import BODY
@@ -24,7 +25,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.creases import back_of
+from grafu.segmentation.backs import back_of
 from grafu.segmentation.division import FacePiece, MeshShells, divided
 from grafu.segmentation.lids import count_held_fronts, lid_of_chest, lid_of_washer
 from grafu.segmentation.surface_config import CreaseConfig
@@ -108,6 +109,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
         _freed(_named(_part(part, piece, new, T, part.id in cases), piece, model, T, config), cut)
         for (part, piece), new in zip(bare, _ids(pieces), strict=True)
     )
+    parts = with_lying_handles(parts, [piece is not None and piece.role == "on front" for _, piece in pieces])
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes), fronts_face=_side_of_fronts(cuts, T))
 

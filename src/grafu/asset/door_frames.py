@@ -10,6 +10,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.labels import is_opening, is_piece
+from grafu.asset.names import spoken
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box, overlap_across
@@ -52,10 +53,13 @@ def with_door_frames(
     """Returns the parts with frames around doors, which were called doors as well, as frames; and notes on that.
 
     A frame is open before the doors that stand in it. It holds several that fill it, or one that reaches one of its
-    ends, or doors that the input states to open, which it does not of the frame.
+    ends, or doors that the input states to open, which it does not of the frame. What is called the frame of a door may
+    hold leaves that no name tells: these fill it, and reach one of its ends.
     """
     doors = [part for part in parts if part.label is PartLabel.DOOR]
+    nameless = [part for part in parts if part.label is PartLabel.UNKNOWN]
     frames = {door.id for door in doors if len(doors) > 1 and _is_frame(door, doors, config)}
+    frames |= {door.id for door in doors if "frame" in spoken(door.source.name) and _is_open(door, nameless, config)}
     notes = [f"{p.source.name} stands around doors: taken for their frame" for p in parts if p.id in frames]
     return tuple(
         replace(part, label=PartLabel.FACE_FRAME, labelled_by="shape") if part.id in frames else part for part in parts
@@ -75,6 +79,16 @@ def _is_frame(door: Part, doors: Sequence[Part], config: FramedDoorsConfig) -> b
         return True
     outer = [leaf.box for leaf in leaves if not any(_lies_in(leaf, other, thin) for other in leaves)]
     return _fill([*outer], box, thin, config) if len(outer) > 1 else any(_ends_in(leaf, box, config) for leaf in outer)
+
+
+def _is_open(frame: Part, nameless: Sequence[Part], config: FramedDoorsConfig) -> bool:
+    """Whether parts that no name tells stand in a frame, fill it together, and reach one of its ends."""
+    box, thin = frame.box, frame.box.thin_axis
+    around = box.grown(config.spare * float(box.size.max()))
+    rays = RayCaster(frame.mesh)
+    within = [part.box for part in nameless if around.contains(part.box.corners()).all()]
+    leaves = [leaf for leaf in within if _is_open_before(rays, leaf, thin, box, config)]
+    return bool(leaves) and _fill(leaves, box, thin, config) and _ends_in(Box.enclosing(leaves), box, config)
 
 
 def _is_open_before(rays: RayCaster, leaf: Box, thin: int, frame: Box, config: FramedDoorsConfig) -> bool:

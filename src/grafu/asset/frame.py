@@ -170,7 +170,7 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
         return _Choice(options.front, "stated by the user")
     convention = reading.convention
     stated = convention.front if convention.front is not None and convention.front[1] != up[1] else None
-    votes = front_votes(reading.parts, whole, up)
+    votes = front_votes(_telling(reading), whole, up)
     faces_one_way = stated is not None and reading.kind in _DATA_SETS
     if not any(votes.values()) and not faces_one_way:
         held = side_with_handles(reading.parts, whole, up)
@@ -188,6 +188,16 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
         "habit": _BY_HABIT,
     }
     return _Choice(front, reasons[why])
+
+
+def _telling(reading: Reading) -> tuple[Part, ...]:
+    """Returns the parts that show where the front is: not those that are drawers by a box alone behind a front.
+
+    That front and others were cut out of a mesh and face one way.
+    """
+    if reading.fronts_face is None:
+        return reading.parts
+    return tuple(part for part in reading.parts if not part.label.is_movable or _is_named(part))
 
 
 def _sure(ratio: float) -> str:

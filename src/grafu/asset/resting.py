@@ -15,6 +15,10 @@ from grafu.geometry.arrays import Points, extremes
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.sampling import sample_surface
+from grafu.shapes import Float, Int
+
+_Places = Float[np.ndarray, "n 2"]
+_Cells = Int[np.ndarray, "n 2"]
 
 
 @final
@@ -49,6 +53,9 @@ class RestConfig:
     """How far from two sides of the outline legs in its corners stand at most (fraction of these sides) ..."""
     long: float = 0.05
     """... and how long they are at least: handles stand out less far (fraction of the largest side)."""
+    over_handles: float = 0.5
+    """Area within that length of an end from which on what lies at it are no legs but handles on fronts (fraction of
+    the outline's box)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -63,6 +70,8 @@ class _End:
     extent: float
     has_corner_legs: bool = False
     """Whether it lies in all four corners and nowhere else, with nothing between for the length of a leg."""
+    area_beside: float = 0.0
+    """The area of what lies within the length of a leg from that end."""
 
 
 def stands_on_another_side(
@@ -70,9 +79,10 @@ def stands_on_another_side(
 ) -> str | None:
     """Returns the upward direction that the shape tells instead of the stated one; None: that one holds.
 
-    Another direction is believed where it alone has legs below a broad top, and the piece stands on its head or rests
-    on little; where it alone has long legs in the four corners; or, where the piece rests on little, `usual`, the
-    direction that other formats have up, if it rests on that.
+    Another direction is believed where it alone has legs below a broad top, and the piece stands on its head, or rests
+    on little and these are no handles on fronts; where it alone has long legs in the four corners; or, where the piece
+    rests on little, `usual`, the direction that other formats have up, if it rests on that and no handles on fronts
+    would be on top.
 
     Args:
         parts: the parts, in the input's coordinates.
@@ -84,17 +94,25 @@ def stands_on_another_side(
     ends = {direction: _end(points, direction, config) for direction in DIRECTIONS}
     is_poor = ends[_opposite(stated)].extent < config.poor
     on_legs = [up for up in DIRECTIONS if up != stated and _is_on_legs(ends[_opposite(up)], ends[up], config)]
-    if len(on_legs) == 1 and (is_poor or on_legs[0] == _opposite(stated)):
-        return on_legs[0]
+    if len(on_legs) == 1:
+        on_handles = _has_handles(ends[_opposite(on_legs[0])], config)
+        if on_legs[0] == _opposite(stated) or (is_poor and not on_handles):
+            return on_legs[0]
     in_corners = [up for up in DIRECTIONS if ends[_opposite(up)].has_corner_legs]
     if len(in_corners) == 1 and in_corners[0] in on_legs:
         return in_corners[0]
     is_steady = all(ends[end].extent >= config.steady for end in (usual, _opposite(usual)))
-    return usual if is_poor and is_steady and usual != stated else None
+    is_better = is_steady and not _has_handles(ends[usual], config) and usual != stated
+    return usual if is_poor and is_better else None
 
 
 def _opposite(direction: str) -> str:
     return ("-" if direction[0] == "+" else "+") + direction[1]
+
+
+def _has_handles(end: _End, config: RestConfig) -> bool:
+    """Whether little lies at an end and much within the length of a leg from it: fronts with handles."""
+    return end.area <= config.slender and end.area_beside >= config.over_handles
 
 
 def _is_on_legs(bottom: _End, top: _End, config: RestConfig) -> bool:
@@ -112,11 +130,9 @@ def _end(points: Points, direction: str, config: RestConfig) -> _End:
     ratio = (at - low[others]) / np.maximum(size[others], 1e-12)
     if not len(ratio):
         return _End(0.0, 0.0)
-    rows, columns = np.minimum((ratio * config.cells).astype(int), config.cells - 1).T
-    is_met = np.zeros((config.cells, config.cells), dtype=bool)
-    is_met[rows, columns] = True
+    rows, columns = _cells(ratio, config).T
     extent = int(np.ptp(rows) + 1) * int(np.ptp(columns) + 1)
-    area = int(is_met.sum()) / config.cells**2
+    area = _area(ratio, config)
     outer = (ratio < config.corner) | (ratio > 1.0 - config.corner)
     corners = {*map(tuple, (ratio > 0.5).tolist())}
     beside = points[gap < config.long * size.max()][:, others]
@@ -126,4 +142,16 @@ def _end(points: Points, direction: str, config: RestConfig) -> _End:
             | (high[others] - beside < config.corner * size[others])
         ).all()
     )
-    return _End(area, float(extent) / config.cells**2, bool(outer.all()) and len(corners) == 4 and is_long)
+    in_corners = bool(outer.all()) and len(corners) == 4 and is_long
+    area_beside = _area((beside - low[others]) / np.maximum(size[others], 1e-12), config)
+    return _End(area, float(extent) / config.cells**2, in_corners, area_beside)
+
+
+def _cells(ratio: _Places, config: RestConfig) -> _Cells:
+    """Returns row and column of the cell of each place, a fraction of both sides of the outline."""
+    return np.minimum((ratio * config.cells).astype(np.int64), config.cells - 1)
+
+
+def _area(ratio: _Places, config: RestConfig) -> float:
+    """Returns the area of the cells that have a place in them, over that of the outline's box."""
+    return len(np.unique(_cells(ratio, config), axis=0)) / config.cells**2

@@ -161,6 +161,10 @@ class RowConfig:
     """Distance of their planes: at least over the smaller thickness, at most over the larger."""
     in_two_planes: float = 1.2
     """Distance over the thickness from which on doors that merely meet slide, and are no pair that swings."""
+    sheet: float = 1e-3
+    """What is thinner is drawn without thickness (fraction of its largest side) ..."""
+    thick: float = 0.01
+    """... and counts as thick as this (the same fraction)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)

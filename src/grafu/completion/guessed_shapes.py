@@ -14,7 +14,7 @@ from grafu.asset.part import Asset
 from grafu.completion.drawer_case import is_front_only, is_without_case
 from grafu.completion.ways_out import rest_of
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Mat3, Scalars
+from grafu.geometry.arrays import Mat3, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh
@@ -53,6 +53,8 @@ class GuessedShapeConfig:
     have a box."""
     thick: float = 0.36
     """A door is thinner than this (fraction of the shorter of its other sides). Of 69 real ones the most is 0.22."""
+    grip: float = 0.08
+    """What stands out of a front and is drawn in one with it, as a knob is, has less of its surface (fraction)."""
     seen: float = 0.35
     """A side of a drawer is open where more of it is seen from outside (fraction) ..."""
     aside: float = 0.4
@@ -107,8 +109,26 @@ def shape_against(
 
 def is_thick(mesh: TriangleMesh, config: GuessedShapeConfig = GuessedShapeConfig()) -> bool:
     """Whether no door is as thick, along the axes or along its own main directions."""
-    sides = (np.sort(np.ptp(mesh.vertices @ frame, axis=0)) for frame in _frames(mesh))
+    sides = (np.sort(_extents(mesh, frame, config.grip)) for frame in _frames(mesh))
     return min(float(least / max(middle, 1e-9)) for least, middle, _ in sides) >= config.thick
+
+
+def _extents(mesh: TriangleMesh, frame: Mat3, grip: float) -> Vec3:
+    """Returns the extents of a surface along the columns of a frame, without what little of it stands out of the rest.
+
+    At each end of the direction in which it is thinnest, faces with the fraction `grip` of the area do not count: of a
+    knob that was drawn in one with its front.
+    """
+    corners = mesh.triangles @ frame
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    size = high.max(axis=0) - low.min(axis=0)
+    thin, area = int(np.argmin(size)), mesh.face_areas
+    ends = [
+        values[order][np.searchsorted(np.cumsum(area[order]), grip * area.sum())]
+        for values, order in ((low[:, thin], np.argsort(low[:, thin])), (-high[:, thin], np.argsort(-high[:, thin])))
+    ]
+    size[thin] = -ends[1] - ends[0]
+    return np.asarray(size)
 
 
 def _is_of_post(door: PartNode, graph: FunctionalGraph, config: GuessedShapeConfig) -> bool:

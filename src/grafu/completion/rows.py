@@ -50,14 +50,20 @@ def _laps(door: PartNode, other: PartNode, config: RowConfig) -> bool:
     if other.box.thin_axis != thin or _shared_height(door, other) < config.lap_height:
         return False
     apart = abs(float(door.box.center[thin] - other.box.center[thin]))
-    thickness = float(min(door.box.size[thin], other.box.size[thin]))
-    farthest = float(max(door.box.size[thin], other.box.size[thin])) * config.planes[1]
+    sides = [_thickness(one, config) for one in (door, other)]
+    thickness, farthest = min(sides), max(sides) * config.planes[1]
     lap = -float(door.box.axis_gaps(other.box)[axis])
     width = float(min(door.box.size[axis], other.box.size[axis]))
     least, most = config.lap
     laps = least * width <= lap <= most * width
     meets = abs(lap) <= least * width and apart >= config.in_two_planes * thickness
     return config.planes[0] * thickness <= apart <= farthest and (laps or meets)
+
+
+def _thickness(door: PartNode, config: RowConfig) -> float:
+    """Returns how thick a door is, metres, and how thick one would be that is drawn as a face alone."""
+    thickness, largest = float(door.box.size[door.box.thin_axis]), float(door.box.size.max())
+    return thickness if thickness > config.sheet * largest else config.thick * largest
 
 
 def _row_of(door: PartNode, scene: RuleScene) -> list[PartNode]:

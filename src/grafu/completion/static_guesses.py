@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.completion.guessed_shapes import shape_against
+from grafu.completion.wall_panels import wall_behind
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
@@ -128,10 +129,16 @@ def static_guesses(
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but legs carry it")
         elif not held and (front := _front_of_case(node, graph, asset.box, config)):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but it would slide away from {front}, which closes it")
+        elif not held and (wall := _wall_of_door(node, asset, graph)):
+            yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but it lies on {wall}, a wall with nothing behind it")
         elif (not held and (why := _unlikely(node, guess, completion, config))) or (
             why := shape_against(node, asset, graph, held)
         ):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but {why}")
+
+
+def _wall_of_door(node: PartNode, asset: Asset, graph: FunctionalGraph) -> str:
+    return wall_behind(node, asset, graph) if node.label is PartLabel.DOOR else ""
 
 
 def guessed_to_move(completion: GraphCompletion) -> tuple[Decision, ...]:

@@ -20,6 +20,8 @@ from grafu.graph.edges import AxisSign, Hinge, Rail, SignedAxis
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import sign_for_opening, signed_axis
 
+_UP = 2
+
 
 @final
 @dataclass(frozen=True, slots=True)
@@ -34,30 +36,38 @@ class WayOutConfig:
     """How much more of one side of a drawer than of the opposite one must be seen from outside (fraction)."""
     plate: float = 0.25
     """Largest thickness of a drawer that is only a front (fraction of its shorter other side)."""
+    unclear: float = 0.6
+    """Score of the side that an upright door opens to below which rays decide it."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "seen", "plate")
+        require_ratios(self, "seen", "plate", "unclear")
 
 
 def with_ways_out(completion: GraphCompletion, asset: Asset, config: WayOutConfig = WayOutConfig()) -> GraphCompletion:
     """Returns the completion in which drawers and lids move to the side that they are seen from, where only one is.
 
-    A drawer that is only a plate slides across that plate. Drawers on moving parts, and coupled ones, stay as they are.
+    So do upright doors where what is predicted is not clear. A drawer that is only a plate slides across that plate.
+    Drawers on moving parts, and coupled ones, stay as they are.
     """
-    return _with_lids(_with_drawers(completion, asset, config), asset, config)
+    return _with_doors(_with_drawers(completion, asset, config), asset, config)
 
 
-def _with_lids(completion: GraphCompletion, asset: Asset, config: WayOutConfig) -> GraphCompletion:
-    """Returns the completion in which level doors open up where they are seen from above, and down from below."""
+def _with_doors(completion: GraphCompletion, asset: Asset, config: WayOutConfig) -> GraphCompletion:
+    """Returns the completion in which level doors open up where they are seen from above, and down from below.
+
+    Upright doors of which it is not clear which way they open do so to the side from which they are seen.
+    """
     graph = completion.completed
     given = {part.id for part in asset.parts}
-    level = [hinge for hinge in graph.hinges if hinge.child in given and graph.node(hinge.child).box.thin_axis == 2]
+    doors = [hinge for hinge in graph.hinges if hinge.child in given and _is_asked(hinge, completion, config)]
     new: dict[str, tuple[AxisSign, float]] = {}
-    for hinge in level:
-        below, above = open_ratios(rest_of(asset, hinge.child, graph), graph.node(hinge.child).box, 2)
-        sign = sign_for_opening(2, hinge.border, signed_axis(2, above > below))
-        if abs(above - below) >= config.seen and sign != hinge.sign:
-            new[hinge.child] = sign, abs(above - below)
+    for hinge in doors:
+        box = graph.node(hinge.child).box
+        thin = box.thin_axis
+        low, high = open_ratios(rest_of(asset, hinge.child, graph), box, thin)
+        sign = sign_for_opening(thin, hinge.border, signed_axis(thin, high > low))
+        if abs(high - low) >= config.seen and (sign != hinge.sign or thin != _UP):
+            new[hinge.child] = sign, abs(high - low)
     if not new:
         return completion
     edges = tuple(
@@ -66,6 +76,13 @@ def _with_lids(completion: GraphCompletion, asset: Asset, config: WayOutConfig) 
     kept = (d for d in completion.decisions if d.part not in new or d.question != "sign")
     told = (Decision(p, "sign", str(sign), sure, str(1 - sign), 1.0 - sure, BY_RULE) for p, (sign, sure) in new.items())
     return replace(completion, completed=replace(graph, edges=edges), decisions=(*kept, *told))
+
+
+def _is_asked(hinge: Hinge, completion: GraphCompletion, config: WayOutConfig) -> bool:
+    if completion.completed.node(hinge.child).box.thin_axis == _UP:
+        return True
+    decision = completion.decision(hinge.child, "sign")
+    return decision is not None and decision.score < config.unclear and hinge.coupling is None
 
 
 def _with_drawers(completion: GraphCompletion, asset: Asset, config: WayOutConfig) -> GraphCompletion:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 _UPRIGHT = 0.1  # most of a unit normal that may point up or down in an upright face
 _BINS = 90  # of one degree each
+_SCATTER = np.radians(6.0)  # how far normals of a scanned or generated wall lie off its direction, most of them
 _AS_WELL = 0.6  # of the largest area must lie along the axes for those to serve: a room's corner has two such pairs
 _PLACES = 1e8  # of one metre: vertices that round to the same of them are one
 _CACHED_FACES = 20_000  # meshes of up to so many faces cache what is computed from the faces
@@ -203,8 +204,8 @@ def heading_of(meshes: Iterable[TriangleMesh], upright: Mat3 | None = None, leas
     """Returns the rotation about Z, radians in (-pi/4, pi/4], that lays an axis along most of the upright area.
 
     It is 0 where the axes serve nearly as well, and for angles below one degree: walls that are a little askew; and
-    where less than the fraction `least` of the upright area lies along one direction or across it. The rows of
-    `upright` are the axes, Z last, where they are not those of the meshes.
+    where less than the fraction `least` of the upright area lies along one direction or across it, as nearly as the
+    normals of a scanned wall do. The rows of `upright` are the axes, Z last, where they are not those of the meshes.
     """
     crosses = [_cross(mesh.triangles) for mesh in meshes if len(mesh.faces)]
     cross = np.concatenate(crosses) if crosses else np.zeros((0, 3))
@@ -218,9 +219,9 @@ def heading_of(meshes: Iterable[TriangleMesh], upright: Mat3 | None = None, leas
     bins = np.bincount((angles / (np.pi / 2) * _BINS).round().astype(int) % _BINS, area, _BINS)
     near = bins + np.roll(bins, 1) + np.roll(bins, -1)
     best = int(np.argmax(near))
-    if near[0] >= _AS_WELL * near[best] or near[best] < least * area.sum():
-        return 0.0
     apart = np.mod(angles - best * np.pi / 2 / _BINS + np.pi / 4, np.pi / 2) - np.pi / 4
+    if near[0] >= _AS_WELL * near[best] or area[np.abs(apart) <= _SCATTER].sum() < least * area.sum():
+        return 0.0
     close = np.abs(apart) <= 1.5 * np.pi / 2 / _BINS
     angle = best * np.pi / 2 / _BINS + float(np.average(apart[close], weights=area[close]))
     return angle if angle <= np.pi / 4 else angle - np.pi / 2

@@ -64,6 +64,25 @@ class _Door:
         return RayCaster(mesh_near(meshes, scene.moving_mesh(own).box.grown(self.frame.width)))
 
     @cached_property
+    def fronts(self) -> RayCaster:
+        """The other moving bodies around it, as they are drawn."""
+        scene, own = self.scene, self.request.moving
+        meshes = [scene.moving_mesh(name) for name in scene.moving_bodies if name != own]
+        return RayCaster(mesh_near(meshes, scene.moving_mesh(own).box.grown(self.frame.width)))
+
+    def is_in_row(self) -> bool:
+        """Whether another front continues it on the left or right, in one plane: doors that stand open do not."""
+        frame, closing = self.frame, self.closing
+        for across in (-1, 1):
+            levels = []
+            for offset in closing.offsets:
+                origins = frame.to_object(_beside(frame, across, 0, offset) + np.array([0.0, frame.width, 0.0]))
+                levels.append(frame.width - self.fronts.along(origins, frame.direction(0.0, -1.0, 0.0)))
+            if np.median((np.abs(np.array(levels)) <= closing.plane).any(axis=0)) == 1.0:
+                return True
+        return False
+
+    @cached_property
     def near(self) -> list[Obstacle]:
         """What stands where it may be turned to."""
         box = self.scene.moving_mesh(self.request.moving).box.grown(self.frame.width)
@@ -130,7 +149,7 @@ def drawn_angles(requests: Iterable[JointRequest], scene: Scene, config: Realiza
 
 def _drawn_angle(door: _Door) -> DrawnAngle | None:
     """Returns how far a door stands open, by the least turn that closes it; None where none does."""
-    if sum(door.sides(door.frame)) >= door.closing.door_sides:
+    if sum(door.sides(door.frame)) >= door.closing.door_sides or door.is_in_row():
         return None
     fits: list[tuple[float, int, DrawnAngle]] = []
     for angle, axis in _ways_back(door):

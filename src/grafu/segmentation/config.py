@@ -239,6 +239,8 @@ class DivisionConfig:
     """A front's shorter side at least (of the whole's largest side)."""
     low: float = 0.025
     """The height of a front that a handle stands on at least (of its object's largest side): a table's drawers."""
+    flattest: float = 16.0
+    """... and how many times as wide as high it is at most: flat drawers for plans and drawings."""
     lowest: float = 0.02
     """The shorter side of a front in a column or row with others at least (of its object's largest side) ..."""
     level: float = 0.001

@@ -63,7 +63,8 @@ def drawn_fronts(
         patches = [surface.patches(axes[2], config.creases) for surface in surfaces]
         parted = whole.parted(patches)
         view = view_of(parted.mesh, parted.shell, parted.owner, axes)
-        found = fronts_by_object(view, np.asarray(open_to)[parted.owner], [False] * len(meshes), config)
+        may = np.asarray(open_to)[parted.owner] & ~_is_in_edge(view, whole, config)
+        found = fronts_by_object(view, may, [False] * len(meshes), config)
         clear = found.clear(config.division)
         area = sum(outline(view, front) for fronts in clear.values() for front in fronts)
         if area > most:
@@ -72,6 +73,22 @@ def drawn_fronts(
         if pieces:
             break  # the front is most likely at -Y: other sides count only where it shows none
     return {k: [replace(p, is_sheet=p.role == "front") for p in found] for k, found in sorted(pieces.items())}
+
+
+def _is_in_edge(view: ShellsView, whole: MeshShells, config: SegmentationConfig) -> Bool[np.ndarray, " shells"]:
+    """Whether each patch is too thick for a front, and a piece of the edge of a lying board: a lid or a worktop.
+
+    A drawer that is drawn as one body is as low, and its patch has most of its outline.
+    """
+    of = np.zeros(len(view.owner), np.int64)
+    of[view.shell] = whole.shell
+    low, high = np.full((len(whole.owner), 3), np.inf), np.full((len(whole.owner), 3), -np.inf)
+    np.minimum.at(low, of, view.low)
+    np.maximum.at(high, of, view.high)
+    size, plate = (high - low)[of], config.candidates.plate
+    lies = size[:, 1] <= plate * size[:, ::2].min(axis=1)
+    is_piece = view.size[:, :2].prod(axis=1) < config.creases.main * size[:, :2].prod(axis=1)
+    return np.asarray(lies & is_piece & (view.size[:, 2] > plate * view.size[:, :2].min(axis=1)))
 
 
 def drawn_handles(
@@ -261,40 +278,3 @@ def _volume(mesh: TriangleMesh) -> float:
     corners = mesh.triangles - mesh.box.center
     a, b, c = (corners[:, k] for k in range(3))
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum())
-
-
-def back_of(mesh: TriangleMesh, towards: Vec3, thickness: float, facing: float = CreaseConfig().facing) -> TriangleMesh:
-    """Returns the back of a front that was cut out of a surface, and the rim that joins it to the front.
-
-    A front with edges of its own ends where these do; a sheet becomes a board. The faces ahead are copied onto the
-    plane of the back.
-
-    Args:
-        mesh: the front, in one piece.
-        towards: the unit direction that it looks in.
-        thickness: of a sheet, in the unit of the mesh.
-        facing: cosine between that direction and a normal from which on a face is one ahead.
-    """
-    used, faces = np.unique(welded(mesh.vertices)[mesh.faces], return_inverse=True)
-    faces = faces.reshape(-1, 3)
-    points = np.zeros((len(used), 3))
-    points[faces] = mesh.triangles
-    depth = points @ towards
-    back = min(float(depth.min()), float(depth.max()) - thickness)
-    flat = points + np.outer(back - depth, towards)
-    ahead = faces[mesh.face_normals @ towards > facing]
-    start, end = _border(faces)
-    count = len(points)
-    rim = [np.column_stack([end, start, start + count]), np.column_stack([end, start + count, end + count])]
-    whole = TriangleMesh(np.vstack([points, flat]), np.vstack([ahead[:, ::-1] + count, *rim]))
-    return whole.with_faces(np.flatnonzero(whole.face_areas > 0))
-
-
-def _border(faces: Faces) -> tuple[Edges, Edges]:
-    """Returns start and end of the edges that one face alone has, as that face runs along them."""
-    start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    key = low * (int(high.max()) + 1) + high
-    _, number, counts = np.unique(key, return_inverse=True, return_counts=True)
-    alone = counts[number.reshape(-1)] == 1
-    return start[alone], end[alone]

@@ -25,8 +25,8 @@ from grafu.segmentation.hidden_fronts import (
     outline,
     without_case,
 )
+from grafu.segmentation.low_fronts import with_low
 from grafu.segmentation.lying import lying_on_fronts
-from grafu.segmentation.surroundings import Scale, overlaps
 from grafu.segmentation.view import MaskOfShells, OfShells, SeenFaces, ShellsView
 from grafu.shapes import Bool, Int
 
@@ -135,6 +135,15 @@ class FoundFronts:
         found = self.hidden.items()
         return {o: f for o, f in found if len(f) > 1 or (f[0].is_held and len(f[0].handles) <= config.most_handles)}
 
+    def is_held(self, config: DivisionConfig) -> bool:
+        """Whether a handle stands on a hidden front that is clear."""
+        return any(front.is_held for fronts in self.clear(config).values() for front in fronts)
+
+    @property
+    def serves_several(self) -> bool:
+        """Whether one object lies on several fronts of others."""
+        return any(len(groups) > 1 for groups in self.on_fronts.values())
+
     def pieces(self, shells: MeshShells) -> dict[int, list[FacePiece]]:
         """Returns what each object is cut into."""
         counts = np.bincount(shells.owner[shells.shell])
@@ -179,6 +188,8 @@ def _from_the_best_side(
         sides.append(found)
         ranks.append((bool(clear) and is_held, bool(clear) and turn == 0, area))
     best = max(range(4), key=lambda turn: ranks[turn])
+    if sides[0].serves_several and not sides[best].is_held(config.division):
+        best = 0  # what lies on several fronts there are their handles, and a back in two panels has none
     ahead, handled = sides[0], next((side.with_handles for side in sides if side.with_handles), {})
     if best > 0 and ranks[best][2] > 0:
         return replace(sides[best], hidden=sides[best].clear(config.division))
@@ -207,7 +218,7 @@ def fronts_by_object(
     first = [shells[0] for shells in members]
     may, loose = may[first], (may if loose is None else loose)[first]
     found: dict[int, list[FrontShells]] = {}
-    fronts = _with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config)
+    fronts = with_low(view, may, fronts_among(view, candidates(view, may, config.candidates), config), config)
     fronts = tuple(front for front in fronts if not is_panel_of_controls(view, front, config.division))
     for front in without_case(view, fronts, config):
         found.setdefault(int(view.owner[front.shells[0]]), []).append(front)
@@ -226,45 +237,6 @@ def fronts_by_object(
         {o: front.made_of(members) for o, front in single.items()},
         {o: tuple(tuple(m for k in group for m in members[k]) for group in groups) for o, groups in lying.items()},
     )
-
-
-def _with_low(
-    view: ShellsView, may: MaskOfShells, fronts: tuple[FrontShells, ...], config: SegmentationConfig
-) -> tuple[FrontShells, ...]:
-    """Returns the fronts with the smaller ones beside them: low ones with a handle, and what is in line with others.
-
-    The former are the drawers of a table, the latter the top drawers and the narrow door of a row of kitchen units.
-    """
-    division = config.division
-    small = candidates(view, may, replace(config.candidates, least=division.lowest))
-    taken = {shell for front in fronts for shell in front.all_shells}
-    covered = [overlaps(view, front.shells[0]) > 0 for front in fronts]
-    free = [k for k in small.tolist() if k not in taken and not any(mask[k] for mask in covered)]
-    shorter, extent = view.size[:, :2].min(axis=1), Scale.of(view).extent
-    low = {k for k in free if view.size[k, 0] > view.size[k, 1] and shorter[k] >= division.low * extent[k]}
-    plates = [front.shells[0] for front in fronts]
-    in_line = _in_line(view, free, plates, division)
-    in_line |= _in_line(view, free, [*plates, *in_line], division)  # the corner of a column and a row of such
-    found = fronts_among(view, np.array([k for k in free if k in low | in_line], dtype=np.int64), config)
-    kept = (f for f in found if f.shells[0] in in_line or f.is_held)
-    return (*fronts, *(front for front in kept if not taken & front.all_shells))
-
-
-def _in_line(view: ShellsView, free: Sequence[int], plates: Sequence[int], config: DivisionConfig) -> set[int]:
-    """Returns the plates that are as deep as a front of their object, and have two of its ends: in a row or column.
-
-    One front alone may have a panel below it that is as wide.
-    """
-    return {k for k in free if _is_in_line(view, k, [p for p in plates if view.owner[p] == view.owner[k]], config)}
-
-
-def _is_in_line(view: ShellsView, shell: int, plates: list[int], config: DivisionConfig) -> bool:
-    size = view.size[shell, :2]
-    if len(plates) < 2 or size.max() > config.slender * size.min():
-        return False
-    near = config.level * float(Scale.of(view).extent[shell])
-    ends = np.maximum(np.abs(view.low[plates] - view.low[shell]), np.abs(view.high[plates] - view.high[shell])) <= near
-    return bool((ends[:, 2] & (ends[:, 0] | ends[:, 1])).any())
 
 
 def _pieces(
