@@ -309,3 +309,22 @@ def test_the_case_behind_a_front_does_not_slide_out_at_its_back():
 def test_another_drawer_slides_as_predicted(before, side):
     completion, asset = behind(before, side)
     assert not [r for r in static_guesses(completion, asset) if "which closes it" in r.why]
+
+
+def table_with(twin: float, guess: float = 0.7, aside: float = -0.2):
+    """Returns why a board right of the middle stays that may be a drawer, with one on the left like it."""
+    boards = [at(n, (x - 0.15, -0.3, 0.6), (x + 0.15, -0.28, 0.7)) for n, x in (("front", 0.2), ("twin", aside))]
+    completion, asset = guessed([TOP, *SIDES, *boards, *legs(0.7)], "front", score=guess)
+    decision = Decision("twin", "label", "bar", 1.0 - twin, "drawer", twin)
+    return [r.why for r in static_guesses(replace(completion, decisions=(*completion.decisions, decision)), asset)]
+
+
+def test_a_board_whose_mirror_image_stays_is_no_drawer():
+    assert table_with(0.1) == ["it is taken for a drawer (70%), but twin on the other side is like it, and is none"]
+
+
+@pytest.mark.parametrize(
+    "changed", [{"twin": 0.4}, {"twin": 0.1, "guess": 0.95}, {"twin": 0.1, "aside": -0.25}], ids=str
+)
+def test_a_board_whose_mirror_image_may_move_or_that_has_none_is_no_less_a_drawer(changed):
+    assert not any("on the other side" in why for why in table_with(**changed))

@@ -81,6 +81,12 @@ def test_a_leaf_is_found_at_any_scale(scale):
     assert found(*parts) == {"leaf"}
 
 
+@pytest.mark.parametrize(("by", "hangs"), [("name", False), ("prediction", True)])
+def test_what_the_input_calls_a_side_panel_is_no_leaf_and_what_was_only_guessed_to_be_one_may_be(by, hangs):
+    side = replace(leaf(1.0), label=PartLabel.SIDE_PANEL, labelled_by=by)
+    assert found(*TABLE, side) == ({"leaf"} if hangs else set())
+
+
 def test_one_leaf_alone_is_enough_and_a_drawer_is_none():
     assert found(*TABLE, leaf(-1.0)) == {"leaf"}
     assert found(*TABLE, leaf(-1.0, "drawer")) == set()

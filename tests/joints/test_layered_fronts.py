@@ -118,6 +118,14 @@ def test_the_plate_before_a_drawer_goes_with_it():
     assert moved(sliding_out(PLATE, "knob"), sliding_out(TRAY), parts=[TRAY, PLATE]) == {"tray": ("plate", "knob")}
 
 
+def test_a_nameless_plate_goes_with_what_is_called_a_drawer_behind_it():
+    named, pull = replace(TRAY, label=PartLabel.DRAWER), board("pull", (0.2, -0.05, 0.08), (0.3, -0.02, 0.1))
+    made = moved(sliding_out(named), sliding_out(PLATE, "pull"), parts=[named, PLATE, pull])
+    assert made == {"tray": ("plate", "pull")}
+    front = replace(PLATE, label=PartLabel.DRAWER)
+    assert set(moved(sliding_out(named), sliding_out(front), parts=[named, front])) == {"tray", "plate"}
+
+
 @pytest.mark.parametrize("other", [BEHIND, ABOVE], ids=["behind it", "the front of the drawer above"])
 def test_another_plate_does_not(other):
     assert set(moved(sliding_out(TRAY), sliding_out(other), parts=[TRAY, other])) == {"tray", "plate"}

@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.completion.guessed_shapes import shape_against
+from grafu.completion.twins import static_twin
 from grafu.completion.wall_panels import wall_behind
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points
@@ -131,6 +132,8 @@ def static_guesses(
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but it would slide away from {front}, which closes it")
         elif not held and (wall := _wall_of_door(node, asset, graph)):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but it lies on {wall}, a wall with nothing behind it")
+        elif not held and (twin := static_twin(guess, completion, config.touch * float(asset.box.size.max()))):
+            yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but {twin} on the other side is like it, and is none")
         elif (not held and (why := _unlikely(node, guess, completion, config))) or (
             why := shape_against(node, asset, graph, held)
         ):

@@ -23,6 +23,7 @@ from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"
 """`JointRequest.source` of a drop leaf: its shape alone tells."""
+_PANELS = frozenset({PartLabel.SIDE_PANEL, PartLabel.BACK_PANEL, PartLabel.FACE_FRAME, PartLabel.DIVIDER})
 _SUPPORTS = frozenset({"gateleg", "gate", "bracket", "support", "loper", "flyleg"})
 _UP = 2
 _RAISED = MotionChoice(Moves.TURNS, Side.TOP)
@@ -130,7 +131,9 @@ def hanging_leaves(
 
 
 def _is_free(part: Part, moving: frozenset[str]) -> bool:
-    return part.id not in moving and part.label not in (PartLabel.DRAWER, PartLabel.HANDLE)
+    """Whether a part may be a leaf that nothing moves yet: what is called a panel of a case is none."""
+    is_named = part.labelled_by == "name" and part.label in _PANELS
+    return part.id not in moving and not is_named and part.label not in (PartLabel.DRAWER, PartLabel.HANDLE)
 
 
 def _swung(leaf: Part, asset: Asset, predicted: JointRequest | None) -> JointRequest:

@@ -52,7 +52,8 @@ def with_layered_fronts(
     """Returns the plan in which layers of one front move as one, by the joint of the largest.
 
     What moves on another part stays as it is, and so do two that lie before one another and carry something each:
-    handles of their own. What the input calls a door is a layer where just one of the two has a handle, and they touch.
+    handles of their own. What the input calls a door is a layer where just one of the two has a handle, and they
+    touch; a nameless plate goes with what it calls a drawer behind it.
 
     Args:
         plan: the joints.
@@ -87,11 +88,13 @@ def _is_layer(
         return False
     one, other = asset.part(request.moving).box, asset.part(front.moving).box
     are_held, is_named = bool(request.attached and front.attached), any(r.moving not in guessed for r in both)
-    if is_named and (not front.kind.turns or sum(_has_handle(r, asset) for r in both) != 1):
+    handles = sum(_has_handle(r, asset) for r in both) if is_named else 0
+    if not front.kind.turns:
+        may_join = request.moving in guessed and handles < 2 if is_named else not are_held
+        return may_join and _is_plate(one, other, front, config)
+    if is_named and handles != 1:
         return False
     are_held = are_held and not is_named
-    if not front.kind.turns:
-        return not are_held and _is_plate(one, other, front, config)
     axis = other.thin_axis
     if one.thin_axis != axis or max(_shared_ratios(one, other, axis)) < config.shared:
         return False
