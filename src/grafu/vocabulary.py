@@ -35,6 +35,10 @@ class PartLabel(StrEnum):
         return self not in (PartLabel.DOOR, PartLabel.DRAWER, PartLabel.HANDLE)
 
 
+MOVABLE_VALUES = frozenset(label.value for label in PartLabel if label.is_movable)
+"""The values of the labels of what moves on a hinge or on rails, as decisions spell them."""
+
+
 class PieceKind(StrEnum):
     """What a whole piece of furniture, appliance or opening of a building is."""
 

@@ -23,7 +23,7 @@ from grafu.graph.edges import Hinge, Rail, ends_of
 from grafu.graph.edit import relabelled, without_edges, without_nodes
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.refusal import Reason, Refusal
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import MOVABLE_VALUES, PartLabel
 
 
 @final
@@ -65,7 +65,6 @@ class StaticGuessConfig:
 
 
 _UP = 2
-_MOVABLE = frozenset(label.value for label in PartLabel if label.is_movable)
 
 
 def with_static_guesses(
@@ -158,7 +157,7 @@ def taken_for(guess: Decision) -> str:
 
 def _unlikely(node: PartNode, guess: Decision, completion: GraphCompletion, config: StaticGuessConfig) -> str:
     """Returns why a guess is too weak, in words; empty where it is not."""
-    sure = guess.score + (guess.runner_up_score if guess.runner_up in _MOVABLE else 0.0)
+    sure = guess.score + (guess.runner_up_score if guess.runner_up in MOVABLE_VALUES else 0.0)
     if sure < config.label:
         return "it is likelier neither door nor drawer"
     motion = next(iter(completion.completed.motions_of(node.id)), None)

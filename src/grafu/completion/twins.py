@@ -5,9 +5,8 @@ from typing import Final
 import numpy as np
 
 from grafu.graph.completion import Decision, GraphCompletion
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import MOVABLE_VALUES, PartLabel
 
-_MOVABLE: Final = frozenset(label.value for label in PartLabel if label.is_movable)
 _MIRRORED: Final = np.array([-1.0, 1.0, 1.0])
 
 
@@ -37,4 +36,4 @@ def static_twin(guess: Decision, completion: GraphCompletion, near: float) -> st
 def _moves(decision: Decision) -> float:
     """Returns how likely the part of a decision on its label is a door or a drawer."""
     scores = dict([*decision.others, (decision.runner_up, decision.runner_up_score), (decision.choice, decision.score)])
-    return sum((score for label, score in scores.items() if label in _MOVABLE), 0.0)
+    return sum((score for label, score in scores.items() if label in MOVABLE_VALUES), 0.0)

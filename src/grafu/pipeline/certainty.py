@@ -8,7 +8,7 @@ from grafu.graph.edges import BORDERS, SIGNS, Hinge
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import AXIS_NAMES, border_to_face, opening_face
 from grafu.pipeline.words import percent
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import MOVABLE_VALUES
 
 if TYPE_CHECKING:
     from grafu.pipeline.report_schema import GuessRecord
@@ -23,7 +23,6 @@ _ASKED = {
     "parent": "carried by",
 }
 _OF_MOTION = ("border", "sign", "slide")  # what carries a part is measured on the meshes
-_MOVABLE = frozenset(label.value for label in PartLabel if label.is_movable)
 _STATED = 1.0  # the score of what was not guessed
 _UNHEARD = 0.005  # a runner-up that would be written as 0 %
 
@@ -55,7 +54,7 @@ def guesses_of(completion: GraphCompletion, stated: Set[str] = frozenset()) -> "
 
 def _is_of_motion(decision: Decision, moving: Set[str]) -> bool:
     if decision.question == "label":
-        return not _MOVABLE.isdisjoint((decision.choice, decision.runner_up))
+        return not MOVABLE_VALUES.isdisjoint((decision.choice, decision.runner_up))
     return decision.question in _OF_MOTION and decision.part in moving and decision.score < _STATED
 
 

@@ -10,10 +10,9 @@ from grafu.errors import OptionError
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion, motion_as_choice
 from grafu.pipeline.functionalize import Functionalized
 from grafu.pipeline.motion_choices import motions_of
-from grafu.vocabulary import PartLabel
+from grafu.vocabulary import MOVABLE_VALUES, PartLabel
 
 _SIDES = (Side.LEFT, Side.RIGHT, Side.TOP, Side.BOTTOM)
-_MOVABLE = frozenset(label.value for label in PartLabel if label.is_movable)
 _OTHER = {Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT, Side.TOP: Side.BOTTOM, Side.BOTTOM: Side.TOP}
 SLIDES = MotionChoice(Moves.SLIDES)
 
@@ -49,7 +48,7 @@ def _still(result: Functionalized, moving: set[str]) -> list[Part]:
     known = {node.id: node.label for node in result.completion.completed.nodes}
     named = {name for name, label in known.items() if label.is_movable}
     named |= {skip.part for skip in result.report.skipped}
-    named |= {d.part for d in result.completion.decisions if d.question == "label" and d.runner_up in _MOVABLE}
+    named |= {d.part for d in result.completion.decisions if d.question == "label" and d.runner_up in MOVABLE_VALUES}
     handles = {name for name, label in known.items() if label is PartLabel.HANDLE}
     return [part for part in result.asset.parts if part.id in named - moving - handles - result.removed]
 
