@@ -7,7 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.asset.part import Asset
-from grafu.completion.ways_out import WayOutConfig, with_ways_out
+from grafu.completion.ways_out import WayOutConfig, rest_of, with_ways_out
+from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.raycast import RayCaster, open_ratios
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Contact, Hinge, Rail
 from grafu.graph.edit import with_edges
@@ -131,3 +133,18 @@ def test_an_upright_door_opens_to_where_it_is_seen_if_that_was_not_clear(score, 
     hinged = with_edges(graph, [Hinge("left", "door", 0, inwards)])
     (hinge,) = with_ways_out(GraphCompletion(graph, hinged, "network", (), (predicted,)), asset).completed.hinges
     assert opening_face(1, hinge.border, hinge.sign) == front
+
+
+@given(
+    low=st.tuples(*(st.floats(-0.5, 0.3) for _ in range(3))),
+    size=st.tuples(*(st.floats(0.05, 0.3) for _ in range(3))),
+)
+def test_what_is_left_out_of_the_rest_no_ray_along_an_axis_through_the_part_meets(low, size):
+    """Most of a large model lies aside of a drawer; rays are cast on what does not alone."""
+    drawer = (low, tuple(a + b for a, b in zip(low, size, strict=True)))
+    completion, asset = completed(drawer, FRONT)
+    part = asset.part("drawer")
+    rest = rest_of(asset, "drawer", completion.completed)
+    whole = RayCaster(merge_meshes([other.mesh for other in asset.parts if other is not part]))
+    for axis in range(3):
+        assert open_ratios(rest, part.box, axis) == open_ratios(whole, part.box, axis)

@@ -6,7 +6,7 @@ import numpy as np
 
 from grafu.geometry import bvh
 from grafu.geometry.arrays import vec3
-from grafu.geometry.bvh import forget_large_shapes
+from grafu.geometry.blocks import forget_large_shapes
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 

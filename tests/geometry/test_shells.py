@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.shells import shell_numbers
 from strategies import cabinet_specs, made
 
 UNIT = Box(np.zeros(3), np.ones(3))
@@ -96,3 +96,13 @@ def test_made_furniture_falls_into_what_it_was_welded_from(spec, unit, random):
         return [mesh.transformed(np.diag([1 / unit, 1 / unit, 1 / unit, 1.0])) for mesh in meshes]
 
     assert boxes_of(scaled(found)) == boxes_of(scaled(expected))
+
+
+def test_equal_meshes_are_sorted_into_shells_once():
+    """Stage after stage asks for the shells of the same mesh, read or turned anew."""
+    mesh = merge_meshes([cube(0), cube(1, 1)])
+    again = TriangleMesh(mesh.vertices.copy(), mesh.faces.copy())
+    assert shell_numbers(mesh) is shell_numbers(again)
+    moved = TriangleMesh(mesh.vertices + [0.0, 0.0, 1e-3] * (np.arange(16)[:, None] >= 8), mesh.faces)
+    assert shell_numbers(moved) is not shell_numbers(mesh)
+    assert shell_numbers(mesh, cube(4)).max() == 2

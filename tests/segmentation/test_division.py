@@ -7,12 +7,12 @@ import pytest
 import trimesh
 
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.shells import shell_numbers
 from grafu.segmentation.config import CandidateConfig, DivisionConfig, FrameConfig, MemberConfig, SegmentationConfig
-from grafu.segmentation.division import axes_from, divided
-from grafu.segmentation.view import view_of
+from grafu.segmentation.division import divided
+from grafu.segmentation.mesh_shells import MeshShells, axes_from
 from grafu.synth.samples import desk, dresser, kitchen_base
 from small_assets import CABINET, DOOR, DRAWER, mesh_of
 
@@ -332,7 +332,7 @@ def test_a_cabinet_of_very_many_faces_looks_as_one_of_few():
     for times in (0, 6):
         meshes = [finely(mesh, times) for mesh in CASE]
         shells = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
-        view = view_of(merge_meshes(meshes), shells, np.arange(len(meshes)), axes_from(0))
+        view = MeshShells.of(meshes).sorted(shells, np.arange(len(meshes))).seen(axes_from(0))
         looks.append((view.seen, view.depth, sum(len(mesh.faces) for mesh in meshes)))
 
     assert looks[1][2] > 100_000

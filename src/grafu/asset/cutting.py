@@ -26,8 +26,9 @@ from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.backs import back_of
-from grafu.segmentation.division import FacePiece, MeshShells, divided
+from grafu.segmentation.division import FacePiece, divided
 from grafu.segmentation.lids import count_held_fronts, lid_of_chest, lid_of_washer
+from grafu.segmentation.mesh_shells import MeshShells
 from grafu.segmentation.surface_config import CreaseConfig
 from grafu.vocabulary import PartLabel
 

@@ -11,7 +11,8 @@ from grafu.geometry.arrays import Indices
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.creases import drawn_fronts, drawn_handles, uv_islands
-from grafu.segmentation.division import FacePiece, MeshShells
+from grafu.segmentation.division import FacePiece
+from grafu.segmentation.mesh_shells import MeshShells
 
 Cuts = dict[int, list[FacePiece]]
 

@@ -22,10 +22,10 @@ from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.sampling import point_triangle_distances
+from grafu.geometry.shells import shell_numbers
 from grafu.vocabulary import PartLabel
 
 

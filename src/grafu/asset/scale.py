@@ -16,8 +16,8 @@ from grafu.asset.reading import Furniture
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import median
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import require_positive
+from grafu.geometry.shells import shell_numbers
 from grafu.vocabulary import PartLabel
 
 

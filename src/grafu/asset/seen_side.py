@@ -15,10 +15,10 @@ from grafu.asset.standing_out import side_with_small_boxes
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.shells import shell_numbers
 from grafu.shapes import Bool, Float, Int
 
 

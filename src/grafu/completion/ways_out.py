@@ -4,6 +4,7 @@ Rays are cast on the meshes. What is predicted stays where they do not tell: a d
 from none.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import final
 
@@ -13,7 +14,7 @@ from grafu.asset.part import Asset
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
-from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
 from grafu.geometry.raycast import RayCaster, open_ratios
 from grafu.graph.completion import BY_RULE, Decision, GraphCompletion
 from grafu.graph.edges import AxisSign, Hinge, Rail, SignedAxis
@@ -21,6 +22,7 @@ from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import sign_for_opening, signed_axis
 
 _UP = 2
+_BESIDE = 1e-3  # of the largest side of a box: rays along its border are traced in single precision
 
 
 @final
@@ -124,6 +126,24 @@ def _across(box: Box, predicted: int, config: WayOutConfig) -> int:
 
 
 def rest_of(asset: Asset, part: str, graph: FunctionalGraph) -> RayCaster:
-    """Returns what casts rays on everything but a part and what is attached to it."""
+    """Returns what casts rays on everything but a part and what is attached to it.
+
+    Rays must run along an axis through the part's box: what they cannot meet is left out.
+    """
     own = {part, *(edge.child for edge in graph.attachments if edge.parent == part)}
-    return RayCaster(merge_meshes([part.mesh for part in asset.parts if part.id not in own]))
+    box = graph.node(part).box
+    return RayCaster(_in_columns([part.mesh for part in asset.parts if part.id not in own], box))
+
+
+def _in_columns(meshes: Sequence[TriangleMesh], box: Box) -> TriangleMesh:
+    """Returns the faces of some meshes that lie within a box along two of the axes at least, if only in part."""
+    around, near = box.grown(_BESIDE * float(box.size.max())), []
+    for mesh in meshes:
+        if len(mesh.faces) and _is_beside(mesh.box.low, mesh.box.high, around):
+            keep = _is_beside(*triangle_bounds(mesh.triangles), around)
+            near.append(mesh if keep.all() else mesh.with_faces(keep))
+    return merge_meshes(near)
+
+
+def _is_beside(low: np.ndarray, high: np.ndarray, box: Box) -> np.ndarray:
+    return np.asarray(((low <= box.high) & (high >= box.low)).sum(axis=-1) >= 2)

@@ -23,7 +23,7 @@ class CornerNormals(ArrayValue):
     corners: Faces
 
 
-_KEPT_FACES: Final = 20_000  # of one surface: what a large one takes is not kept in memory
+_ROOM: Final = 600_000  # faces whose normals are kept: 60 MB; those of larger models are worked out for each file
 _kept: dict[tuple[int, float], CornerNormals] = {}
 
 
@@ -31,16 +31,17 @@ def corner_normals(surface: Surface, crease_angle: float = CREASE_ANGLE) -> Corn
     """Returns the surface's own normals, or new ones that are smooth across edges bent by less than `crease_angle`.
 
     Angles are radians. Faces meet across vertices of equal position, whether or not they share an index. A normal
-    without length is replaced by that of a face. Of small surfaces they are found once in the surface's life: files in
-    several formats, and the page, ask for the same.
+    without length is replaced by that of a face. As far as there is room they are found once in the surface's life:
+    files in several formats, and the page, ask for the same.
     """
-    if len(surface.mesh.faces) > _KEPT_FACES:
-        return _corner_normals(surface, crease_angle)
     key = id(surface), crease_angle
-    if key not in _kept:
-        _kept[key] = _corner_normals(surface, crease_angle)
+    if (known := _kept.get(key)) is not None:
+        return known
+    found = _corner_normals(surface, crease_angle)
+    if len(surface.mesh.faces) + sum(len(kept.corners) for kept in _kept.values()) <= _ROOM:
+        _kept[key] = found
         finalize(surface, _kept.pop, key, None)
-    return _kept[key]
+    return found
 
 
 def _corner_normals(surface: Surface, crease_angle: float) -> CornerNormals:

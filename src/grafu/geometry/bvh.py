@@ -1,6 +1,6 @@
 """A mesh as FCL's tree of triangles (BVH), built once for all that asks: for a mesh, its copies, and its equals.
 
-To build one takes longer than most questions that are put to it.
+To build one takes longer than most questions that are put to it. Large meshes are divided into blocks first (`blocks`).
 """
 
 from dataclasses import field, replace
@@ -20,7 +20,6 @@ from grafu.geometry.transform import translation
 from grafu.shapes import Int
 
 _numbers = count()
-LARGE = 5_000  # faces
 _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
 _REMEMBERED = 60_000  # faces of BVHs kept by content: 30 MB
 _SAME = 1e11  # of one metre: meshes whose corners lie alike to so small a step are the same
@@ -48,6 +47,11 @@ class MeshTree:
         return set(np.flatnonzero(np.isin(self.stand_in, self.kept[list(hit)])).tolist())
 
 
+def next_number() -> int:
+    """Returns a number that no other mesh ever gets."""
+    return next(_numbers)
+
+
 _models: dict[int, MeshTree] = {}
 _by_content: RememberedByContent[tuple[MeshTree, Vec3]] = RememberedByContent(_REMEMBERED)
 
@@ -56,7 +60,7 @@ def model_of(mesh: TriangleMesh) -> MeshTree:
     """Returns the mesh's BVH, built once in the mesh's life."""
     key = id(mesh)
     if key not in _models:
-        _models[key] = _known(mesh) if 0 < len(mesh.faces) <= LARGE else _built(mesh)
+        _models[key] = _known(mesh) if len(mesh.faces) else _built(mesh)
         finalize(mesh, _models.pop, key, None)
     return _models[key]
 
@@ -68,15 +72,6 @@ def _known(mesh: TriangleMesh) -> MeshTree:
     model, first = _by_content.of(lambda: (_built(mesh), origin), len(mesh.faces), steps, mesh.faces)
     shift = origin - first
     return replace(model, pose=translation(shift) if shift.any() else None, number=next(_numbers))
-
-
-def forget_large_shapes() -> None:
-    """Forgets the BVHs of large meshes, which take several times the room of the mesh; they are built again when asked.
-
-    What was prepared of them before stays as it is.
-    """
-    for key in [key for key, model in _models.items() if len(model.kept) > LARGE]:
-        _models.pop(key, None)
 
 
 def share_shape(copy: TriangleMesh, original: TriangleMesh, T: Mat4) -> None:

@@ -1,11 +1,9 @@
 """Triangles sorted into connected patches: doubled faces once, closed or open, turned one way. No materials.
 
 Real furniture is modelled with vertices split at seams, every face drawn twice, and normals at random; what bounds a
-solid must be found from positions alone. One mesh of many bodies is sorted into shells in the same way: boards that
-only touch stay apart.
+solid must be found from positions alone.
 """
 
-from collections.abc import Sequence
 from typing import final
 
 import numpy as np
@@ -24,10 +22,10 @@ from grafu.geometry.arrays import (
     renumbered,
     row_keys,
 )
-from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
+from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.shapes import Bool, Float, Int
 
-_OF_PIECE = 0x7F4A7C159E3779B9  # an odd multiplier of no pattern, as in `row_keys`
+OF_PIECE = 0x7F4A7C159E3779B9  # an odd multiplier of no pattern, as in `row_keys`
 BoxEnds = Float[np.ndarray, "n 2 3"]  # lowest and highest corner of each of n boxes
 
 
@@ -54,7 +52,7 @@ def welded(points: Points, tolerance: float = 1e-6) -> Indices:
 
     Numbers run from 0 in no particular order.
     """
-    return np.unique(_cells(points, tolerance), return_inverse=True)[1].reshape(-1)
+    return np.unique(cells_of(points, tolerance), return_inverse=True)[1].reshape(-1)
 
 
 def linked(count: int, first: np.ndarray, second: np.ndarray) -> Indices:
@@ -85,7 +83,7 @@ def patches_of(mesh: TriangleMesh) -> Patches:
     position, faces = position[keep], mesh.faces[keep]
     if not len(faces):
         return Patches(np.zeros((0, 3), np.int64), np.zeros(0, np.int64), np.zeros(0, np.bool_))
-    edges = _edge_numbers(position)
+    edges = edge_numbers(position)
     patch, turned, orientable = _oriented_patches(position, edges)
     faces = np.where(turned[:, None], faces[:, ::-1], faces)
     closed = orientable & _without_border(edges, patch, len(orientable))
@@ -116,10 +114,11 @@ def repeated_faces(mesh: TriangleMesh) -> Indices:
     """Returns for each face the index of the first face with the same three corners, which may be itself."""
     if not len(mesh.faces):
         return np.zeros(0, np.int64)
-    return _first_alike(welded(mesh.vertices)[mesh.faces])
+    return first_alike(welded(mesh.vertices)[mesh.faces])
 
 
-def _first_alike(position: Faces) -> Indices:
+def first_alike(position: Faces) -> Indices:
+    """Returns for each face the first with the same three corners, from the numbers of their positions."""
     corners = np.sort(position, axis=1)
     first, number = first_of_each(row_keys(corners))
     return first[number]
@@ -164,7 +163,7 @@ def clustered(mesh: TriangleMesh, cell: float) -> TriangleMesh:
     piece[faces] = part_numbers(mesh)[:, None]
     outwards = (np.abs(points - mesh.box.center) / np.maximum(mesh.box.half, 1e-12)).max(axis=1)
     order = np.argsort(-outwards, kind="stable")
-    keys = _cells(points, cell) + piece * _OF_PIECE
+    keys = cells_of(points, cell) + piece * OF_PIECE
     first, number = first_of_each(keys[order])
     position = np.empty(len(used), np.int64)
     position[order] = number
@@ -172,7 +171,7 @@ def clustered(mesh: TriangleMesh, cell: float) -> TriangleMesh:
     return TriangleMesh(points[order[first]], corners[_distinct(corners)])
 
 
-def _cells(points: Points, size: float) -> Int[np.ndarray, " n"]:
+def cells_of(points: Points, size: float) -> Int[np.ndarray, " n"]:
     """Returns one key for each point's cell of a grid."""
     return row_keys(np.round(points / size).astype(np.int64))
 
@@ -185,7 +184,7 @@ def _distinct(position: Faces) -> Indices:
     return whole[np.sort(first)]
 
 
-def _edge_numbers(position: Faces) -> np.ndarray:
+def edge_numbers(position: Faces) -> np.ndarray:
     """Returns the number of the undirected edge that starts at each corner, (faces, 3)."""
     end = np.roll(position, -1, axis=1)
     low, high = np.minimum(position, end), np.maximum(position, end)
@@ -228,68 +227,3 @@ def _without_border(edges: np.ndarray, patch: np.ndarray, patches: int) -> np.nd
 def _tetrahedra(triangles: np.ndarray) -> Scalars:
     """Returns the signed volume between the origin and each triangle."""
     return np.einsum("nd,nd->n", triangles[:, 0], cross(triangles[:, 1], triangles[:, 2])) / 6.0
-
-
-_FLAT = 1e-6  # how far normals of one plane differ
-_Edges = Int[np.ndarray, "n 3"]
-_Mask = Bool[np.ndarray, " n"]
-_OfEdges = Int[np.ndarray, " e"]
-_MaskOfEdges = Bool[np.ndarray, " e"]
-
-
-def shell_numbers(*meshes: TriangleMesh) -> Indices:
-    """Returns for each face, mesh after mesh, the number of the shell it belongs to, in order of first faces.
-
-    Vertices within a millionth of the mesh's largest side are one. Faces belong together across edges that exactly two
-    of them share, so bodies that have a corner or an edge in common are two shells; faces drawn twice count once.
-    """
-    whole = merge_meshes(meshes)
-    if not len(whole.faces):
-        return np.zeros(0, np.int64)
-    position = _welded_apart(meshes)[whole.faces]
-    edges, first = _edge_numbers(position), _first_alike(position)
-    distinct = first == np.arange(len(first))
-    count = np.bincount(edges[distinct].ravel(), minlength=int(edges.max()) + 1)
-    shell = _connected(edges, first, distinct, count)
-    shell = _with_caps(whole, edges, shell, (count > 2) & (np.bincount(edges.ravel()) % 2 == 0), count == 2)
-    _, begins, number = np.unique(shell, return_index=True, return_inverse=True)
-    return np.argsort(np.argsort(begins))[number.reshape(-1)].astype(np.int64)
-
-
-def _welded_apart(meshes: Sequence[TriangleMesh]) -> Indices:
-    """Returns for each vertex, mesh after mesh, the number of its position; two meshes have no position in common."""
-    sizes = [float(max(mesh.box.size.max(), 1e-300)) if len(mesh.faces) else 1.0 for mesh in meshes]
-    of = np.repeat(np.arange(len(meshes)), [len(mesh.vertices) for mesh in meshes])
-    scaled = np.concatenate([mesh.vertices for mesh in meshes]) / np.array(sizes)[of, None]
-    return np.unique(_cells(scaled, 1e-6) + of * _OF_PIECE, return_inverse=True)[1].reshape(-1)
-
-
-def _connected(edges: _Edges, first: Indices, distinct: _Mask, count: _OfEdges) -> Indices:
-    """Returns the number of each face's patch: across edges of two distinct faces, a repeated face with its first."""
-    owner, edge = np.repeat(np.flatnonzero(distinct), 3), edges[distinct].ravel()
-    order = np.argsort(edge, kind="stable")
-    pairs = owner[order][count[edge[order]] == 2].reshape(-1, 2)
-    ends = np.concatenate([pairs, np.column_stack([np.arange(len(first)), first])])
-    return linked(len(first), ends[:, 0], ends[:, 1])
-
-
-def _with_caps(
-    mesh: TriangleMesh, edges: _Edges, shell: Indices, touching: _MaskOfEdges, inner: _MaskOfEdges
-) -> Indices:
-    """Returns the numbers with flat patches that only lie between touching bodies given to the body around them."""
-    if not touching.any():
-        return shell
-    loose = touching[edges]
-    is_cap = np.ones(int(shell.max()) + 1, dtype=np.bool_)
-    np.logical_and.at(is_cap, shell, (loose | inner[edges]).all(axis=1))
-    bordered = np.bincount(shell, loose.any(axis=1)) > 0
-    begins = np.unique(shell, return_index=True)[1]
-    turned = np.abs(np.einsum("nk,nk->n", mesh.face_normals, mesh.face_normals[begins][shell]))
-    np.logical_and.at(is_cap, shell, turned > 1 - _FLAT)
-    is_cap &= bordered
-    at, edge = np.repeat(shell, 3)[loose.ravel()], edges[loose]
-    given = np.arange(len(is_cap))
-    for cap in np.flatnonzero(is_cap):
-        around = at[np.isin(edge, edge[at == cap]) & ~is_cap[at]]
-        given[cap] = np.bincount(around).argmax() if len(around) else cap
-    return given[shell]

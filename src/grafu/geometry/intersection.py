@@ -12,6 +12,7 @@ import fcl
 import numpy as np
 
 from grafu.geometry.arrays import Mat3, Mat4, Points, Vec3
+from grafu.geometry.blocks import PosedBlocks, blocks_of, gaps_between, meeting_boxes
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.bvh import model_of
@@ -51,7 +52,8 @@ class MeshCollider:
     def number(self) -> int | None:
         """The number of the mesh where it stands at rest; None of a posed one, which may stand anywhere."""
         if self._number is None:
-            self._number = model_of(self._mesh).number
+            blocks = blocks_of(self._mesh)
+            self._number = model_of(self._mesh).number if blocks is None else blocks.number
         return self._number if self._is_at_rest else None
 
     @property
@@ -74,10 +76,36 @@ class MeshCollider:
             self._pose = None
         return self._made
 
+    @cached_property
+    def _blocks(self) -> PosedBlocks | None:
+        """The blocks of a large mesh."""
+        blocks = blocks_of(self._mesh)
+        return None if blocks is None else PosedBlocks(blocks)
+
+    @property
+    def _ends(self) -> tuple[Points, Points]:
+        """The lowest and highest corners of the boxes around the blocks as posed, or of the one around a small mesh."""
+        if self._blocks is None:
+            return np.array([self._low]), np.array([self._high])
+        if self._pose is not None:
+            self._blocks.place(*self._pose)
+            self._pose = None
+        return self._blocks.ends
+
+    def _part(self, block: int) -> fcl.CollisionObject:
+        return self._object if self._blocks is None else self._blocks.object_of(block)
+
+    def _meeting(self, other: "MeshCollider") -> list[tuple[int, int]]:
+        """Returns the pairs of blocks whose boxes meet."""
+        return [(i, j) for i, j in meeting_boxes(self._ends, other._ends).tolist()]
+
+    def _is_divided(self, other: "MeshCollider") -> bool:
+        return self._blocks is not None or other._blocks is not None
+
     @property
     def is_prepared(self) -> bool:
         """Whether the BVH is there."""
-        return self._made is not None
+        return self._made is not None or self.__dict__.get("_blocks") is not None
 
     def place(self, T: Mat4, shift: Vec3 | None = None) -> None:
         """Poses the mesh at T, then moved by `shift` metres."""
@@ -103,7 +131,9 @@ class MeshCollider:
     def hits(self, other: "MeshCollider") -> bool:
         """Whether the two, whose boxes meet, share a point."""
         require_time()
-        return bool(fcl.collide(self._object, other._object, _ANY_CONTACT, fcl.CollisionResult()) > 0)
+        if self._is_divided(other):
+            return any(_collide(self._part(i), other._part(j)) for i, j in self._meeting(other))
+        return _collide(self._object, other._object)
 
     def is_apart(self, other: "MeshCollider") -> bool:
         """Whether the boxes of the two, as posed, share no point."""
@@ -119,10 +149,20 @@ class MeshCollider:
         if self.is_apart(other):
             return set()
         require_time()
+        if self._is_divided(other):
+            return set().union(*(self._touched(i, other._part(j)) for i, j in self._meeting(other)))
+        return self._touched(0, other._object)
+
+    def _touched(self, block: int, other: fcl.CollisionObject) -> set[int]:
+        """Returns the numbers of the mesh's faces in a block that intersect another object."""
         request = fcl.CollisionRequest(num_max_contacts=_MOST_CONTACTS, enable_contact=True)
         result = fcl.CollisionResult()
-        fcl.collide(self._object, other._object, request, result)
-        return model_of(self._mesh).faces({int(contact.b1) for contact in result.contacts})
+        fcl.collide(self._part(block), other, request, result)
+        hit = {int(contact.b1) for contact in result.contacts}
+        if self._blocks is None:
+            return model_of(self._mesh).faces(hit)
+        own = self._blocks.blocks
+        return set(own.faces[block][list(own.tree(block).faces(hit))].tolist())
 
     def box_gap(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the boxes of the two as posed: at most that of the meshes."""
@@ -136,8 +176,24 @@ class MeshCollider:
     def distance(self, other: "MeshCollider") -> float:
         """Returns the distance in metres between the two as posed, 0 where they intersect."""
         require_time()
-        found = fcl.distance(self._object, other._object, fcl.DistanceRequest(), fcl.DistanceResult())
-        return max(float(found), 0.0)
+        if not self._is_divided(other):
+            return _distance(self._object, other._object)
+        least = np.inf
+        gaps = gaps_between(self._ends, other._ends)
+        for k in np.argsort(gaps, axis=None).tolist():
+            if gaps.flat[k] >= least:
+                break
+            i, j = divmod(k, gaps.shape[1])
+            least = min(least, _distance(self._part(i), other._part(j)))
+        return float(least)
+
+
+def _collide(one: fcl.CollisionObject, other: fcl.CollisionObject) -> bool:
+    return bool(fcl.collide(one, other, _ANY_CONTACT, fcl.CollisionResult()) > 0)
+
+
+def _distance(one: fcl.CollisionObject, other: fcl.CollisionObject) -> float:
+    return max(float(fcl.distance(one, other, fcl.DistanceRequest(), fcl.DistanceResult())), 0.0)
 
 
 def shrunk(mesh: TriangleMesh, depth: float, rotation: Mat3 | None = None) -> TriangleMesh:

@@ -9,10 +9,10 @@ import numpy as np
 from grafu.asset.part import Asset
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster, depths_below
+from grafu.geometry.shells import shell_numbers
 from grafu.geometry.touching import near_pairs
 from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.joints.behind_fronts import groups_within, is_within_outline, sliding_out, static_boxes

@@ -21,7 +21,7 @@ from grafu.articulation.articulated_object import (
 from grafu.asset.part import Asset, Part
 from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
-from grafu.geometry.bvh import forget_large_shapes
+from grafu.geometry.blocks import forget_large_shapes
 from grafu.joints.build import Built
 from grafu.joints.build_all import in_order
 from grafu.joints.clearance.carve import Path, obstruction

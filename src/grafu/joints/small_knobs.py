@@ -21,9 +21,9 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.shells import shell_numbers
 from grafu.geometry.touching import near_pairs
 from grafu.graph.functional_graph import joined_groups
 from grafu.joints.config import SmallPartConfig

@@ -13,7 +13,7 @@ from grafu.additions.steps import BEFORE_JOINTS, INSIDE, ON_FRONTS, run_steps
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual, VisualRole
 from grafu.asset.part import Asset, Part
 from grafu.geometry.arrays import Vec3
-from grafu.geometry.bvh import forget_large_shapes
+from grafu.geometry.blocks import forget_large_shapes
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.functional_graph import PartNode
 from grafu.joints.plan import RealizationPlan

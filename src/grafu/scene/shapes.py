@@ -6,7 +6,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.geometry.arrays import Mat3
-from grafu.geometry.bvh import LARGE
+from grafu.geometry.blocks import LARGE
 from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 

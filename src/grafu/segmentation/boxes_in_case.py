@@ -14,8 +14,8 @@ from grafu.geometry.arrays import Indices
 from grafu.geometry.components import linked
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
-from grafu.segmentation.division import MeshShells, axes_from
-from grafu.segmentation.view import MaskOfShells, PointsOfShells, ShellsView, view_of
+from grafu.segmentation.mesh_shells import MeshShells, axes_from
+from grafu.segmentation.view import MaskOfShells, PointsOfShells, ShellsView
 from grafu.shapes import Bool
 
 _TURNS: Final = 4
@@ -105,8 +105,8 @@ class _BoxFinder:
         self, shells: MeshShells, turn: int, cases: Bool[np.ndarray, " objects"], config: BoxInCaseConfig
     ) -> None:
         axes = axes_from(turn)
-        self._view: ShellsView = view_of(shells.mesh, shells.shell, shells.owner, axes)
-        self._mesh = TriangleMesh(shells.mesh.vertices @ axes.T, shells.mesh.faces)
+        self._view: ShellsView = shells.seen(axes)
+        self._mesh, self._axes = shells.mesh, axes
         self._gives: MaskOfShells = cases[shells.owner]
         self._config = config
 
@@ -170,7 +170,7 @@ class _BoxFinder:
         """Whether faces cover both sides and the bottom or the back of a box, and not its top."""
         config, size = self._config, high - low
         faces = np.isin(self._view.shell, group)
-        triangles = self._mesh.triangles[faces]
+        triangles = self._mesh.vertices[self._mesh.faces[faces]] @ self._axes.T
         area = np.abs(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])) / 2
         place = (triangles.mean(axis=1) - low) / size
         first, last = place <= config.end, place >= 1 - config.end

@@ -18,12 +18,13 @@ from grafu.geometry.arrays import Faces, Indices, Vec3
 from grafu.geometry.components import linked, welded
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.config import SegmentationConfig
-from grafu.segmentation.division import FacePiece, FoundFronts, MeshShells, axes_from, fronts_by_object
+from grafu.segmentation.division import FacePiece, FoundFronts, fronts_by_object
 from grafu.segmentation.fronts import FrontShells
 from grafu.segmentation.hidden_fronts import outline
+from grafu.segmentation.mesh_shells import MeshShells, axes_from
 from grafu.segmentation.surface_config import CreaseConfig
 from grafu.segmentation.surroundings import within
-from grafu.segmentation.view import ShellsView, view_of
+from grafu.segmentation.view import ShellsView
 from grafu.shapes import Bool, Float, Int
 
 OfFaces = Int[np.ndarray, " faces"]
@@ -62,7 +63,7 @@ def drawn_fronts(
         axes = axes_from(turn)
         patches = [surface.patches(axes[2], config.creases) for surface in surfaces]
         parted = whole.parted(patches)
-        view = view_of(parted.mesh, parted.shell, parted.owner, axes)
+        view = parted.seen(axes)
         may = np.asarray(open_to)[parted.owner] & ~_is_in_edge(view, whole, config)
         found = fronts_by_object(view, may, [False] * len(meshes), config)
         clear = found.clear(config.division)
@@ -116,7 +117,7 @@ def drawn_handles(
         if not any(patch.any() for patch in patches):
             continue
         parted = whole.parted(patches)
-        view = view_of(parted.mesh, parted.shell, parted.owner, axes)
+        view = parted.seen(axes)
         single = fronts_by_object(view, kept[parted.owner], [False] * len(meshes), config).with_handles
         single = {k: front for k, front in single.items() if _stand_out(view, front, config.creases)}
         found |= FoundFronts({}, single).pieces(parted)

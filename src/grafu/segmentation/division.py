@@ -3,17 +3,15 @@
 It asks geometry alone.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import field, replace
-from functools import cache
-from typing import Final, Literal, final
+from typing import Literal, final
 
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Indices, Mat3, Vec3
-from grafu.geometry.components import shell_numbers
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.arrays import Indices, Vec3
+from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.candidates import candidates, framed, halves, merged
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells, fronts_among
@@ -27,13 +25,12 @@ from grafu.segmentation.hidden_fronts import (
 )
 from grafu.segmentation.low_fronts import with_low
 from grafu.segmentation.lying import lying_on_fronts
-from grafu.segmentation.view import MaskOfShells, OfShells, SeenFaces, ShellsView
+from grafu.segmentation.mesh_shells import MeshShells, axes_from
+from grafu.segmentation.view import MaskOfShells, ShellsView
 from grafu.shapes import Bool, Int
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
 Faces = Int[np.ndarray, " _"]
-
-_Z: Final = np.array([0.0, 0.0, 1.0])
 
 
 @final
@@ -50,33 +47,6 @@ class FacePiece:
     faces: Indices
     towards: Vec3 | None = None
     is_sheet: bool = False
-
-
-@final
-@dataclass(frozen=True)
-class MeshShells:
-    """All faces of several meshes, the shell of each face, and for each shell the mesh that holds it."""
-
-    mesh: TriangleMesh
-    shell: Indices
-    owner: OfShells
-
-    @classmethod
-    def of(cls, meshes: Sequence[TriangleMesh]) -> "MeshShells":
-        """Returns the shells of some meshes."""
-        shell = shell_numbers(*meshes)
-        of = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
-        return cls(merge_meshes(meshes), shell, of[np.unique(shell, return_index=True)[1]])
-
-    def parted(self, numbers: Sequence[Indices]) -> "MeshShells":
-        """Returns the shells parted by a number of each face, mesh after mesh: that of its material, or of its patch.
-
-        No number is negative.
-        """
-        number = np.concatenate(numbers)
-        pair = self.shell * (int(number.max(initial=0)) + 1) + number
-        _, first, shell = np.unique(pair, return_index=True, return_inverse=True)
-        return MeshShells(self.mesh, shell.reshape(-1).astype(np.int64), self.owner[self.shell[first]])
 
 
 def divided(
@@ -103,16 +73,12 @@ def divided(
     shells = shells or MeshShells.of(meshes)
     loose = may if lying is None else np.asarray(lying, dtype=bool)
 
-    @cache
-    def seen_from(turn: int) -> SeenFaces:
-        return SeenFaces.of(shells.mesh, axes_from(turn))
-
-    found = _from_the_best_side(seen_from, shells, (may, loose), whole, config)
+    found = _from_the_best_side(shells, (may, loose), whole, config)
     pieces = found.pieces(shells)
     if materials is not None:
         left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
         parted = shells.parted(materials) if left.any() else shells
-        single = _from_the_best_side(seen_from, parted, (left, np.zeros_like(left)), whole, config).with_handles
+        single = _from_the_best_side(parted, (left, np.zeros_like(left)), whole, config).with_handles
         pieces |= FoundFronts({}, single).pieces(parted)
     return dict(sorted(pieces.items()))
 
@@ -158,7 +124,6 @@ class FoundFronts:
 
 
 def _from_the_best_side(
-    seen_from: Callable[[int], SeenFaces],
     shells: MeshShells,
     may_be: tuple[MaskOfObjects, MaskOfObjects],
     whole: Sequence[bool],
@@ -178,7 +143,7 @@ def _from_the_best_side(
     sides: list[FoundFronts] = []
     ranks: list[tuple[bool, bool, float]] = []
     for turn in range(4):
-        view = seen_from(turn).view(shells.shell, shells.owner)
+        view = shells.seen(axes_from(turn))
         found = replace(fronts_by_object(view, may, whole, config, loose), turn=turn)
         clear = [front for fronts in found.clear(config.division).values() for front in fronts]
         is_held = len(whole) > 1 or sum(front.is_held for front in clear) > 1
@@ -194,12 +159,6 @@ def _from_the_best_side(
     if best > 0 and ranks[best][2] > 0:
         return replace(sides[best], hidden=sides[best].clear(config.division))
     return ahead if ahead.hidden else FoundFronts({}, handled, ahead.on_fronts)
-
-
-def axes_from(turn: int) -> Mat3:
-    """Returns a viewer's axes: from -Y, +X, +Y or -X."""
-    toward = np.round([np.sin(turn * np.pi / 2), -np.cos(turn * np.pi / 2), 0.0])
-    return np.stack([np.cross(_Z, toward), _Z, toward])
 
 
 def fronts_by_object(

@@ -13,9 +13,10 @@ import numpy as np
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices, Mask
 from grafu.geometry.box import Box
-from grafu.geometry.components import linked, shell_numbers
+from grafu.geometry.components import linked
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
+from grafu.geometry.shells import shell_numbers
 from grafu.geometry.touching import near_pairs, touching_pairs
 
 FLOOR_OR_WALL: Final = -1

@@ -13,15 +13,14 @@ import numpy as np
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
-from grafu.geometry.components import shell_numbers
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.shells import shell_numbers
 from grafu.geometry.touching import touching_pairs
 from grafu.segmentation.candidates import candidates, framed, merged
 from grafu.segmentation.config import SegmentationConfig
-from grafu.segmentation.division import MeshShells, axes_from
 from grafu.segmentation.fronts import fronts_among
+from grafu.segmentation.mesh_shells import MeshShells, axes_from
 from grafu.segmentation.surface_config import JoiningConfig
-from grafu.segmentation.view import SeenFaces
 from grafu.shapes import Bool, Int
 
 MaskOfObjects = Bool[np.ndarray, " objects"]
@@ -48,13 +47,13 @@ def joined_objects(
     """
     may = np.asarray(open_to, dtype=bool)
     owner = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
-    whole, apart = merge_meshes(meshes), MeshShells.of(meshes).shell
+    shells = MeshShells.of(meshes)
+    apart = shells.shell
     contacts: Final = _Contacts(meshes, config.joining)
-    across = _across(whole, owner, apart, may)
+    across = _across(shells.mesh, owner, apart, may)
     numberings = [across] if across.max(initial=0) < apart.max(initial=0) else []
     numberings += [apart, owner] if len(meshes) <= apart.max(initial=0) else [apart]
-    faces = SeenFaces.of(whole, axes_from(0))
-    fronts = [front for shell in numberings for front in _front_objects(faces, shell, owner, may, config)]
+    fronts = [front for shell in numberings for front in _front_objects(shells, shell, owner, may, config)]
     single = [front for front in fronts if contacts.count_apart(front.handles_within(fronts)) < 2]
     taken: set[int] = set()
     found: list[Group] = []
@@ -201,12 +200,12 @@ def _across(whole: TriangleMesh, owner: ObjectOfFaces, apart: Indices, may: Mask
 
 
 def _front_objects(
-    faces: SeenFaces, shell: Indices, owner: ObjectOfFaces, may: MaskOfObjects, config: SegmentationConfig
+    shells: MeshShells, shell: Indices, owner: ObjectOfFaces, may: MaskOfObjects, config: SegmentationConfig
 ) -> list[_Front]:
     """Returns the objects of each front and of its handles."""
     of = np.where(may, 0, np.arange(len(may)) + 1)
     first = np.unique(shell, return_index=True)[1]
-    seen = faces.view(shell, of[owner[first]].astype(np.int64))
+    seen = shells.sorted(shell, of[owner[first]].astype(np.int64)).seen(axes_from(0))
     view, members = merged(seen, framed(seen, config))
     plates = candidates(view, view.owner == 0, replace(config.candidates, least=config.joining.least))
     found = [front.made_of(members) for front in fronts_among(view, plates, config)]

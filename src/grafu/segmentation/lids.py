@@ -13,9 +13,10 @@ from grafu.geometry.config_checks import require_not_negative, require_positive,
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.candidates import candidates, framed, merged
 from grafu.segmentation.config import SegmentationConfig
-from grafu.segmentation.division import FacePiece, MeshShells, axes_from, split
+from grafu.segmentation.division import FacePiece, split
 from grafu.segmentation.fronts import fronts_among
-from grafu.segmentation.view import ShellsView, view_of
+from grafu.segmentation.mesh_shells import MeshShells, axes_from
+from grafu.segmentation.view import ShellsView
 
 
 @final
@@ -72,7 +73,7 @@ def lid_of_chest(
     Of the shells that cover the chest from above the lid is the largest.
     """
     shells = MeshShells.of(meshes)
-    view = _view(shells)
+    view = shells.seen(axes_from(0))
     lid = _lid(view, open_to, config)
     return {} if lid is None else _cut(shells, view, lid, meshes, config)
 
@@ -85,7 +86,7 @@ def lid_of_washer(
     What covers most of its face is its casing, and what stands above the lid the panel of its controls.
     """
     shells = MeshShells.of(meshes)
-    view = _view(shells)
+    view = shells.seen(axes_from(0))
     lid = _lid(view, open_to, config.lid)
     if lid is None:
         return {}
@@ -99,14 +100,10 @@ def lid_of_washer(
 
 def count_held_fronts(meshes: Sequence[TriangleMesh], config: SegmentationConfig = SegmentationConfig()) -> int:
     """Returns how many plates with a handle are seen in front, also those that are objects of their own."""
-    whole = _view(MeshShells.of(meshes))
+    whole = MeshShells.of(meshes).seen(axes_from(0))
     view, _ = merged(whole, framed(whole, config))
     plates = candidates(view, np.ones(len(view.owner), dtype=bool), config.candidates)
     return sum(front.is_held for front in fronts_among(view, plates, config))
-
-
-def _view(shells: MeshShells) -> ShellsView:
-    return view_of(shells.mesh, shells.shell, shells.owner, axes_from(0))
 
 
 def _lid(view: ShellsView, open_to: Sequence[bool], config: LidConfig) -> int | None:

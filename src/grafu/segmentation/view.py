@@ -3,13 +3,15 @@
 Coordinates are those of the viewer: x to the right, y up, z towards the viewer.
 """
 
+from collections.abc import Iterator
 from functools import cached_property
 from typing import final
 
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, Indices, Mat3, Points, cross, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, cross, freeze_arrays
+from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.raycast import RayCaster
 from grafu.shapes import Bool, Float, Int
@@ -22,6 +24,7 @@ PointsOfShells = Float[np.ndarray, "shells 3"]
 _RAYS = 288  # along the longer side of what is seen
 _FAR = 2.0  # fractions of the largest side that rays begin in front
 _MANY = 100_000  # faces, of which most are smaller than the distance between rays
+_TOGETHER = 200_000  # faces that are looked at in one step: arrays of all of a large mesh take much room
 _SPARE = 0.01  # of that distance: rays are traced in single precision
 
 
@@ -32,14 +35,14 @@ class RayGrid:
     Rays stand `cell` apart, the first at `origin`; `shape` are their rows and columns.
     """
 
-    def __init__(self, mesh: TriangleMesh, low: Points, high: Points) -> None:
-        """Takes a mesh in the viewer's coordinates, and the ends of the box of each face."""
-        self._mesh, self._low, self._high = mesh, low, high
-        size = mesh.box.size
-        self.cell = float(max(size[:2].max(), 1e-12)) / _RAYS
+    def __init__(self, mesh: TriangleMesh, axes: Mat3) -> None:
+        """Takes a mesh, and the viewer's right, up and the direction towards the viewer as rows."""
+        self._mesh, self._axes = mesh, axes
+        self._box = Box.around(np.stack([mesh.box.low, mesh.box.high]) @ axes.T)
+        self.cell = float(max(self._box.size[:2].max(), 1e-12)) / _RAYS
         # off the middle of cells: no ray runs along the edge where boards meet
-        self.origin = mesh.box.low[:2] + self.cell * np.array([0.4871, 0.5113])
-        columns, rows = np.maximum(np.ceil((mesh.box.high[:2] - self.origin) / self.cell).astype(int), 1).tolist()
+        self.origin = self._box.low[:2] + self.cell * np.array([0.4871, 0.5113])
+        columns, rows = np.maximum(np.ceil((self._box.high[:2] - self.origin) / self.cell).astype(int), 1).tolist()
         self.shape = rows, columns
 
     @property
@@ -55,10 +58,11 @@ class RayGrid:
     @cached_property
     def _met(self) -> tuple[Int[np.ndarray, "r c"], Float[np.ndarray, "r c"]]:
         x, y = np.meshgrid(*(self.origin[k] + self.cell * np.arange(self.shape[1 - k]) for k in (0, 1)))
-        top = float(self._mesh.box.high[2]) + _FAR * float(self._mesh.box.size.max())
+        top = float(self._box.high[2]) + _FAR * float(self._box.size.max())
         starts = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, top)])
-        met = _may_be_met(self._low, self._high, self.origin, self.cell)
-        caster = RayCaster(TriangleMesh(self._mesh.vertices, self._mesh.faces[met]))
+        vertices = self._mesh.vertices @ self._axes.T
+        met = _may_be_met(vertices, self._mesh.faces, self.origin, self.cell)
+        caster = RayCaster(TriangleMesh(vertices, self._mesh.faces[met]))
         found, distance = caster.first_faces(starts, np.array([0.0, 0.0, -1.0]))
         face = np.where(found >= 0, met[found], -1) if len(met) else found
         return face.reshape(x.shape), (top - distance).reshape(x.shape)
@@ -115,55 +119,76 @@ class ShellsView(ArrayValue):
         return slice(first[1], last[1] + 1), slice(first[0], last[0] + 1)
 
 
-def view_of(mesh: TriangleMesh, shell: Indices, owner: OfShells, axes: Mat3) -> ShellsView:
-    """Returns the shells of a mesh as they are seen along the third row of `axes`.
+@final
+class RaysFromSides:
+    """The rays towards a mesh from each side that is asked for, traced once however the faces are sorted into shells.
 
-    Args:
-        mesh: all faces.
-        shell: the number of each face's shell.
-        owner: for each shell the number of the object that holds it.
-        axes: the viewer's right, up and the direction towards the viewer, unit rows.
+    Not a value.
     """
-    return SeenFaces.of(mesh, axes).view(shell, owner)
+
+    def __init__(self, mesh: TriangleMesh) -> None:
+        self._mesh = mesh
+        self._grids: dict[bytes, RayGrid] = {}
+
+    def along(self, axes: Mat3) -> RayGrid:
+        """Returns the rays against the third row of `axes`."""
+        key = axes.tobytes()
+        if key not in self._grids:
+            self._grids[key] = RayGrid(self._mesh, axes)
+        return self._grids[key]
 
 
 @final
 @dataclass(frozen=True, eq=False)
-class SeenFaces:
-    """The faces of a mesh as they are seen from one side, however they are sorted into shells.
+class ShellBounds(ArrayValue):
+    """Where each shell of a mesh begins and ends, and the area of its projection along each axis.
 
-    `low` and `high` are the ends of the box of each face, `cross` its normal, twice as long as the face is large.
+    Of that area the greater of both sides counts: `faced`.
     """
 
-    low: Points
-    high: Points
-    cross: Points
-    rays: RayGrid
+    low: PointsOfShells
+    high: PointsOfShells
+    faced: PointsOfShells
+
+    def __post_init__(self) -> None:
+        freeze_arrays(self)
 
     @classmethod
-    def of(cls, mesh: TriangleMesh, axes: Mat3) -> "SeenFaces":
-        """Returns a mesh as it is seen along the third row of `axes`; see `view_of`."""
-        turned = TriangleMesh(mesh.vertices @ axes.T, mesh.faces)
-        corners = turned.triangles
-        low, high = triangle_bounds(corners)
-        normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        return cls(low, high, normals, RayGrid(turned, low, high))
-
-    def view(self, shell: Indices, owner: OfShells) -> ShellsView:
-        """Returns the shells, from the number of each face's shell and of the object that holds each shell."""
+    def of(cls, mesh: TriangleMesh, shell: Indices, count: int) -> "ShellBounds":
+        """Returns the bounds of `count` shells, from the number of each face's shell; each has a face."""
         order = np.argsort(shell, kind="stable")
-        starts = np.searchsorted(shell[order], np.arange(len(owner)))
-        low = np.minimum.reduceat(self.low[order], starts, axis=0)
-        high = np.maximum.reduceat(self.high[order], starts, axis=0)
-        normals = self.cross[order] / 2
-        sides = [np.add.reduceat(np.maximum(sign * normals, 0.0), starts, axis=0) for sign in (1.0, -1.0)]
-        return ShellsView(owner, low, high, np.maximum(*sides), shell, self.rays)
+        starts = np.searchsorted(shell[order], np.arange(count + 1))
+        low, high, faced = np.zeros((3, count, 3))
+        for first, last in _few_together(starts):
+            corners = mesh.vertices[mesh.faces[order[starts[first] : starts[last]]]]
+            begins = starts[first:last] - starts[first]
+            ends = triangle_bounds(corners)
+            low[first:last] = np.minimum.reduceat(ends[0], begins, axis=0)
+            high[first:last] = np.maximum.reduceat(ends[1], begins, axis=0)
+            normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+            sides = [np.add.reduceat(np.maximum(sign * normals, 0.0), begins, axis=0) for sign in (1.0, -1.0)]
+            faced[first:last] = np.maximum(*sides)
+        return cls(low, high, faced)
+
+    def seen(self, axes: Mat3) -> "ShellBounds":
+        """Returns the bounds in the coordinates of a viewer whose axes, the rows, run along those of the mesh."""
+        ends = self.low @ axes.T, self.high @ axes.T
+        return ShellBounds(np.minimum(*ends), np.maximum(*ends), self.faced @ np.abs(axes).T)
 
 
-def _may_be_met(low: Points, high: Points, origin: np.ndarray, cell: float) -> Int[np.ndarray, " _"]:
+def _few_together(starts: Indices) -> Iterator[tuple[int, int]]:
+    """Yields ranges of shells that have few faces together, or are one; shell k has those from `starts[k]` on."""
+    first, count = 0, len(starts) - 1
+    while first < count:
+        last = int(np.searchsorted(starts, starts[first] + _TOGETHER, side="right")) - 1
+        last = min(max(last, first + 1), count)
+        yield first, last
+        first = last
+
+
+def _may_be_met(vertices: Points, faces: Faces, origin: np.ndarray, cell: float) -> Int[np.ndarray, " _"]:
     """Returns the faces that a ray may meet; of few faces all, since sorting them out takes longer than it saves."""
-    if len(low) <= _MANY:
-        return np.arange(len(low))
-    first = np.ceil((low[:, :2] - origin) / cell - _SPARE)
-    last = np.floor((high[:, :2] - origin) / cell + _SPARE)
-    return np.flatnonzero((first <= last).all(axis=1))
+    if len(faces) <= _MANY:
+        return np.arange(len(faces))
+    low, high = triangle_bounds(((vertices - np.append(origin, 0.0)) / cell)[faces])
+    return np.flatnonzero((np.ceil(low - _SPARE) <= np.floor(high + _SPARE))[:, :2].all(axis=1))

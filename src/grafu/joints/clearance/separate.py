@@ -14,9 +14,10 @@ from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
-from grafu.geometry.components import part_numbers, shell_numbers
+from grafu.geometry.components import part_numbers
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import sample_surface
+from grafu.geometry.shells import shell_numbers
 from grafu.joints.clearance.carve import Path, box_in
 from grafu.joints.config import RealizationConfig
 from grafu.joints.report import Clearance
