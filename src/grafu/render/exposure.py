@@ -12,7 +12,7 @@ from typing import Literal, final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import extremes, frozen_array
+from grafu.geometry.arrays import frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.render.camera import Camera
@@ -52,11 +52,9 @@ class Exposure:
         self.directions = _rays(camera, *self.size)
         self.color = np.zeros((count, 4), np.float32)
         self.through = np.ones(count, np.float32)  # how much of each ray goes on behind the glass so far
-        corners = scene.triangles.reshape(-1, 3)
-        low, high = extremes(corners) if len(corners) else (np.zeros(3), np.ones(3))
-        self.low: np.ndarray = low
-        self.high: np.ndarray = high
-        self.reach = float(0.35 * np.linalg.norm(high - low))
+        self.low: np.ndarray = scene.low
+        self.high: np.ndarray = scene.high
+        self.reach = float(0.35 * np.linalg.norm(self.high - self.low))
 
     def samples(self) -> Samples:
         """Returns premultiplied linear RGBA per sample, (height, width, 4). To be called once."""

@@ -50,7 +50,7 @@ class Hits:
 
 @final
 class RayScene:
-    """Triangles ready for rays. Built once per pose; it never changes after."""
+    """Triangles ready for rays, and the ends of the box around them. Built once per pose; it never changes after."""
 
     def __init__(self, visuals: Sequence[Visual]) -> None:
         rows = [(k, s) for k, v in enumerate(visuals) for s in v.surfaces if not s.is_empty]
@@ -62,9 +62,13 @@ class RayScene:
         surfaces = [s for _, s in rows]
         textured = any(material.base_color_texture for material in self._materials)
         self._colored = any(s.colors is not None for s in surfaces)
-        self.triangles: np.ndarray = _stacked(surfaces, lambda s: s.mesh.triangles, 3, 3)
+        boxes = [surface.mesh.box for surface in surfaces]
+        self.is_empty = not boxes
+        self.low: np.ndarray = np.min([box.low for box in boxes] or [np.zeros(3)], axis=0).astype(np.float32)
+        self.high: np.ndarray = np.max([box.high for box in boxes] or [np.ones(3)], axis=0).astype(np.float32)
         self._flat: np.ndarray = _stacked(surfaces, lambda s: s.mesh.face_normals, 3)
-        self._normals: np.ndarray = _stacked(surfaces, _corner_normals, 3, 3)
+        self._is_shaded = any(s.normals is not None for s in surfaces)
+        self._normals: np.ndarray = _stacked(surfaces if self._is_shaded else [], _corner_normals, 3, 3)
         self._colors: np.ndarray = _stacked(surfaces if self._colored else [], _corner_colors, 3, 4)
         self._uvs: np.ndarray = _stacked(surfaces if textured else [], _corner_uvs, 3, 2)
         self._table = _material_table(self._materials)
@@ -77,12 +81,13 @@ class RayScene:
     def cast(self, origins: Rays, directions: Rays) -> Hits:
         """Returns what each ray meets first; directions are unit vectors."""
         found = self._embree.run(origins, directions, query="INTERSECT", output=True)
-        ray = np.flatnonzero(found["primID"] >= 0) if len(self.triangles) else np.zeros(0, np.int64)
+        ray = np.flatnonzero(found["primID"] >= 0) if not self.is_empty else np.zeros(0, np.int64)
         face = found["primID"][ray]
         u, v = found["u"][ray], found["v"][ray]
         weights = np.stack([1 - u - v, u, v], axis=1)
         flat = _toward(-directions[ray], self._flat[face])
-        normal = _unit(_toward(flat, _blend(weights, self._normals[face])))
+        corners = self._normals[face] if self._is_shaded else np.repeat(self._flat[face][:, None], 3, axis=1)
+        normal = _unit(_toward(flat, _blend(weights, corners)))
         rgba = self._rgba(face, weights)
         table = self._table[self._material[face]]
         parts = (flat, rgba[:, :3], rgba[:, 3], table[:, 4], table[:, 5])
@@ -90,7 +95,7 @@ class RayScene:
 
     def blocked(self, origins: Rays, directions: Rays, reach: float) -> Bool[np.ndarray, " n"]:
         """Whether something lies on each ray within `reach` times its direction's length."""
-        if not len(self.triangles):
+        if self.is_empty:
             return np.zeros(len(origins), bool)
         limit = np.full(len(origins), reach, np.float32)
         return self._solid.run(origins, directions, limit, query="OCCLUDED") == 0
