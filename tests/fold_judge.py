@@ -7,7 +7,8 @@ import numpy as np
 import grafu
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, Visual, VisualRole
 from grafu.articulation.kinematics import link_poses
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
+from grafu.geometry.swept_body import SweptBody
 from grafu.scene.border import part_axes
 
 TOUCH = 0.0005  # metres on each side by which a mesh is made smaller before it may cut into another

@@ -164,11 +164,11 @@ OF_MODULES = {
     "segmentation": {
         "boxes_in_case.py": {"_TURNS": NUMBERING},
         "creases.py": {"_SAME_UV": TOLERANCE},
-        "division.py": {"_Z": NUMBERING},
+        "mesh_shells.py": {"_Z": NUMBERING},
         "fronts.py": {"SHEET": TOLERANCE},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
         "surroundings.py": {"NO_AREA": TOLERANCE, "RING_CELLS": SAMPLES},
-        "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES, "_MANY": SAMPLES, "_SPARE": TOLERANCE},
+        "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES, "_MANY": SAMPLES, "_TOGETHER": SAMPLES, "_SPARE": TOLERANCE},
     },
     "completion": {
         "doors.py": {},
@@ -220,6 +220,7 @@ IN_FUNCTIONS = {
         "division.py": {},
         "fronts.py": {6: TOLERANCE},
         "furniture_pieces.py": {},
+        "mesh_shells.py": {},
         "view.py": {0.4871: SAMPLES, 0.5113: SAMPLES},
     },
     "completion": {

@@ -12,7 +12,8 @@ from grafu.additions.carcass.missing_panels import missing_panels
 from grafu.asset.edit import yawed
 from grafu.asset.part import Asset
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.realize import realize
 from grafu.pipeline.additions import planned_scene

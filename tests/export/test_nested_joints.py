@@ -12,7 +12,8 @@ import grafu
 from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import all_open
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
+from grafu.geometry.swept_body import SweptBody
 from grafu.graph.serialize import completion_from_json, load_json
 from nested_urdfs import drawer_behind_door, drawer_in_door, folding_door
 

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from grafu.export import shading
 from grafu.export.shading import _kept, corner_normals
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
@@ -86,3 +87,13 @@ def test_normals_are_found_once_in_the_life_of_a_surface():
     key = id(cube)
     del cube
     assert not [known for known in _kept if known[0] == key]
+
+
+def test_normals_are_kept_as_far_as_there_is_room(monkeypatch):
+    monkeypatch.setattr(shading, "_ROOM", shading._taken[0] + 12)
+    first, second = (Surface(TriangleMesh.box_mesh(Box(vec3(0.0, 0.0, 0.0), vec3(1.0, 1.0, k)))) for k in (1.0, 2.0))
+    kept = corner_normals(first)
+    assert corner_normals(first) is kept
+    assert corner_normals(second) is not corner_normals(second)
+    del first
+    assert corner_normals(second) is corner_normals(second)

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from grafu.geometry import blocks, intersection
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.blocks import LARGE, blocks_of
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 
 SIDE = 60  # quads along each side of a board: 7200 faces

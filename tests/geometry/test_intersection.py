@@ -12,9 +12,10 @@ from grafu.geometry import bvh
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
 from grafu.geometry.bvh import share_shape
-from grafu.geometry.intersection import MeshCollider, SweptBody, shrunk
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.remembered import RememberedByContent
+from grafu.geometry.swept_body import SweptBody, shrunk
 from grafu.geometry.transform import from_rotation, rotation_matrix, translation
 
 DEPTH = 0.01

@@ -7,7 +7,8 @@ import pytest
 
 from grafu.asset.part import Asset
 from grafu.errors import OptionError
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.joint_choice import with_choices
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.plan import JointChoice

@@ -12,8 +12,9 @@ from grafu.export.files import write_files
 from grafu.export.formats import export
 from grafu.geometry.arrays import vec3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.realize import Realized, realize
 from grafu.joints.stays import with_stays

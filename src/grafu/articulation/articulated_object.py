@@ -192,7 +192,7 @@ class ArticulatedObject:
                 self._check_coupling(joint, joint.coupling)
 
     def _check_coupling(self, joint: Joint, coupling: Coupling) -> None:
-        leader = self._joints_by_id.get(coupling.leader)
+        leader = self.joints_by_id.get(coupling.leader)
         if leader is None or not leader.kind.moves or not joint.kind.moves:
             raise ArticulationError(f"`{joint.id}` must follow a joint that moves: got `{coupling.leader}`")
         if joint.after:
@@ -221,6 +221,11 @@ class ArticulatedObject:
         """All links, every parent before its children."""
         return tuple(self._walk())
 
+    @cached_property
+    def ids_from_root(self) -> tuple[str, ...]:
+        """The ids of all links, every parent before its children."""
+        return tuple(link.id for link in self.links_from_root)
+
     def link(self, link_id: str) -> Link:
         """Returns the link with this id. Raises KeyError where there is none."""
         return self._links_by_id[link_id]
@@ -235,7 +240,8 @@ class ArticulatedObject:
         return {joint.child: joint for joint in self.joints}
 
     @cached_property
-    def _joints_by_id(self) -> dict[str, Joint]:
+    def joints_by_id(self) -> dict[str, Joint]:
+        """Each joint by its id."""
         return {joint.id: joint for joint in self.joints}
 
     def leader_of(self, joint: Joint) -> Joint:
@@ -246,18 +252,34 @@ class ArticulatedObject:
         """
         seen = [joint.id]
         while joint.coupling is not None:
-            joint = self._joints_by_id[joint.coupling.leader]
+            joint = self.joints_by_id[joint.coupling.leader]
             if joint.id in seen:
                 raise ArticulationError(f"joints must not follow one another in a circle: {seen} do")
             seen.append(joint.id)
         return joint
 
-    @property
+    @cached_property
+    def links_below(self) -> dict[str, tuple[str, ...]]:
+        """For each link that a joint moves, itself and all that hangs on it, every parent before its children."""
+        found: dict[str, list[str]] = {}
+        for link in self.links_from_root:
+            above: Joint | None = self.joint_of.get(link.id)
+            while above is not None:
+                found.setdefault(above.child, []).append(link.id)
+                above = self.joint_of.get(above.parent)
+        return {link: tuple(below) for link, below in found.items()}
+
+    @cached_property
+    def couplings(self) -> dict[str, Coupling]:
+        """What each coupled joint follows, by its id."""
+        return {joint.id: joint.coupling for joint in self.joints if joint.coupling is not None}
+
+    @cached_property
     def free_joints(self) -> tuple[Joint, ...]:
         """The joints that move by themselves: neither fixed nor coupled."""
         return tuple(joint for joint in self.moving_joints if joint.coupling is None)
 
-    @property
+    @cached_property
     def moving_joints(self) -> tuple[Joint, ...]:
         """The joints that are not fixed."""
         return tuple(joint for joint in self.joints if joint.kind.moves)

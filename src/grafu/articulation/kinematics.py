@@ -3,7 +3,7 @@
 Exporters and simulators need one frame per link. What has to be open before a part may move is asked by values alone.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -53,7 +53,7 @@ def with_coupled(articulated: ArticulatedObject, values: Mapping[str, float]) ->
     Raises:
         ArticulationError: if a value is given for a coupled joint that is not the one it has at its leader's.
     """
-    coupled = {joint.id: joint.coupling for joint in articulated.joints if joint.coupling is not None}
+    coupled = articulated.couplings
     found = {name: value for name, value in values.items() if name not in coupled}
 
     def value_of(name: str) -> float:
@@ -80,16 +80,23 @@ def link_poses(articulated: ArticulatedObject, values: Mapping[str, float], show
     Raises:
         ArticulationError: if `values` names a joint that the object does not have, or puts a coupled joint elsewhere.
     """
-    unknown = sorted(set(values) - {joint.id for joint in articulated.joints})
-    if unknown:
+    if unknown := sorted(name for name in values if name not in articulated.joints_by_id):
         known = [joint.id for joint in articulated.joints]
         raise ArticulationError(f"joint values must name joints of `{articulated.name}`: got {unknown}, it has {known}")
-    values, poses = with_coupled(articulated, values), dict[str, Mat4]()
-    for link in articulated.links_from_root:
-        joint = articulated.joint_of.get(link.id)
-        value, carried = (0.0, REST) if joint is None else (values.get(joint.id, 0.0), poses[joint.parent])
-        if joint is None or (carried is REST and value == 0.0 and (not shown or joint.slip is None)):
-            poses[link.id] = REST  # most links, in most poses
-        else:
-            poses[link.id] = carried @ (joint.shown_motion if shown else joint.motion)(value)
+    values, poses = with_coupled(articulated, values), dict.fromkeys(articulated.ids_from_root, REST)
+    for link in _moved(articulated, values, shown):  # few of many, in most poses
+        joint = articulated.joint_of[link]
+        motion = joint.shown_motion if shown else joint.motion
+        poses[link] = poses[joint.parent] @ motion(values.get(joint.id, 0.0))
     return poses
+
+
+def _moved(articulated: ArticulatedObject, values: Mapping[str, float], shown: bool) -> Sequence[str]:
+    """Returns the links that joints move, or that hang on such, every parent before its children."""
+    joints = [articulated.joints_by_id[name] for name, value in values.items() if value != 0.0]
+    if shown:
+        joints += [joint for joint in articulated.joints if joint.slip is not None]
+    if len(joints) == 1:
+        return articulated.links_below[joints[0].child]
+    moved = {link for joint in joints for link in articulated.links_below[joint.child]}
+    return [link for link in articulated.ids_from_root if link in moved]

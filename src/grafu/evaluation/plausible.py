@@ -15,9 +15,10 @@ from grafu.evaluation.measures import OPENS, joints_by_part
 from grafu.evaluation.moving_parts import MovingPart, usual_opening
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.sampling import distances_up_to, sample_surface
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import transform_points
 from grafu.metrics.collision import TOLERANT
 from grafu.vocabulary import PartLabel

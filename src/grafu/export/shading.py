@@ -25,6 +25,7 @@ class CornerNormals(ArrayValue):
 
 _ROOM: Final = 600_000  # faces whose normals are kept: 60 MB; those of larger models are worked out for each file
 _kept: dict[tuple[int, float], CornerNormals] = {}
+_taken = [0]  # faces of those
 
 
 def corner_normals(surface: Surface, crease_angle: float = CREASE_ANGLE) -> CornerNormals:
@@ -38,10 +39,15 @@ def corner_normals(surface: Surface, crease_angle: float = CREASE_ANGLE) -> Corn
     if (known := _kept.get(key)) is not None:
         return known
     found = _corner_normals(surface, crease_angle)
-    if len(surface.mesh.faces) + sum(len(kept.corners) for kept in _kept.values()) <= _ROOM:
+    if _taken[0] + len(found.corners) <= _ROOM:
         _kept[key] = found
-        finalize(surface, _kept.pop, key, None)
+        _taken[0] += len(found.corners)
+        finalize(surface, _forget, key)
     return found
+
+
+def _forget(key: tuple[int, float]) -> None:
+    _taken[0] -= len(_kept.pop(key).corners)
 
 
 def _corner_normals(surface: Surface, crease_angle: float) -> CornerNormals:

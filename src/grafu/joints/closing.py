@@ -17,9 +17,9 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, median
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
-from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.closing_doors import drawn_angles
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box, widest_free

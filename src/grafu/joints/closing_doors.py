@@ -16,9 +16,9 @@ import numpy as np
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.axis import Axis
-from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import heading_of, mesh_near
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import transform_points
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from grafu.geometry.budget import require_time
-from grafu.geometry.intersection import SweptBody
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, opening_values, swept_box

@@ -9,8 +9,9 @@ from grafu.articulation.articulated_object import Coupling
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.budget import require_time
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import opening_values

@@ -15,8 +15,9 @@ from grafu.asset.part import Asset
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, swept_box, widest_free
 from grafu.joints.plan import DrawnArms, RealizationPlan

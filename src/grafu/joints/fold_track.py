@@ -17,9 +17,10 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Scalars, median, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.build import Built
 from grafu.joints.config import RealizationConfig
 from grafu.joints.fold_config import FoldConfig

@@ -20,9 +20,9 @@ from grafu.geometry.appearance import Material
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import from_rotation, translation
 from grafu.joints.leaves import UP, Leaf
 from grafu.joints.lift_arm_config import LiftArmConfig

@@ -11,8 +11,8 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, Scalars, frozen_array
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import transform_points
 from grafu.scene.obstacles import Obstacle, Obstacles
 

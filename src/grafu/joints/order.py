@@ -13,8 +13,9 @@ from grafu.articulation.kinematics import all_before
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import PoseFunction, in_the_way, is_free, sweep, swept_box
 from grafu.scene.border import part_axes

@@ -11,7 +11,8 @@ from grafu.asset.part import Asset, Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.framed_leaves import relabelled
 from grafu.vocabulary import PartLabel
 

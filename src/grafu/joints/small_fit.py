@@ -10,8 +10,9 @@ from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, selected
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import translation
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, swept_box, widest_free

@@ -18,9 +18,10 @@ from grafu.geometry.arrays import Mat3, Scalars, Vec3, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import from_rotation
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import is_free

@@ -22,8 +22,9 @@ from grafu.articulation.kinematics import link_poses
 from grafu.articulation.sweep import rest_to_full
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.swept_body import SweptBody
 from grafu.metrics.bodies import anchored_mesh, largest_side, parts_mesh, rigid_body
 
 

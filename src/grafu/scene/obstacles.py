@@ -47,8 +47,16 @@ class Obstacles:
     """Obstacles in order. `near` reads those that meet a box; going through them, or counting them, reads all."""
 
     def __init__(self, entries: Iterable[Entry]) -> None:
-        self._entries = tuple(entries)
-        self._kinds = tuple(dict.fromkeys(entry.kind for entry in self._entries))
+        self._listed = entries
+
+    @cached_property
+    def _entries(self) -> tuple[Entry, ...]:
+        """The obstacles, listed when first asked for: many are never."""
+        return tuple(self._listed)
+
+    @cached_property
+    def _kinds(self) -> tuple[Read, ...]:
+        return tuple({entry.kind: None for entry in self._entries})
 
     @cached_property
     def _ends(self) -> tuple[Points, Points]:
@@ -73,7 +81,7 @@ class Obstacles:
 
     def joined(self, others: "Obstacles") -> "Obstacles":
         """Returns these, then others."""
-        return Obstacles((*self._entries, *others._entries))
+        return Obstacles(entry for each in (self, others) for entry in each._entries)
 
     def __iter__(self) -> Iterator[Obstacle]:
         self._note_all()

@@ -16,8 +16,9 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, mesh_near
+from grafu.geometry.swept_body import SweptBody
 from grafu.scene.obstacles import Entry, Obstacle, Obstacles
 from grafu.scene.reads import Read, note_box, note_whole, plain, with_items
 from grafu.scene.scale import floor_under, metre_on
@@ -281,7 +282,7 @@ def _entry(kind: Read, name: str, mesh: TriangleMesh) -> Entry:
 def _body_box(scene: Scene, moving_id: str) -> Box:
     rigid = (visual.mesh for visual in scene.body_hardware(moving_id) if visual.swing is None)
     meshes = [*(part.mesh for part in scene.body_parts(moving_id)), *rigid]
-    return Box.enclosing(mesh.box for mesh in [mesh for mesh in meshes if len(mesh.faces)] or meshes)
+    return scene._shapes.box_around([mesh for mesh in meshes if len(mesh.faces)] or meshes)
 
 
 def _hardware_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:

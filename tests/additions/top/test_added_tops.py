@@ -15,8 +15,9 @@ from grafu.additions.top.config import TopConfig, TopShape
 from grafu.additions.top.section import slab_mesh, with_corners, without_block
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Material, Surface
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.limits import sweep
 from grafu.joints.plan import JointRequest
 from grafu.scene.obstacles import Obstacle

@@ -21,9 +21,10 @@ from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import from_rotation
 from grafu.joints.limits import PoseFunction, in_the_way, opening_values, swept_box
 from grafu.scene.obstacles import Obstacle, Obstacles

@@ -17,9 +17,10 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.free_space import SomePoints
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.limits import in_the_way, opening_values, swept_box
 from grafu.refusal import Reason, Refusal
 from grafu.scene.border import part_axes

@@ -17,9 +17,10 @@ from grafu.additions.top.section import polygons_in, section, slab_mesh, with_co
 from grafu.additions.top.slope_config import SlopeConfig
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.shapes import Float
 
 TOUCH = 1e-5

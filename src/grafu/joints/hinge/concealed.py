@@ -17,7 +17,7 @@ from grafu.articulation.swing import Swing
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, vec3
-from grafu.geometry.intersection import SweptBody
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import translation
 from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.hinge.candidates import PinCandidate, heights_to_try

@@ -14,9 +14,10 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.config import BlockConfig
 from grafu.joints.hinge.candidates import FittedHinge, PinCandidate
 from grafu.joints.hinge.neighbours import Neighbour

@@ -7,8 +7,9 @@ from typing import final
 import numpy as np
 
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.limits import PoseFunction, is_free, swept_box
 from grafu.scene.border import part_axes
 from grafu.scene.obstacles import Obstacle

@@ -11,9 +11,9 @@ import numpy as np
 from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.candidates import (
     PIVOTS,

@@ -19,9 +19,10 @@ from grafu.articulation.articulated_object import Visual, VisualRole
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.geometry.transform import from_rotation, reflection, translation
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import in_the_way, is_free, swept_box

@@ -9,9 +9,9 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.intersection import SweptBody
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.swept_body import SweptBody
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import (
     PoseFunction,

@@ -10,8 +10,9 @@ from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import AnnotatedJoint, Asset
 from grafu.geometry.arrays import Mat4, Scalars
 from grafu.geometry.box_stack import BoxStack, box_frames, stacked
-from grafu.geometry.intersection import MeshCollider, SweptBody
+from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.swept_body import SweptBody
 from grafu.synth.noise.tessellation import is_two_sided
 from grafu.synth.pieces.riding import bodies_of
 
