@@ -179,3 +179,11 @@ def test_a_whole_drawer_joins_no_named_front_that_it_does_not_hang_on():
     assert {p.id: len(p.surfaces) for p in parts} == dict.fromkeys(
         ("drawer_front_2", "drawer_1", "drawer_3", "drawer_4"), 1
     )
+
+
+@pytest.mark.parametrize(("low", "joins"), [((0.01, 0.01, 0.1), False), ((0.0, 0.0, 0.9), True)])
+def test_a_door_below_a_lid_is_no_piece_of_it_and_a_strip_along_its_edge_is(low, joins):
+    lid = part("cabinet_door_surface", (0, 0, 0.92), (0.6, 0.5, 0.94), PartLabel.DOOR)
+    upright = part("door_surface", low, (0.59, 0.02, 0.918), PartLabel.DOOR)
+    parts, _ = with_joined_pieces((lid, upright), WHOLE)
+    assert [p.id for p in parts] == ["cabinet_door_surface", *([] if joins else ["door_surface"])]

@@ -147,6 +147,9 @@ def test_a_post_is_no_door(depth, is_static):
     assert ("too thick" in why([*BASE_CASE, post], edge=Hinge("left", "guess", 0, 1))) is is_static
 
 
+PANE = np.array([[0, 1, 2], [0, 2, 3]])
+
+
 def frame(bar: float) -> Part:
     x0, x1, z0, z1 = 0.0, 0.6, 0.1, 0.8
     return merged(
@@ -165,6 +168,36 @@ def test_a_frame_around_nothing_is_a_door_of_glass_but_no_front_of_a_drawer_and_
     assert "a front is closed" in why([*BASE_CASE, frame(0.08)])
     panel = box("panel", (0.05, -0.015, 0.15), (0.55, -0.005, 0.75))
     assert why([*BASE_CASE, frame(0.08), panel]) == ""
+
+
+@pytest.mark.parametrize("deep", [0.01, 0.02, 0.03])
+def test_a_pane_within_the_thickness_of_a_high_leaf_closes_it(deep):
+    """It is a face without thickness: rays that start behind it meet nothing."""
+    bars = [
+        ((0.0, 0.0), (0.06, 2.0)),
+        ((0.74, 0.0), (0.8, 2.0)),
+        ((0.06, 0.0), (0.74, 0.06)),
+        ((0.06, 1.94), (0.74, 2.0)),
+    ]
+    boxes = [box(str(k), (a[0], -0.04, a[1]), (b[0], 0.0, b[1])) for k, (a, b) in enumerate(bars)]
+    corners = np.array([[x, deep - 0.04, z] for x, z in ((0.06, 0.06), (0.74, 0.06), (0.74, 1.94), (0.06, 1.94))])
+    pane = replace(box("pane", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=(Surface(TriangleMesh(corners, PANE)),))
+    edge = Hinge("left", "guess", 0, 1)
+    assert "hardly anything" in why([*BASE_CASE, merged("guess", *boxes)], edge=edge)
+    assert why([*BASE_CASE, merged("guess", *boxes), pane], edge=edge) == ""
+
+
+@pytest.mark.parametrize("count", [4, 5, 8, 10])
+def test_a_door_of_planks_is_closed_and_one_of_wires_is_not(count):
+    """Seams between planks lie at even steps, where a regular grid of rays would meet nothing else."""
+    width, edge = 0.8 / count, Hinge("left", "guess", 0, 1)
+
+    def upright(seam: float) -> Part:
+        ends = [(k * width + seam / 2, (k + 1) * width - seam / 2) for k in range(count)]
+        return merged("guess", *(box(str(k), (x0, -0.02, 0.0), (x1, 0.0, 1.0)) for k, (x0, x1) in enumerate(ends)))
+
+    assert why([*BASE_CASE, upright(0.003)], edge=edge) == ""
+    assert "hardly anything" in why([*BASE_CASE, upright(width - 0.002)], edge=edge)
 
 
 def test_a_drawer_drawn_as_one_sheet_is_closed():

@@ -87,6 +87,20 @@ def test_a_handle_alone_shows_no_flap(handle):
 
 
 @pytest.mark.parametrize(
+    ("handle", "changed", "face"),
+    [
+        pytest.param(RIGHT, {}, LEFT_FACE, id="at the right"),
+        pytest.param((-0.46, 0.59), {}, RIGHT_FACE, id="at the left"),
+        pytest.param((0.1, 0.59), {}, None, id="near the middle"),
+        pytest.param(RIGHT, {"drawn": False}, None, id="a handle that was only predicted"),
+        pytest.param(RIGHT, {"front": box("front", (-0.48, -0.02, 0.5), (0.48, 0.0, 0.7))}, None, id="a low front"),
+    ],
+)
+def test_a_front_whose_handle_is_at_a_side_is_a_door_that_hangs_on_the_other(handle, changed, face):
+    assert turned(handle=handle, **changed) == face
+
+
+@pytest.mark.parametrize(
     "others",
     [
         [],

@@ -47,3 +47,17 @@ def test_a_high_door_hangs_on_the_likelier_side_and_opens_to_the_same_face(face,
 )
 def test_other_doors_stay_as_they_are_predicted(door, face, thin, front):
     assert found(door, face, {face: 0.8, LEFT: 0.1}, thin, front) == (face, front)
+
+
+@pytest.mark.parametrize(
+    ("face", "score", "high", "stays"),
+    [
+        pytest.param(BOTTOM, 0.93, 0.82, True, id="a slim dishwasher"),
+        pytest.param(BOTTOM, 0.8, 0.82, False, id="less sure"),
+        pytest.param(TOP, 0.93, 0.82, False, id="it would lift"),
+        pytest.param(BOTTOM, 0.93, 0.95, False, id="higher"),
+    ],
+)
+def test_a_slim_door_drops_where_that_is_sure(face, score, high, stays):
+    slim = replace(box("door", (-0.25, -0.03, 0.0), (0.25, 0.0, high)), label=PartLabel.DOOR)
+    assert found(slim, face, {face: score, LEFT: 0.03, RIGHT: 0.02}) == (face if stays else LEFT, FRONT)

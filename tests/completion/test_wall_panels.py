@@ -35,6 +35,7 @@ LOOK_ALIKES = {
     "a shallow cabinet on a wall": box("wall", (-0.5, 0.0, 0.25), (0.5, 0.1, 1.45)),
     "an opening in a wall": OPENING,
     "a wall far behind": box("wall", (-1.5, 0.3, 0.0), (1.5, 0.4, 2.6)),
+    "a mirror on it": box("wall", (-0.43, -0.023, 0.32), (0.43, -0.022, 1.38)),
 }
 
 

@@ -113,6 +113,16 @@ def test_a_lid_opens_to_the_side_that_it_is_seen_from(sign, turned):
     assert (found is completion) == (opening_face(2, 3, sign) == outside)
 
 
+@pytest.mark.parametrize(("height", "opens_up"), [(1.2, True), (0.7, False)])
+@pytest.mark.parametrize("sign", [0, 1])
+def test_a_lid_below_a_shelf_opens_up_where_the_shelf_is_high_enough(sign, height, opens_up):
+    completion, asset = with_lid(sign, shelf=((-0.4, 0.0, height), (0.4, 0.5, height + 0.02)))
+    found = with_ways_out(completion, asset)
+    (hinge,) = found.completed.hinges
+    assert hinge.sign == sign or opens_up
+    assert not opens_up or opening_face(2, hinge.border, hinge.sign) == 5
+
+
 @pytest.mark.parametrize("sign", [0, 1])
 def test_a_leaf_that_is_seen_from_above_and_below_stays_as_predicted(sign):
     completion, asset = with_lid(sign)

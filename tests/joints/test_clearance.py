@@ -18,6 +18,7 @@ from grafu.joints import build
 from grafu.joints.clearance import carve as carving
 from grafu.joints.clearance import make
 from grafu.joints.clearance.carve import Carving, Path, carve
+from grafu.joints.clearance.trim import drawer_front
 from grafu.joints.config import RealizationConfig
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.nesting import bodies_of
@@ -214,6 +215,17 @@ def test_the_body_of_a_drawer_is_lowered_behind_a_front_of_the_same_piece():
     np.testing.assert_allclose(after.box.size, tray.mesh.box.size, atol=1e-9)
     hidden = after.vertices[after.vertices[:, 1] > -0.15]
     assert 0.148 < hidden[:, 2].max() < 0.16
+
+
+@pytest.mark.parametrize(("length", "is_box"), [(0.0015, False), (0.3, True)])
+def test_a_bevel_at_the_far_end_of_a_sliding_leaf_is_no_box_behind_a_front(length, is_box):
+    """What lies behind a front is trimmed for itself; the lower edge of a leaf is trimmed as a whole."""
+    behind = box("behind", (-length, -0.015, 0.05), (0.5, 0.0, 0.35)).box.corners()
+    points = np.vstack([behind, box("leaf", (0.0, -0.02, 0.0), (0.5, 0.0, 0.4)).box.corners()])
+    path = Path("leaf", Axis(vec3(0.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)).shift, 0.4, np.eye(3), False)
+    found = drawer_front(points, path, RealizationConfig().thinnest_front)
+    assert found is not None
+    assert (found.back is not None) is is_box
 
 
 def test_a_thin_bottom_of_a_drawer_is_raised_rather_than_pressed_flat():

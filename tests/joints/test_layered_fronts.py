@@ -51,6 +51,11 @@ def test_two_boards_in_one_another_with_a_pane_before_them_are_one_leaf():
     assert moved(turning(PANE), turning(TALL), turning(WIDE, "knob"), parts=parts) == {"wide": ("knob", "tall", "pane")}
 
 
+def test_a_pane_that_was_taken_for_a_door_on_its_leaf_goes_with_it():
+    made = moved(turning(PANE, parent="tall"), turning(TALL, "pane", "knob"), parts=[TALL, PANE])
+    assert made == {"tall": ("pane", "knob")}
+
+
 def test_boards_in_one_another_are_one_whatever_is_on_each():
     made = moved(turning(TALL, "lock"), turning(WIDE, "knob"), parts=[TALL, WIDE])
     assert made == {"wide": ("knob", "tall", "lock")}
@@ -63,7 +68,8 @@ def test_boards_in_one_another_are_one_whatever_is_on_each():
         pytest.param(turning(TALL), turning(NEXT), id="a pair of doors"),
         pytest.param(turning(TALL), turning(LAPPING), id="leaves that lap"),
         pytest.param(turning(TALL, "lock"), turning(PANE, "knob"), id="a flap in a door, with handles of their own"),
-        pytest.param(turning(TALL), turning(PANE, parent="tall"), id="what turns on the other"),
+        pytest.param(turning(TALL), turning(PANE, "knob", parent="tall"), id="what turns on the other, with a handle"),
+        pytest.param(turning(TALL), turning(SCREEN, parent="tall"), id="what turns on the other, with air between"),
         pytest.param(turning(TALL), sliding_out(PANE), id="what moves otherwise"),
     ],
 )

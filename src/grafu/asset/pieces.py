@@ -217,15 +217,16 @@ def _is_plate(box: Box, config: PieceConfig) -> bool:
 
 def _host(piece: Part, fronts: list[_Host], size: float, config: PieceConfig, touching: bool) -> Part | None:
     """Returns the front that covers the piece, the nearest of several, or None; it may have to touch the piece."""
-    covering = [f for f in fronts if f.misses(piece) <= config.stand_out * size and _may_hold(f.part, piece, config)]
+    covering = [f for f in fronts if f.misses(piece) <= config.stand_out * size and _may_hold(f, piece, config)]
     best = min(covering, key=lambda f: f.gap(piece) + f.misses(piece), default=None)
-    if best is None or (touching and best.gap(piece) > config.touch * size):
-        return None
-    return best.part
+    return None if best is None or (touching and best.gap(piece) > config.touch * size) else best.part
 
 
-def _may_hold(front: Part, piece: Part, config: PieceConfig) -> bool:
-    return front.label is not PartLabel.DOOR or face_area(front.box) >= config.leaf * face_area(piece.box)
+def _may_hold(front: _Host, piece: Part, config: PieceConfig) -> bool:
+    """Whether a front may have such a piece: a door has none that is far larger, and no plate that stands across it."""
+    box, is_door = piece.box, front.part.label is PartLabel.DOOR
+    across = _is_plate(box, config) and box.size[front.axis] > config.plate * box.size.max()
+    return not is_door or bool(not across and face_area(front.part.box) >= config.leaf * face_area(box))
 
 
 def _faces(front: Part) -> int:
@@ -275,8 +276,7 @@ def _carrier(handle: Part, others: list[Part], config: PieceConfig) -> str | Non
     gaps = {p.id: surface_gap(points, p.mesh, region, config.faces) for p in near}
     # Rounding decides nothing: a door wins over a frame that touches the handle as closely.
     best = min(movable, key=lambda p: gaps[p.id])
-    nearest = min(gaps.values())
-    return best.id if gaps[best.id] <= min(reach, nearest + config.alike * reach) else None
+    return best.id if gaps[best.id] <= min(reach, min(gaps.values()) + config.alike * reach) else None
 
 
 def _points(mesh: TriangleMesh, most: int) -> np.ndarray:

@@ -229,8 +229,10 @@ def _is_open_block(box: Box, mesh: TriangleMesh, seen: _Seen, config: GuessedSha
     return bool(is_open and deep.mean() < config.inside)
 
 
-_STEPS = np.linspace(0.1, 0.9, 9)  # where rays go through a box, from side to side
-_OFF = 0.01  # of a box's largest side: from where rays start outside it
+# Where rays go through a box, from side to side: unevenly, as planks and slats have even seams between them.
+_STEPS = np.array([0.1, 0.213, 0.288, 0.411, 0.517, 0.587, 0.712, 0.789, 0.9])
+_OFF = 0.01  # of a box's largest side: from where rays start outside it, or within it ...
+_INTO = 0.25  # ... no farther than this (fraction of its depth there)
 
 
 def _is_open(mesh: TriangleMesh, rest: Callable[[], RayCaster], box: Box, face: SignedAxis, least: float) -> bool:
@@ -246,9 +248,11 @@ def _is_open(mesh: TriangleMesh, rest: Callable[[], RayCaster], box: Box, face: 
 def _depths(caster: RayCaster, box: Box, face: SignedAxis, outside: bool) -> Scalars:
     """Returns how deep in a box rays from one of its faces first meet something, metres.
 
-    They start just `outside` that face, or just inside, past what only touches it.
+    They start just `outside` that face, or just inside, past what only touches it, and before the middle of a thin box:
+    a pane is there in its leaf.
     """
-    axis, off = face // 2, (1.0 if outside else -1.0) * _OFF * float(box.size.max())
+    axis, step = face // 2, _OFF * float(box.size.max())
+    off = step if outside else -min(step, _INTO * float(box.size[axis]))
     others = [k for k in range(3) if k != axis]
     spots = np.meshgrid(*(box.low[k] + _STEPS * box.size[k] for k in others), indexing="ij")
     starts, out = np.empty((len(_STEPS) ** 2, 3)), code_to_direction(face)

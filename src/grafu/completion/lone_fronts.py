@@ -1,7 +1,7 @@
 """What is only guessed to be a drawer, but is a front alone that no drawer can be behind, is a flap or a door.
 
 A shelf or a divider stands close behind its middle, as in a secretary: a drawer would run into it. Or it is higher by
-far than wide, as the doors of lockers are, or begins above the eyes of a person.
+far than wide, as the doors of lockers are, begins above the eyes of a person, or has its handle at a side.
 """
 
 from collections.abc import Mapping, Set
@@ -47,6 +47,8 @@ class LoneFrontConfig:
     the height)."""
     off: float = 0.25
     """How far off the middle a handle is that shows a side (fraction of the width)."""
+    squat: float = 0.4
+    """A handle off the middle shows no door that is lower than this (fraction of its width)."""
     wide: float = 1.2
     """From this width on, in heights, a front without such a handle hangs on its lower border, else on its left."""
     tall: float = 2.0
@@ -59,7 +61,7 @@ class LoneFrontConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "wide", "tall", "high", "narrow")
-        require_ratios(self, "plate", "box", "edge", "off")
+        require_ratios(self, "plate", "box", "edge", "off", "squat")
 
 
 def with_lone_fronts(
@@ -77,6 +79,7 @@ def with_lone_fronts(
     found: dict[Rail, HingeBorder] = {}
     for rail in fronts:
         side = _side_of_tall(rail.child, graph, given, config)
+        side = _side_of_held(rail.child, graph, given, config) if side is None else side
         if side is not None:
             found[rail] = side
         elif (box := graph.node(rail.child).box).low[_UP] - graph.box.low[_UP] >= config.high:
@@ -117,6 +120,15 @@ def _side_of_tall(front: str, graph: FunctionalGraph, given: Set[str], config: L
     if not is_tall or (at is not None and abs(at[0] - 0.5) < config.off):
         return None
     return upright_borders(_DEPTH)[0 if at is None or at[0] > 0.5 else 1]
+
+
+def _side_of_held(front: str, graph: FunctionalGraph, given: Set[str], config: LoneFrontConfig) -> HingeBorder | None:
+    """Returns the side away from the handle that the input has at one side of a front, else None: drawers have none."""
+    box, at = graph.node(front).box, _handle_at(front, graph, given)
+    is_squat = box.size[_UP] < config.squat * box.size[_LEVEL]
+    if is_squat or at is None or not config.off <= abs(at[0] - 0.5) <= 0.5:
+        return None
+    return upright_borders(_DEPTH)[0 if at[0] > 0.5 else 1]
 
 
 def _handle_at(front: str, graph: FunctionalGraph, given: Set[str] | None = None) -> tuple[float, float] | None:

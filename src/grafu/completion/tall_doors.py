@@ -11,7 +11,7 @@ from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.motion import plane_axes
+from grafu.graph.motion import face_to_border, plane_axes, signed_axis
 
 _UP = 2
 
@@ -26,7 +26,11 @@ class TallDoorConfig:
     """
 
     tall: float = 1.5
-    """Its height over its width at least: doors of dishwashers have 1.2."""
+    """Its height over its width at least: doors of dishwashers have 1.2 ..."""
+    slim: float = 1.8
+    """... and those of slim ones up to this ..."""
+    sure: float = 0.9
+    """... which drop where that is predicted with this score."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
@@ -40,9 +44,23 @@ def with_tall_doors(
     A door still opens to the same face. Leaves that fold stay as they are predicted.
     """
     graph, given = completion.completed, {part.id for part in asset.parts}
-    return hung_on_sides(completion, lambda door: door in given and _is_tall(graph.node(door).box, config))
+
+    def is_tall(door: str) -> bool:
+        box = graph.node(door).box
+        return door in given and _ratio(box) >= (
+            config.slim if _surely_drops(door, box, completion, config) else config.tall
+        )
+
+    return hung_on_sides(completion, is_tall)
 
 
-def _is_tall(box: Box, config: TallDoorConfig) -> bool:
+def _surely_drops(door: str, box: Box, completion: GraphCompletion, config: TallDoorConfig) -> bool:
+    decision = completion.decision(door, "border")
+    lower = face_to_border(box.thin_axis, signed_axis(_UP, positive=False))
+    return decision is not None and decision.choice == str(lower) and decision.score >= config.sure
+
+
+def _ratio(box: Box) -> float:
+    """Returns the height of an upright door over its width."""
     level = next(axis for axis in plane_axes(box.thin_axis) if axis != _UP)
-    return bool(box.size[_UP] >= config.tall * box.size[level])
+    return float(box.size[_UP] / max(float(box.size[level]), 1e-12))

@@ -53,7 +53,8 @@ def _is_wall_of(part: Part, panel: Box, axis: int, config: WallPanelConfig) -> b
     near = config.near * float(panel.size.max())
     is_plate = float(wall.size[axis]) <= config.wall * float(wall.size[across].min())
     gap = max(float(wall.low[axis] - panel.high[axis]), float(panel.low[axis] - wall.high[axis]))
-    if not is_plate or not -near <= gap <= near:
+    is_smaller = np.prod(wall.size[across]) < np.prod(panel.size[across])  # a pane or a mirror on a door
+    if not is_plate or is_smaller or not -near <= gap <= near:
         return False
     places = np.meshgrid(*(panel.low[k] + _STEPS * panel.size[k] for k in across), indexing="ij")
     starts, towards = np.empty((len(_STEPS) ** 2, 3)), np.zeros(3)

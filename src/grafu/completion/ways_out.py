@@ -57,7 +57,8 @@ def with_ways_out(completion: GraphCompletion, asset: Asset, config: WayOutConfi
 def _with_doors(completion: GraphCompletion, asset: Asset, config: WayOutConfig) -> GraphCompletion:
     """Returns the completion in which level doors open up where they are seen from above, and down from below.
 
-    Upright doors of which it is not clear which way they open do so to the side from which they are seen.
+    Those that are seen from neither side open up where there is room for that, below a shelf high above them. Upright
+    doors of which it is not clear which way they open do so to the side from which they are seen.
     """
     graph = completion.completed
     given = {part.id for part in asset.parts}
@@ -66,7 +67,7 @@ def _with_doors(completion: GraphCompletion, asset: Asset, config: WayOutConfig)
     for hinge in doors:
         box = graph.node(hinge.child).box
         thin = box.thin_axis
-        low, high = open_ratios(rest_of(asset, hinge.child, graph), box, thin)
+        low, high = _seen_from(rest_of(asset, hinge.child, graph), box, config)
         sign = sign_for_opening(thin, hinge.border, signed_axis(thin, high > low))
         if abs(high - low) >= config.seen and (sign != hinge.sign or thin != _UP):
             new[hinge.child] = sign, abs(high - low)
@@ -78,6 +79,17 @@ def _with_doors(completion: GraphCompletion, asset: Asset, config: WayOutConfig)
     kept = (d for d in completion.decisions if d.part not in new or d.question != "sign")
     told = (Decision(p, "sign", str(sign), sure, str(1 - sign), 1.0 - sure, BY_RULE) for p, (sign, sure) in new.items())
     return replace(completion, completed=replace(graph, edges=edges), decisions=(*kept, *told))
+
+
+def _seen_from(rest: RayCaster, box: Box, config: WayOutConfig) -> tuple[float, float]:
+    """Returns how much of a door is seen from its lower and upper side across (fractions).
+
+    Where that does not tell of a level one, what is higher above it than it reaches as it opens hides nothing of it.
+    """
+    low, high = open_ratios(rest, box, box.thin_axis)
+    if box.thin_axis != _UP or abs(high - low) >= config.seen:
+        return low, high
+    return low, open_ratios(rest, box, _UP, float(box.size[:_UP].min()))[1]
 
 
 def _is_asked(hinge: Hinge, completion: GraphCompletion, config: WayOutConfig) -> bool:

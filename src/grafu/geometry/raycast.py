@@ -228,8 +228,11 @@ def outer_points(points: Points, caster: RayCaster, size: float) -> Bool[np.ndar
 _RAYS = 5  # in each direction of a face
 
 
-def open_ratios(caster: RayCaster, box: Box, axis: int) -> tuple[float, float]:
-    """Returns the fraction of rays that meet nothing, from just before the lower and the upper face across an axis."""
+def open_ratios(caster: RayCaster, box: Box, axis: int, reach: float = np.inf) -> tuple[float, float]:
+    """Returns the fraction of rays that meet nothing, from just before the lower and the upper face across an axis.
+
+    What is farther from the face than `reach` metres counts as nothing.
+    """
     across = [k for k in range(3) if k != axis]
     steps = (np.arange(_RAYS) + 0.5) / _RAYS
     places = np.stack(np.meshgrid(steps, steps, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -239,7 +242,8 @@ def open_ratios(caster: RayCaster, box: Box, axis: int) -> tuple[float, float]:
     found = []
     for sign, face in ((-1.0, box.low), (1.0, box.high)):
         origins[:, axis], direction[axis] = face[axis] + sign * off, sign
-        found.append(float(caster.is_clear(origins, direction).mean()))
+        free = caster.along(origins, direction) > reach if np.isfinite(reach) else caster.is_clear(origins, direction)
+        found.append(float(free.mean()))
     return found[0], found[1]
 
 

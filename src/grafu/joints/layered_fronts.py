@@ -51,9 +51,9 @@ def with_layered_fronts(
 ) -> RealizationPlan:
     """Returns the plan in which layers of one front move as one, by the joint of the largest.
 
-    What moves on another part stays as it is, and so do two that lie before one another and carry something each:
-    handles of their own. What the input calls a door is a layer where just one of the two has a handle, and they
-    touch; a nameless plate goes with what it calls a drawer behind it.
+    What moves on another part stays as it is, unless it is a nameless pane on a leaf, and so do two that lie before one
+    another and carry something each: handles of their own. What the input calls a door is a layer where just one of the
+    two has a handle, and they touch; a nameless plate goes with what it calls a drawer behind it.
 
     Args:
         plan: the joints.
@@ -72,7 +72,8 @@ def with_layered_fronts(
         if on is None:
             kept.append(request)
         else:
-            kept[on] = replace(kept[on], attached=(*kept[on].attached, request.moving, *request.attached))
+            attached = (*kept[on].attached, request.moving, *request.attached)
+            kept[on] = replace(kept[on], attached=tuple(dict.fromkeys(attached)))
     if len(kept) == len(plan.joints):
         return plan
     joints = {request.moving: request for request in kept}
@@ -82,9 +83,15 @@ def with_layered_fronts(
 def _is_layer(
     request: JointRequest, front: JointRequest, guessed: frozenset[str], asset: Asset, config: LayerConfig
 ) -> bool:
-    """Whether a part is a layer of a larger front: of a leaf that turns, or the plate before a drawer that slides."""
+    """Whether a part is a layer of a larger front: of a leaf that turns, or the plate before a drawer that slides.
+
+    So is a nameless one that was taken for a door on that leaf, and carries nothing: its pane, or a mirror on it.
+    """
     both = (request, front)
-    if any(r.parent or r.coupling for r in both) or request.type is not front.type:
+    is_pane = request.parent == front.moving and request.moving in guessed and not request.attached
+    if front.parent or (request.parent and not is_pane) or any(r.coupling for r in both):
+        return False
+    if request.type is not front.type:
         return False
     one, other = asset.part(request.moving).box, asset.part(front.moving).box
     are_held, is_named = bool(request.attached and front.attached), any(r.moving not in guessed for r in both)

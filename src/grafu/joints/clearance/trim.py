@@ -109,7 +109,8 @@ class _Limits:
 def drawer_front(points: Points, path: Path, step: float) -> DrawerFront | None:
     """Returns the front of what slides; None for what turns: all of it is seen.
 
-    `points` are the part's vertices in its own axes; from `step` metres on, what is narrower is narrower.
+    `points` are the part's vertices in its own axes; from `step` metres on, what is narrower is narrower. What is
+    shorter than that is a bevel at the far end, and no box.
     """
     if path.is_turn:
         return None
@@ -124,7 +125,7 @@ def drawer_front(points: Points, path: Path, step: float) -> DrawerFront | None:
     plane = float(along.max())
     back = float(along[order[min(count, len(order) - 1)]])
     is_body = along < back - _ON_BACK
-    if not is_body.any():
+    if not is_body.any() or back - float(along.min()) < step:
         return DrawerFront(axis, sign, plane, None, Box.around(points))
     return DrawerFront(axis, sign, plane, back, Box.around(points[is_body]))
 
