@@ -117,6 +117,13 @@ def test_a_door_of_a_building_has_the_height_of_one_in_any_unit(frame, metres):
         assert not metres or abs(height - metres) < 0.15
 
 
+@pytest.mark.parametrize(("height", "floor", "expected"), [(2.0, 0.0, False), (2.0, -1.0, True), (1.0, 0.0, True)])
+def test_two_units_are_those_of_a_data_set_only_about_the_origin(height, floor, expected):
+    """A wardrobe of two metres stands on its floor; what was scaled into a cube from -1 to 1 hangs about its middle."""
+    parts = (box("side", (-0.4, -0.3, floor), (0.4, 0.3, floor + height)),)
+    assert is_normalised(parts, whole_box(parts)) is expected
+
+
 def test_a_unit_sphere_about_the_origin_is_normalised_and_a_floor_is_not():
     asset = cabinet()
     hung = reading_of(asset, turned("+Z", "-Y") - np.outer([0, 0, asset.box.center[2], 0], [0, 0, 0, 1.0])).parts

@@ -90,6 +90,17 @@ def test_a_mirror_or_pane_is_a_door_where_a_handle_sits_on_it_alone(name):
     assert labels(pane, knob, stile)[0] is PartLabel.MISC  # it sits on the frame of the pane, too
 
 
+@pytest.mark.parametrize("name", ["cabinet_frame_vertical_bar", "rod_3"])
+def test_what_is_called_a_bar_is_a_door_where_it_is_wide_and_a_handle_sits_on_it_alone(name):
+    leaf, knob = part(name, (0, 0, 0), (0.6, 0.04, 0.5)), part("knob", (0.3, -0.03, 0.4), (0.32, 0, 0.42))
+    slim = part(name, (0, 0, 0.3), (0.6, 0.04, 0.5))
+    drawer = part("drawer", (0.31, -0.005, 0.3), (0.7, 0.02, 0.5))
+    assert labels(leaf, knob) == [PartLabel.DOOR, PartLabel.HANDLE]
+    assert labels(leaf) == [PartLabel.BAR]
+    assert labels(slim, knob)[0] is PartLabel.BAR
+    assert labels(leaf, knob, drawer)[0] is PartLabel.BAR  # it sits on the drawer, too
+
+
 def test_fronts_of_a_file_are_read_without_a_label(tmp_path):
     scene = trimesh.Scene()
     boxes = {"U1_carcass": ((0, 0.02, 0), (0.6, 0.5, 0.7)), "A1_front1": UPPER, "A1_front2": LOWER}

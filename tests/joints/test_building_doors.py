@@ -78,6 +78,33 @@ def test_two_leaves_open_in_the_middle():
     assert places["other"] > 0.8
 
 
+def half(low: float, high: float, name: str):
+    return box(name, (0.053, -0.06, low), (0.847, -0.02, high))
+
+
+@pytest.mark.parametrize("at", [0.11, 0.79])
+def test_the_two_leaves_of_a_divided_door_turn_about_one_edge(at):
+    """The knob is on the lower one alone."""
+    made = built(frame(), half(0.005, 1.1, "lower"), half(1.106, 2.045, "upper"), knob(at))
+    axes = {joint.child: joint.axis for joint in made.object.joints}
+    assert set(axes) == {"lower", "upper"}
+    assert {bool(axis.point[0] < 0.45) for axis in axes.values()} == {at > 0.45}
+    assert all(abs(axis.direction[2]) == pytest.approx(1.0) for axis in axes.values())
+
+
+@pytest.mark.parametrize(
+    "boards",
+    [
+        (half(0.005, 1.1, "lower"), half(1.3, 2.045, "upper")),
+        (half(0.005, 1.1, "lower"), box("upper", (0.3, -0.06, 1.106), (0.847, -0.02, 2.045))),
+        (half(0.5, 1.1, "lower"), half(1.106, 2.045, "upper")),
+    ],
+    ids=["far above", "narrower", "above the floor"],
+)
+def test_boards_that_are_not_two_halves_of_a_door_are_none(boards):
+    assert building_door(scene(frame(), *boards)) is None
+
+
 def test_a_leaf_that_stands_beside_its_frame_slides_before_it():
     (request,) = built(frame(), leaf((-0.1, -0.062), (-0.4, 0.45))).plan.joints
     assert request.type is JointType.PRISMATIC

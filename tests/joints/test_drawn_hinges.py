@@ -166,3 +166,41 @@ def test_hinges_are_found_on_furniture_that_stands_turned(angle):
     turned = replace(asset, parts=parts, joints=joints)
     (after,) = with_drawn_hinges(plan_from_annotation(turned), turned).joints
     assert np.allclose(after.axis.point[:2], T[:2, :2] @ (0.404, -0.008), atol=1e-6)
+
+
+def blocks(top: float):
+    """Two blocks beside the leaf, up to a height, on which a rod lies that stands out of it."""
+    return [box(f"block_{x}", (x, -0.02, -0.02), (x + 0.018, -0.002, top)) for x in (-0.0195, 0.4015)]
+
+
+def flap_on(*parts):
+    """A flap with static parts around it, built: its outcome, what its link holds, and how many poses collide."""
+    asset = scene(LEAF, *CASE, *parts, joints=(hinged(axis=Axis(vec3(0.0, -0.01, 0.006), vec3(1.0, 0.0, 0.0))),))
+    result = realize(with_drawn_hinges(plan_from_annotation(asset), asset), asset, GALLERY)
+    link = next(link for link in result.object.links if link.id == "door")
+    return installed(result)["door"], {visual.name: visual for visual in link.visuals}
+
+
+@pytest.mark.parametrize(("top", "radius"), [(-0.001, 0.006), (0.002, 0.0036)])
+def test_a_static_pin_drawn_through_a_flap_turns_with_it(top, radius):
+    """Where it is drawn into the blocks that carry it, too, it is made thinner about its axis."""
+    made, moving = flap_on(rod("pin", ends=(-0.015, 0.415), carried_by=None), *blocks(top))
+    assert made.template == "drawn"
+    assert made.collision_share == 0.0
+    assert made.opening > 1.5
+    assert np.allclose(moving["pin"].mesh.box.size, (0.43, 2 * radius, 2 * radius), atol=1e-4)
+
+
+def test_a_static_bar_through_a_flap_elsewhere_stays():
+    bar = cylinder("bar", ((-0.015, -0.01, 0.2), (0.415, -0.01, 0.2)))
+    made, moving = flap_on(rod("pin", ends=(-0.015, 0.415), carried_by=None), *blocks(-0.001), bar)
+    assert "bar" not in moving
+    assert "bar" not in {clearance.part for clearance in made.clearances if clearance.kind == "joined"}
+
+
+@pytest.mark.parametrize("riding", [0, 1, 2])
+def test_where_one_barrel_of_a_hinge_line_is_static_all_are(riding):
+    pins = [replace(pin, carried_by="door" if k < riding else None) for k, pin in enumerate(knuckles(-0.004))]
+    before, after = told(LEAF, *CASE, *pins)
+    assert len(before.attached) == riding
+    assert len(after.attached) == (2 if riding == 2 else 0)

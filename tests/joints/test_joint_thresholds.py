@@ -73,6 +73,7 @@ REASONS = {
         "_SAMPLES": SAMPLES,
     },
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
+    "clearance/sunk.py": {"_SAMPLES": SAMPLES, "_STEPS": EFFORT},
     "clearance/in_frame.py": {"GAPS": EFFORT},
     "clearance/seam.py": {"_POSES": SAMPLES},
     "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},

@@ -8,12 +8,16 @@ import pytest
 import grafu
 from fold_judge import cuts, cutting_over_sweep, loose, opened
 from grafu.asset.part import Asset, PartSource
+from grafu.geometry.arrays import vec3
+from grafu.graph.parse import parse_graph
+from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
-from grafu.joints.plan import JointRequest
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.tilting_fronts import with_tilts
 from grafu.synth.cabinets.tilting import TiltingFronts, make_tilting_fronts
 from grafu.synth.case.case import Case
 from grafu.vocabulary import JointType, PartLabel
-from small_scenes import LEFT_EDGE, box, scene
+from small_scenes import LEFT_EDGE, box, hinged, scene
 
 CABINET = TiltingFronts(in_parts=True)
 IN_ONE_MESH = replace(CABINET, rows=1, case=Case(0.5, 0.5, 0.3), in_parts=False)
@@ -104,3 +108,14 @@ def test_what_cannot_tilt_is_refused():
         JointRequest("door", JointType.REVOLUTE, LEFT_EDGE, "rule", stop=0.0)
     with pytest.raises(ValueError, match="a row and a column"):
         TiltingFronts(rows=0)
+
+
+@pytest.mark.parametrize("height", [0.012, 0.03])
+def test_a_lid_that_turns_about_its_lower_back_edge_is_no_front_with_a_bin(height):
+    """It lies flat and reaches far from its axis, as a bin does, but opens past upright."""
+    lid = box("door_lid", (-0.32, -0.2, 0.6), (0.32, 0.2, 0.6 + height))
+    hinge = replace(LEFT_EDGE, point=vec3(0.0, 0.2, 0.6), direction=vec3(-1.0, 0.0, 0.0))
+    stated = scene(*FLAP, lid, joints=(hinged("door_lid", hinge),))
+    (request,) = (r for r in plan_from_annotation(stated).joints if r.moving == "door_lid")
+    plan = RealizationPlan((replace(request, reference=None, source="network"),), ())
+    assert with_tilts(plan, stated, parse_graph(stated)).joints == plan.joints

@@ -136,3 +136,21 @@ def test_casements_side_by_side_in_one_plane_turn():
     made = built(bare(side_by_side(shift=0.0)))
     assert {joint.child for joint in made.object.joints if joint.kind.turns} == {"west", "east"}
     assert all(joint.kind.turns for joint in made.object.joints)
+
+
+def over_one_another(height: float, shift: float = 0.0):
+    """A window with a leaf of 0.58 m that is so high, metres, above one of 0.9 m, beside it by a shift."""
+    frame = ring("frame", (0.0, 0.0, 0.0), (1.3, 0.07, 1.7), 0.05)
+    low, top = (0.06, 0.005, 0.06), 0.98 + height
+    leaves = [ring("low", low, (0.64, 0.05, 0.96), 0.05)]
+    leaves.append(ring("high", (0.06 + shift, 0.005, 0.98), (0.64 + shift, 0.05, top), 0.05))
+    inset = np.array([0.05, 0.02, 0.05])
+    panes = [box(f"pane_{k}", one.box.low + inset, one.box.high - inset) for k, one in enumerate(leaves)]
+    return built(scene(frame, *leaves, *panes))
+
+
+@pytest.mark.parametrize(("height", "shift", "hangs"), [(0.35, 0.0, True), (0.62, 0.0, False), (0.35, 0.6, False)])
+def test_a_low_leaf_above_a_higher_one_of_its_width_hangs_from_its_upper_edge(height, shift, hangs):
+    axes = {joint.child: joint.axis for joint in over_one_another(height, shift).object.joints}
+    assert (abs(float(axes["high"].direction[0])) > 0.9) is hangs
+    assert abs(float(axes["low"].direction[2])) > 0.9

@@ -4,7 +4,7 @@ A single `front` is a fixed board, unless a handle sits on it alone; several are
 (`A1_front1`, `A1_front2`). A `left` and
 a `right` are the sides of a case where they stand opposite each other; two plates beside each other are two doors.
 What is called a `frame` is that of a door where a handle sits on it, and on no door or drawer; so is a mirror or a pane
-of glass a door where a handle sits on it alone.
+of glass a door where a handle sits on it alone, and what is called a bar and is as wide as a leaf.
 """
 
 from collections.abc import Sequence
@@ -41,8 +41,11 @@ class PlaceNamesConfig:
     touch: float = 0.01
     """How far a handle may stand off the frame that it sits on (fraction of the frame's largest side)."""
 
+    leaf: float = 0.4
+    """How wide a plate called a bar is at least to be no bar (fraction of its length)."""
+
     def __post_init__(self) -> None:
-        require_ratios(self, "plate", "touch")
+        require_ratios(self, "plate", "touch", "leaf")
 
 
 def with_place_names(
@@ -58,7 +61,8 @@ def with_place_names(
     opened |= leaves and leaves | {part.id for part in sides if not _is_plate(part, config)}
     frames = [part for part in parts if _is_called(part, _FRAMES, PartLabel.FACE_FRAME)]
     held = {part.id for part in frames if _is_held(part, parts, config)}
-    held |= {part.id for part in parts if _is_pane(part) and _is_held(part, parts, config, alone=True)}
+    opened_by = [part for part in parts if _is_pane(part) or _is_wide_bar(part, config)]
+    held |= {part.id for part in opened_by if _is_held(part, parts, config, alone=True)}
     found = (replace(p, label=PartLabel.UNKNOWN, labelled_by="none") if p.id in opened else p for p in parts)
     found = (replace(p, label=PartLabel.DOOR, labelled_by="shape") if p.id in held else p for p in found)
     notes = [f"{p.source.name} is a door: a handle sits on it" for p in parts if p.id in held]
@@ -84,6 +88,13 @@ def _is_plate(part: Part, config: PlaceNamesConfig) -> bool:
 
 def _is_pane(part: Part) -> bool:
     return part.labelled_by == "name" and part.label is PartLabel.MISC and bool(_PANES & {*spoken(part.source.name)})
+
+
+def _is_wide_bar(part: Part, config: PlaceNamesConfig) -> bool:
+    """Whether a name tells of a bar, and the part is as wide as a leaf: the frame of a door, called by its rails."""
+    sides = np.sort(part.box.size)
+    is_bar = part.labelled_by == "name" and part.label is PartLabel.BAR
+    return is_bar and bool(sides[1] >= config.leaf * sides[2])
 
 
 def _is_held(part: Part, parts: Sequence[Part], config: PlaceNamesConfig, alone: bool = False) -> bool:

@@ -185,13 +185,15 @@ def likely_unit(size: float, estimate: Estimate, config: ScaleConfig = ScaleConf
 def is_normalised(parts: tuple[Part, ...], whole: Box, config: ScaleConfig = ScaleConfig()) -> bool:
     """Whether an object looks scaled by a data set, so that its unit means nothing.
 
-    That is: its largest side or diagonal is 1 or 2 units, or it hangs about the origin within a sphere of radius 1
-    (ShapeNet and PartNet), where real furniture stands on a floor.
+    That is: its largest side or diagonal is 1 unit, or 2 units where it hangs about the origin, or it hangs about the
+    origin within a sphere of radius 1 (ShapeNet and PartNet), where real furniture, of 2 m as well, stands on a floor.
     """
+    hangs = bool(np.all(np.abs(whole.center) < config.off_floor * whole.half))
     lengths = (float(whole.size.max()), float(whole.diagonal))
-    if any(abs(length - unit) < config.exact * unit for length in lengths for unit in config.sides):
+    units = config.sides if hangs else config.sides[:1]
+    if any(abs(length - unit) < config.exact * unit for length in lengths for unit in units):
         return True
-    if not np.all(np.abs(whole.center) < config.off_floor * whole.half):
+    if not hangs:
         return False
     radius = max(float(np.linalg.norm(p.mesh.vertices, axis=1).max()) for p in parts)
     return config.radii[0] < radius < config.radii[1]

@@ -6,11 +6,13 @@ gets its joint; what it cuts into is left out of account, and the report states 
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import final
 
 from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.config_checks import at_scale
+from grafu.joints.clearance.at_rest import trimmed_at_rest
 from grafu.joints.clearance.carve import Path, obstruction
 from grafu.joints.clearance.in_frame import leaf_in_frame
 from grafu.joints.clearance.make import make_clearance
@@ -18,7 +20,7 @@ from grafu.joints.clearance.seam import trimmed_at_seam
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.drawn_hinges import drawn_pin
-from grafu.joints.hinge.place import place_hinges
+from grafu.joints.hinge.place import concealed_instead, pivoted_within, place_hinges
 from grafu.joints.hinge.search import DoorSearch, door_search
 from grafu.joints.no_hardware import (
     door_on_drawn_hinges,
@@ -33,7 +35,7 @@ from grafu.joints.rail.place import place_rails
 from grafu.joints.rail.search import DrawerSearch, drawer_search
 from grafu.joints.report import Clearance, Placement
 from grafu.refusal import Reason, Refusal
-from grafu.scene.border import part_axes
+from grafu.scene.border import border_frame, part_axes
 from grafu.scene.scene import JointMotion, Scene
 from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
@@ -66,9 +68,21 @@ def build_joint(request: JointRequest, scene: Scene, gallery: Gallery, config: R
 
 
 def _build_door(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
-    scene, seam = trimmed_at_seam(request, scene, config) if config.trim else (scene, ())
-    built = _door_built(request, scene, gallery, config)
-    return replace(built, clearances=(*seam, *built.clearances)) if isinstance(built, Built) else built
+    pressed, lap = _at_rest(request, scene, request.axis, config.hinge.usual_opening, config)
+    moved = replace(request, axis=_on_edge(request, scene, pressed)) if lap else request
+    pressed, seam = trimmed_at_seam(moved, pressed, config) if config.trim else (pressed, ())
+    built = _door_built(moved, pressed, gallery, config)
+    if isinstance(built, Refusal):
+        return built
+    return replace(built, request=request, clearances=(*lap, *seam, *built.clearances))
+
+
+def _on_edge(request: JointRequest, before: Scene, after: Scene) -> Axis:
+    """Returns the axis of a door whose border was pressed back: as far from the border as before."""
+    old, new = (border_frame(scene.parts[request.moving].mesh, request.axis) for scene in (before, after))
+    across = old.direction(1.0, 0.0, 0.0)
+    point = request.axis.point + across * float((new.origin - old.origin) @ across)
+    return replace(request.axis, point=point)
 
 
 def _door_built(request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig) -> Built | Refusal:
@@ -87,7 +101,7 @@ def _door_built(request: JointRequest, scene: Scene, gallery: Gallery, config: R
         wider = None if again[0] is search else _hinged(again[0], gallery)
         found, placement = (again, wider) if _is_wide(wider, search) else (found, placement)
     search, clearances = found
-    placement = placement or door_without_hardware(search)
+    placement = _past_slides(placement, search, gallery) or door_without_hardware(search)
     if placement is None:
         return _skipped(request, search.best().free / search.wanted, search.scene, config)
     return _built(request, (placement, search.scene, clearances), search.wanted)
@@ -146,6 +160,20 @@ def _hinged(search: DoorSearch, gallery: Gallery) -> Placement | None:
     return place_hinges(search, gallery) or _despite_doors(search, gallery)
 
 
+def _past_slides(placement: Placement | None, search: DoorSearch, gallery: Gallery) -> Placement | None:
+    """Returns a placement that no neighbour that slides runs into, hidden or without hardware; else as it was.
+
+    A door beside it may turn about another axis when it is built; a drawer has one way, and would be blocked.
+    """
+    motions = search.scene.joint_motions
+    struck = [name for name in (placement.struck_by if placement else ()) if name in motions]
+    if not any(motions[name].kind.slides and not motions[name].is_built for name in struck):
+        return placement
+    hidden = (partial(concealed_instead, search, gallery), partial(pivoted_within, search))
+    others = (find() for find in (*hidden, partial(door_without_hardware, search)))
+    return next((other for other in others if other is not None and not other.struck_by), placement)
+
+
 def _despite_doors(search: DoorSearch, gallery: Gallery) -> Placement | None:
     """Returns a placement that leaves out of account what the door cuts into at rest."""
     met = search.met_at_rest()
@@ -156,13 +184,15 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     search = drawer_search(request, scene, config)
     if search is None:
         return Refusal(request.moving, Reason.UNSUPPORTED, "it slides askew, neither level nor upright")
-    clearances: tuple[Clearance, ...] = ()
+    scene, lap = _at_rest(request, scene, search.axis, search.reach, config)
+    search = (drawer_search(request, scene, config) or search) if lap else search
+    clearances = lap
     ratio = search.free_ratio()
     if ratio < 1.0:
         cleared = make_clearance(scene, _path(request, scene, search.axis, search.reach), config)
         again = drawer_search(request, cleared.scene, config)
         if again is not None and again.free_ratio() > ratio:
-            search, scene, clearances = again, cleared.scene, cleared.clearances
+            search, scene, clearances = again, cleared.scene, (*lap, *cleared.clearances)
     placement = _guided(search, gallery)
     found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
     free = None if found else drawer_without_hardware(search)
@@ -205,6 +235,13 @@ _BUILDERS: dict[JointType, Callable[[JointRequest, Scene, Gallery, RealizationCo
 def _path(request: JointRequest, scene: Scene, axis: Axis, reach: float) -> Path:
     axes = part_axes(scene.parts[request.moving].mesh)
     return Path(request.moving, request.kind.along(axis), reach, axes, request.kind.turns)
+
+
+def _at_rest(
+    request: JointRequest, scene: Scene, axis: Axis, reach: float, config: RealizationConfig
+) -> tuple[Scene, tuple[Clearance, ...]]:
+    """Returns the scene with the part pressed back from other moving bodies, where material may be removed."""
+    return trimmed_at_rest(scene, _path(request, scene, axis, reach), config) if config.trim else (scene, ())
 
 
 def _skipped(request: JointRequest, free: float, scene: Scene, config: RealizationConfig) -> Refusal:

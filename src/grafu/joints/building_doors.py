@@ -54,6 +54,8 @@ class BuildingDoorConfig:
     """What of a leaf the frame covers at most, seen from before it (fraction)."""
     leaf: float = 0.6
     """Least height of a leaf (fraction of the height of the whole)."""
+    half: float = 0.25
+    """Least height of each of two leaves that stand one above the other (fraction of the height of the whole)."""
     thin: float = 0.3
     """Greatest thickness of a leaf (fraction of its width)."""
     threshold: float = 0.05
@@ -150,10 +152,31 @@ def _frame(asset: Asset, config: BuildingDoorConfig) -> Part | None:
 def _boards(frame: Part, asset: Asset, config: BuildingDoorConfig) -> Iterator[Part]:
     """Yields the upright boards within a frame that end near the floor, the largest first."""
     rays = RayCaster(frame.mesh)
+    stacked = _stacked([part for part in asset.parts if part is not frame], asset.box, config)
     for part in sorted(asset.parts, key=lambda part: -float(np.prod(part.box.size[[_WIDTH, _UP]]))):
-        is_within = part is not frame and _is_board(part, asset.box, config)
+        is_within = part is not frame and (_is_board(part, asset.box, config) or part.id in stacked)
         if is_within and _is_open_before(rays, part, asset.box.diagonal, config):
             yield part
+
+
+def _stacked(parts: Sequence[Part], whole: Box, config: BuildingDoorConfig) -> set[str]:
+    """Returns the two leaves of a door that is divided: alike in plan, one above the other, together as high as one."""
+    halves = [part for part in parts if _is_half(part, whole, config)]
+    near, floor = config.sill * whole.size[_UP], whole.low[_UP] + config.threshold * whole.size[_UP]
+    found = set[str]()
+    for low in (part for part in halves if part.box.low[_UP] <= floor):
+        for high in (part for part in halves if abs(part.box.low[_UP] - low.box.high[_UP]) <= near):
+            off = np.abs([high.box.low - low.box.low, high.box.high - low.box.high])[:, :_UP]
+            is_alike = bool((off <= near).all())
+            is_high = high.box.high[_UP] - low.box.low[_UP] >= config.leaf * whole.size[_UP]
+            found |= {low.id, high.id} if is_alike and is_high else set()
+    return found
+
+
+def _is_half(part: Part, whole: Box, config: BuildingDoorConfig) -> bool:
+    box, least = Box.around(part.mesh.vertices @ part_axes(part.mesh)), config.half * whole.size[_UP]
+    thin = np.sort(box.size)[0] <= config.thin * np.sort(box.size)[1]
+    return bool(thin and least <= part.box.size[_UP] < config.leaf * whole.size[_UP])
 
 
 def _is_open_before(frame: RayCaster, leaf: Part, above: float, config: BuildingDoorConfig) -> bool:
@@ -211,7 +234,10 @@ def _request(
         axis = Axis(leaf.box.center, vec3(np.copysign(1.0, shift), 0.0, 0.0))
         wide = float(leaf.box.size[_WIDTH])
         return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, wide, (), attached, abs(shift))
-    side = hinged_side(leaf, leaves, on_it, config)
+    above = [
+        k for k, other in enumerate(leaves) if abs(other.box.center[_WIDTH] - leaf.box.center[_WIDTH]) <= config.touch
+    ]
+    side = hinged_side(leaf, leaves, [part for k in above for part in door.on_leaf[k]], config)
     return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, frame, on_it, config))
 
 

@@ -36,6 +36,8 @@ class DrawnConfig:
     """Fraction of a barrel's vertices on its rim or in a cap's middle, and of its radius at which the rim begins."""
     corners: int = 12
     """Vertices that a rim has at least."""
+    thinned: tuple[float, ...] = (1.0, 0.8, 0.6, 0.5)
+    """What is left of the radius of a pin that turns with its door, where it cuts into what carries it, in turn."""
     blocked: float = 0.5
     """Fraction of poses in which parts other than its drawn hinges may block a door for which something is cut."""
 

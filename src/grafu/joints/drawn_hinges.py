@@ -122,6 +122,7 @@ def _on_drawn(request: JointRequest, model: _Model) -> JointRequest:
     if len(found) != 1:
         return request
     frame, line = found[0]
+    request = _without_barrels(request, line, model)
     if request.kind.turns and _is_same_border(border_frame(leaf, request.axis), frame):
         return request
     outwards = request.kind.sets_off(request.axis, leaf.box.center)
@@ -129,6 +130,14 @@ def _on_drawn(request: JointRequest, model: _Model) -> JointRequest:
     made = replace(request, type=Hinge.joint_type, axis=pin, reference=reference, mounts=())
     opens = float(made.kind.sets_off(made.axis, leaf.box.center) @ outwards)
     return made if opens > 0 else replace(made, axis=made.axis.reversed())
+
+
+def _without_barrels(request: JointRequest, line: Sequence[Barrel], model: _Model) -> JointRequest:
+    """Returns the request without parts that are barrels of its hinges, where others of these are static: all are."""
+    if all(barrel.part in model.scene.moving_ids for barrel in line):
+        return request
+    barrels = {b.part for b in line if len(model.shells(b.part)) == 1 and b.part != request.moving}
+    return replace(request, attached=tuple(name for name in request.attached if name not in barrels))
 
 
 def _border_axes(mesh: TriangleMesh) -> Iterator[Axis]:

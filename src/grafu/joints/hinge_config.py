@@ -153,6 +153,10 @@ class PinConfig:
     """Radius of a pivot, where that is more than a barrel's (fraction of the door's thickness or width)."""
     pivot_inset: float = 1.2
     """How far inside the border's corner a pivot lies (in its own radii)."""
+    inner_across: tuple[float, ...] = (1.2, 2.4, 2.4, 4.8, 4.8)
+    """How far from the border pivots lie that keep the door's edge from what is beside it (in their own radii) ..."""
+    inner_deep: tuple[float, ...] = (0.0, 0.0, 1.2, 1.2, 2.4)
+    """... and how far behind the door's front each of them (in radii)."""
     step: float = 0.25
     """Step between makeshift pins, where that is more than a radius (in boards)."""
     inwards: tuple[float, ...] = (0.0, 1.0, -1.0, 2.0, 4.0, -2.0)
@@ -167,8 +171,8 @@ class PinConfig:
     """The same at most, of wide doors (in radii)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, *(set(self.__dataclass_fields__) - {"inwards", "before"}))
-        require_finite(self, "inwards", "before")
+        require_positive(self, *(set(self.__dataclass_fields__) - {"inwards", "before", "inner_deep"}))
+        require_finite(self, "inwards", "before", "inner_deep")
         require_ratios(self, "edge_leaf", "front_leaf", "pivot", "makeshift_leaf")
 
 

@@ -24,8 +24,8 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.blocks import forget_large_shapes
 from grafu.joints.build import Built
 from grafu.joints.build_all import in_order
+from grafu.joints.clearance.adopt import adopt
 from grafu.joints.clearance.carve import Path, obstruction
-from grafu.joints.clearance.make import adopt
 from grafu.joints.config import RealizationConfig
 from grafu.joints.joint_choice import short_of_chosen
 from grafu.joints.levels import Builder, Levels

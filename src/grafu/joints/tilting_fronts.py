@@ -47,6 +47,8 @@ class TiltConfig:
     """From this cosine on to the horizontal an axis is level."""
     lower: float = 0.25
     """A front tilts whose axis lies in this lower part of it (fraction of its height)."""
+    upright: float = 0.3
+    """Least height of a front with a bin, over how far it reaches from its axis (fraction): a lid lies flat."""
     deep: float = 0.1
     """How far a bin reaches behind its front at least (metres) ..."""
     of_height: float = 0.3
@@ -68,7 +70,7 @@ class TiltConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "level", "lower", "of_height", "wide", "tall", "beyond")
+        require_ratios(self, "level", "lower", "upright", "of_height", "wide", "tall", "beyond")
 
 
 def with_shown_tilts(
@@ -149,6 +151,9 @@ def _drops(request: JointRequest, asset: Asset, config: TiltConfig) -> bool:
     if not request.kind.turns or float(np.linalg.norm(request.axis.direction[:_UP])) < config.level:
         return False
     box = asset.part(request.moving).box
+    inwards = np.abs(np.cross(np.eye(3)[_UP], request.axis.direction))
+    if float(box.size[_UP]) < config.upright * float(box.size @ inwards):
+        return False
     return float(request.axis.point[_UP] - box.low[_UP]) <= config.lower * float(box.size[_UP])
 
 

@@ -198,7 +198,7 @@ def _sliding_side(leaf: Part, past: Part) -> Side:
 
 
 def _hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], config: WindowConfig) -> Side:
-    """Returns the edge away from the handle; without one the outer edge of several leaves, the upper edge of a low one.
+    """Returns the edge away from the handle; without one the outer edge of several leaves, the upper one of a low one.
 
     A handle near a corner lies at the side: the leaf turns about an upright edge.
     """
@@ -209,10 +209,21 @@ def _hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], conf
         aside = sum(float(np.sign(offset)) for offset in offsets if abs(offset) >= config.aside * box.size[axis])
         if aside:
             return sides[0] if aside > 0 else sides[1]
-    if box.size[_UP] < config.wide * box.size[_WIDTH]:
+    if box.size[_UP] < config.wide * box.size[_WIDTH] or _is_fanlight(leaf, leaves, config):
         return Side.TOP
     middle = float(np.mean([one.box.center[_WIDTH] for one in leaves]))
     return Side.RIGHT if box.center[_WIDTH] > middle + config.rim * box.size[_WIDTH] else Side.LEFT
+
+
+def _is_fanlight(leaf: Part, leaves: Sequence[Part], config: WindowConfig) -> bool:
+    """Whether a leaf that is wider than high stands above a higher one of its width."""
+    box = leaf.box
+    if box.size[_UP] >= box.size[_WIDTH]:
+        return False
+    higher = [other.box for other in leaves if other.box.size[_UP] > box.size[_UP]]
+    below = [b for b in higher if b.high[_UP] <= box.low[_UP]]
+    laps = [min(box.high[_WIDTH], b.high[_WIDTH]) - max(box.low[_WIDTH], b.low[_WIDTH]) for b in below]
+    return any(lap >= config.level * box.size[_WIDTH] for lap in laps)
 
 
 def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: WindowConfig) -> bool:

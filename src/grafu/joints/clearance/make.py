@@ -14,18 +14,19 @@ import numpy as np
 
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Mat3, Points, Vec3
+from grafu.geometry.arrays import Mat3, Vec3
 from grafu.geometry.transform import from_rotation
+from grafu.joints.clearance.adopt import adopt, adopt_fittings, adopt_pins
 from grafu.joints.clearance.behind import narrow_behind
 from grafu.joints.clearance.carve import Carving, Change, ClearanceStep, Path, box_in, carve, obstruction
 from grafu.joints.clearance.in_frame import GAPS
 from grafu.joints.clearance.separate import separate
+from grafu.joints.clearance.sunk import narrow_sunk
 from grafu.joints.clearance.trim import trim
 from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import SweepVerdict
 from grafu.joints.report import Clearance
-from grafu.scene.scene import MovingBody, Scene
-from grafu.vocabulary import PartLabel
+from grafu.scene.scene import Scene
 
 
 @final
@@ -70,48 +71,6 @@ def make_clearance(
 def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:
     """Whether a step helped: fewer blockers, or as many in fewer poses."""
     return (len(after.blockers), after.ratio) < (len(before.blockers), before.ratio)
-
-
-def adopt(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
-    """Lets static parts that lie enclosed in the moving part move with it: the drawer's own half of its old rails."""
-    box = scene.parts[path.moving].box.grown(config.clearance.enclosed * config.depth * scene.extent)
-    inside = [name for name in ids if bool(box.contains(scene.parts[name].box.corners()).all())]
-    return _joined(scene, path, inside, f"lies enclosed in {path.moving} and moves with it")
-
-
-def adopt_fittings(
-    scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig
-) -> tuple[Scene, list[Clearance]]:
-    """Lets small static parts at the pin of a leaf, which are drawn sunk into it, move with it: hinges and clamps."""
-    if not path.is_turn:
-        return scene, []
-    leaf, least = scene.parts[path.moving].box, config.depth * scene.extent
-    sunk = [
-        name
-        for name in ids
-        if scene.parts[name].label in _FITTINGS
-        and float(scene.parts[name].box.axis_gaps(leaf).max()) < -least
-        and float(scene.parts[name].box.size.max()) <= 2 * config.clearance.fitting
-        and _from_pin(scene.parts[name].box.corners(), path) <= config.clearance.fitting
-    ]
-    return _joined(scene, path, sunk, f"is a fitting at the hinge of {path.moving}, sunk into it, and moves with it")
-
-
-def _from_pin(points: Points, path: Path) -> float:
-    """Returns how far the farthest of some points is from the axis of a turn, metres."""
-    angle = min(path.reach, 1.0)
-    T = path.motion(angle)
-    moved = np.linalg.norm(points @ T[:3, :3].T + T[:3, 3] - points, axis=1)
-    return float(moved.max()) / (2.0 * float(np.sin(angle / 2)))
-
-
-def _joined(scene: Scene, path: Path, ids: Sequence[str], why: str) -> tuple[Scene, list[Clearance]]:
-    """Returns the scene in which static parts move with the moving part."""
-    if not ids:
-        return scene, []
-    moving = scene.moving_bodies[path.moving]
-    moving_bodies = {**scene.moving_bodies, path.moving: MovingBody(moving.id, (*moving.members, *ids))}
-    return replace(scene, moving_bodies=moving_bodies), [Clearance(part, "joined", 0.0, 0.0, why) for part in ids]
 
 
 def shrink(
@@ -165,11 +124,11 @@ def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 
-_FITTINGS = (PartLabel.MISC, PartLabel.UNKNOWN)
 _FINELY = 2000  # solids with which a path is cut by triangles where hulls would cut away too much
 _STEPS: tuple[ClearanceStep, ...] = (
     adopt,
     adopt_fittings,
+    adopt_pins,
     separate,
     trim,
     narrow_behind,
@@ -183,4 +142,5 @@ _STEPS: tuple[ClearanceStep, ...] = (
     carve,
     partial(narrow_behind, then=carve),
     partial(carve, most=_FINELY),
+    narrow_sunk,
 )

@@ -22,7 +22,6 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.bvh import share_shape
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.joints.concealed_config import ConcealedConfig
-from grafu.joints.fold_config import FoldConfig
 from grafu.joints.hinge.survey import BorderSurvey
 from grafu.joints.hinge_config import HingeConfig, PinConfig
 from grafu.scene.border import BorderFrame
@@ -175,22 +174,6 @@ def turns_about_itself(frame: BorderFrame, axis: Axis, config: HingeConfig) -> b
     x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
     ratios = (float(x) / max(frame.width, 1e-9), -float(y) / max(frame.thickness, 1e-9))
     return all(config.inside < ratio < 1 - config.inside for ratio in ratios)
-
-
-def pivot_pins(frame: BorderFrame, axis: Axis, tol: Tolerances, config: HingeConfig) -> list[PinCandidate]:
-    """Returns the pins that discs at the door's ends could carry: the initial axis itself, then the border's corner."""
-    radius = max(tol.radius, config.pin.pivot * min(frame.thickness, frame.width))
-    x, y, _ = frame.to_border(axis.closest_point(frame.origin)[None])[0]
-    spots = [(float(x), float(y))]
-    if not turns_about_itself(frame, axis, config):
-        spots.append((config.pin.pivot_inset * radius, -config.pin.pivot_inset * radius))
-    return [PinCandidate(MechanismClass.C, 0.0, x, y, radius, radius, PIVOTS, is_pivot=True) for x, y in spots]
-
-
-def fold_pin(config: FoldConfig) -> PinCandidate:
-    """Returns the pin of slim discs close to the outer edge of a leaf that folds."""
-    x, y = config.pivot_edge, -config.pivot
-    return PinCandidate(MechanismClass.C, 0.0, x, y, config.pivot, config.pivot, PIVOTS, is_pivot=True)
 
 
 def makeshift_pins(frame: BorderFrame, tol: Tolerances, config: PinConfig) -> Iterator[PinCandidate]:

@@ -68,12 +68,28 @@ def place_hinges(search: DoorSearch, gallery: Gallery) -> Placement | None:
     choice = search.request.choice
     if choice.template == CUP:
         return place_concealed(search, gallery)
-    is_upright = abs(float(search.frame.rotation[2, 2])) > search.config.upright
-    is_left = is_upright and choice.takes(CUP) and choice.mechanism is None
-    is_first = is_left and search.config.hinge.preferred == CUP
+    is_first = _may_be_concealed(search) and search.config.hinge.preferred == CUP
     found = (place_concealed(search, gallery) if is_first else None) or _visible(search, gallery)
-    is_last = is_upright and choice == AUTOMATIC and not is_first
-    return found or (place_concealed(search, gallery) if is_last else None)
+    return found or (None if is_first else concealed_instead(search, gallery))
+
+
+def concealed_instead(search: DoorSearch, gallery: Gallery) -> Placement | None:
+    """Returns an upright door on concealed hinges; None where something else was chosen, or they find no room."""
+    is_left = _may_be_concealed(search) and search.request.choice == AUTOMATIC
+    return place_concealed(search, gallery) if is_left else None
+
+
+def pivoted_within(search: DoorSearch) -> Placement | None:
+    """Returns a door on pivots further inside it than usual, which nothing runs into; None where none find room."""
+    pins = () if search.request.on_pivots else search.inner
+    placements = (one.placement for judged in pins for one in _with_pivots(judged, search))
+    return next((found for found in placements if not found.struck_by and not _is_narrow(found, search)), None)
+
+
+def _may_be_concealed(search: DoorSearch) -> bool:
+    choice = search.request.choice
+    is_upright = abs(float(search.frame.rotation[2, 2])) > search.config.upright
+    return is_upright and choice.takes(CUP) and choice.mechanism is None
 
 
 def _visible(search: DoorSearch, gallery: Gallery) -> Placement | None:

@@ -21,10 +21,8 @@ from grafu.joints.hinge.candidates import (
     Tolerances,
     barrel_radius,
     concealed_pins,
-    fold_pin,
     hinge_count,
     makeshift_pins,
-    pivot_pins,
     ruled_pins,
     turns_about_itself,
 )
@@ -32,6 +30,7 @@ from grafu.joints.hinge.hardware import InstalledHinge
 from grafu.joints.hinge.judged import JudgedPin
 from grafu.joints.hinge.most_opening import most_opening
 from grafu.joints.hinge.neighbours import Neighbour, neighbours_of
+from grafu.joints.hinge.pivot_pins import fold_pin, inner_pivots, pivot_pins
 from grafu.joints.hinge.survey import BorderSurvey, survey
 from grafu.joints.limits import all_blockers, free_opening, in_the_way, sweep, swept_box, widest_above, widest_free
 from grafu.joints.plan import CUP, PIVOT, JointRequest
@@ -106,6 +105,12 @@ class DoorSearch:
         slim = [fold_pin(self.config.fold)] if self.request.on_pivots else []
         pivots = pivot_pins(self.frame, self.request.axis, tol, config)
         return self._judged([*slim, *pivots, *makeshift_pins(self.frame, tol, config.pin)])
+
+    @cached_property
+    def inner(self) -> list[JudgedPin]:
+        """The pivots further inside the door that leave it free, in the order tried; none of what has its own axis."""
+        pins = inner_pivots(self.frame, self.request.axis, self._tolerances, self.config.hinge)
+        return [judged for judged in map(self._judge, filter(self._is_left, pins)) if judged.is_clear]
 
     @cached_property
     def slim(self) -> list[JudgedPin]:
