@@ -251,7 +251,7 @@ def _fill_joints(session, settings, report, made) -> None:
 
 def _fill_additions(session, settings, report) -> None:
     session.additions.clear()
-    rows = [(added.part, f"{added.category.value}: {added.style}", True) for added in report.added]
+    rows = [(added.part, f"{added.category.value}: {added.style}", True) for added in report.additions]
     rows += [(name, "rejected", False) for name in sorted(settings.additions.rejected)]
     for name, about, accepted in rows:
         row = session.additions.add()

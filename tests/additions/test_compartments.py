@@ -128,7 +128,7 @@ def test_drawers_before_a_solid_block_work_and_the_report_states_why():
 
     assert [joint.part for joint in result.report.joints] == ["drawer_0", "drawer_1", "drawer_2"]
     assert all(joint.opening > 0.25 and joint.collision_share == 0 for joint in result.report.joints)
-    added = [one for one in result.report.added if one.style == "compartment"]
+    added = [one for one in result.report.carved if one.style == "compartment"]
     assert [one.why for one in added] == [f"it was drawn solid behind drawer_{k}" for k in range(3)]
     assert {one.part for one in added} == {"block"}
     assert {one.part for one in result.report.added if one.style == "drawer box"} != set()

@@ -191,7 +191,7 @@ def test_a_chosen_handle_can_be_left_out_and_its_offset_is_limited(editing):
 def test_a_front_with_a_grip_cut_into_it_is_fixed_by_reject(editing):
     editing.open()
     cut = editing.choose("handle", DOOR, "hole")
-    assert DOOR in {one["part"] for one in cut["report"]["added"]}
+    assert DOOR in {one["part"] for one in cut["report"]["carved"]}
     assert motion_of(editing.choose("reject", DOOR, None), DOOR) is None
     assert saved(editing).additions.rejected == frozenset()
 

@@ -160,7 +160,8 @@ def test_a_grip_is_carved_where_it_is_asked_for(asset: Asset) -> None:
     config = PipelineConfig(Settings(additions=replace(AdditionConfig(), handles=None)))
     carved = functionalize(asset, MotionSource.ANNOTATION, builtin_gallery(), config)
     assert grasps(carved) == {PartLabel.DRAWER: "handle", PartLabel.DOOR: "recess"}
-    (grip,) = report_of(carved).added
+    (grip,) = report_of(carved).carved
+    assert report_of(carved).added == ()
     assert asset.part(grip.part).label is PartLabel.DOOR
     before, after = asset.part(grip.part).mesh, carved.object.link(grip.part).visuals[0].mesh
     assert after.to_trimesh().volume < before.to_trimesh().volume

@@ -4,7 +4,8 @@ import pytest
 
 from grafu.additions.step import DeficiencyKind
 from grafu.pipeline.certainty import certainty_words
-from grafu.pipeline.report_schema import NOT_ADDED, AddedRecord, AxisRecord, DeficiencyRecord, SkippedRecord
+from grafu.pipeline.report_changes import AddedRecord
+from grafu.pipeline.report_schema import NOT_ADDED, AxisRecord, DeficiencyRecord, SkippedRecord
 from grafu.pipeline.words import counted, listed
 from grafu.refusal import Reason
 from grafu.viewer.wording import (

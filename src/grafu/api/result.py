@@ -29,7 +29,8 @@ from grafu.templates.gallery import open_handles
 from grafu.vocabulary import PartLabel
 
 if TYPE_CHECKING:
-    from grafu.pipeline.report_schema import AddedRecord, JointRecord, Report, SkippedRecord
+    from grafu.pipeline.report_changes import AddedRecord, CarvedRecord
+    from grafu.pipeline.report_schema import JointRecord, Report, SkippedRecord
 
 
 @final
@@ -89,6 +90,11 @@ class Result:
     def added(self) -> "tuple[AddedRecord, ...]":
         """The parts that were missing in the input and were added."""
         return self.report.added
+
+    @property
+    def carved(self) -> "tuple[CarvedRecord, ...]":
+        """The recessed grips and the compartments that were cut into parts."""
+        return self.report.carved
 
     @property
     def skipped(self) -> "tuple[SkippedRecord, ...]":

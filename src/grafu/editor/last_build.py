@@ -50,7 +50,7 @@ class LastBuild:
     def known(self) -> Known:
         """What choices may be about."""
         parts = frozenset(part.id for part in self.report.parts)
-        added = {one.part: one for one in self.report.added if one.part not in parts}  # a grip is cut into one of these
+        added = {one.part: one for one in self.report.added}
         return Known(
             parts,
             frozenset(added),

@@ -26,9 +26,9 @@ from grafu.pipeline.records import (
     source_record,
     vector,
 )
+from grafu.pipeline.report_changes import AddedRecord, CarvedRecord
 from grafu.pipeline.report_schema import (
     NOT_ADDED,
-    AddedRecord,
     ClearanceRecord,
     GraspFrameRecord,
     JointRecord,
@@ -67,6 +67,7 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
         deficiencies=tuple(deficiency_record(one) for one in missing),
         joints=_joint_records(result),
         added=_added_records(result),
+        carved=_carved_records(result),
         skipped=tuple(
             skipped_record(refusal)
             for refusal in (*result.report.skipped, *result.body.refusals, *result.fittings.refusals)
@@ -194,12 +195,16 @@ def _joint_record(made: Installed, joint: Joint, grasp: Grasp) -> JointRecord:
 
 def _added_records(result: Functionalized) -> tuple[AddedRecord, ...]:
     link_of = {visual.name: link.id for link in result.object.links for visual in link.visuals}
-    parts = [
+    return tuple(
         AddedRecord(part=a.part.id, category=a.part.label, why=a.why, style=a.style, link=link_of[a.part.id])
         for a in result.additions
-    ]
+    )
+
+
+def _carved_records(result: Functionalized) -> tuple[CarvedRecord, ...]:
+    link_of = {visual.name: link.id for link in result.object.links for visual in link.visuals}
     grips = [
-        AddedRecord(
+        CarvedRecord(
             part=c.part.id,
             category=PartLabel.HANDLE,
             why="it could not be grasped, and was carved",
@@ -209,7 +214,7 @@ def _added_records(result: Functionalized) -> tuple[AddedRecord, ...]:
         for c in result.fittings.changes.carved
     ]
     compartments = [
-        AddedRecord(
+        CarvedRecord(
             part=c.part.id,
             category=c.part.label,
             why=f"it was drawn solid behind {', '.join(fronts)}",
@@ -219,4 +224,4 @@ def _added_records(result: Functionalized) -> tuple[AddedRecord, ...]:
         for c in result.body.changes.compartments
         for fronts in c.fronts
     ]
-    return (*parts, *grips, *compartments)
+    return (*grips, *compartments)

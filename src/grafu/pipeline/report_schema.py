@@ -11,6 +11,7 @@ from grafu.additions.step import DeficiencyKind
 from grafu.graph.completion import Question
 from grafu.joints.report import LIFT_ARMS
 from grafu.pipeline.motion_source import MotionSource
+from grafu.pipeline.report_changes import AddedRecord, CarvedRecord
 from grafu.pipeline.report_record import BaseRecord, CaughtRecord, ReportRecord, schema_field
 from grafu.pipeline.words import Colour, FaultKind, Grasp
 from grafu.refusal import Asked, Reason
@@ -170,18 +171,6 @@ class JointRecord(ReportRecord):
         return not self.small and (self.template != LIFT_ARMS or self.follows is not None)
 
 
-class AddedRecord(ReportRecord):
-    """A part that was added, a recessed grip that was carved into one, or a compartment that was cut into one."""
-
-    part: str = Field(description="its id; of a grip or compartment: the part that it was cut into")
-    category: PartLabel = Field(description="its category; a grip is a handle")
-    why: str = Field(description="what was missing")
-    style: str = Field(
-        description="the template of a handle, the outline of a top, the kind of a grip, `drawer box` or `compartment`"
-    )
-    link: str = Field(description="the link of model.urdf that holds it")
-
-
 class SkippedRecord(ReportRecord):
     """A request that was not built."""
 
@@ -282,6 +271,7 @@ class Report(ReportRecord):
     deficiencies: tuple[DeficiencyRecord, ...] = Field(description="what the input lacked")
     joints: tuple[JointRecord, ...] = Field(description="what moves now")
     added: tuple[AddedRecord, ...] = Field(description="parts that were added")
+    carved: tuple[CarvedRecord, ...] = Field(default=(), description="grips and compartments cut into parts")
     skipped: tuple[SkippedRecord, ...] = Field(description="what was asked for and not built")
     notes: tuple[str, ...] = Field(
         default=(),
@@ -296,3 +286,8 @@ class Report(ReportRecord):
     def to_json(self) -> dict[str, object]:
         """Returns the JSON-ready dict."""
         return self.model_dump(mode="json", by_alias=True)
+
+    @property
+    def additions(self) -> tuple[AddedRecord | CarvedRecord, ...]:
+        """The parts that were added, then what was cut into parts."""
+        return (*self.added, *self.carved)

@@ -69,7 +69,7 @@ def added_table(report: Report) -> Html:
         for j in report.joints
         if j.count
     ]
-    rows += [(part_button(a.part), a.category, a.why, a.style, a.link) for a in report.added]
+    rows += [(part_button(a.part), a.category, a.why, a.style, a.link) for a in report.additions]
     columns = ("part", "category", "why", "style", "moves with")
     return joined([tag("p", f"{listed(phrases)}.", class_="lead"), plain_rows(columns, rows, "Added parts")])
 

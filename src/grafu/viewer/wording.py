@@ -40,10 +40,10 @@ def added(report: Report) -> list[str]:
     hinges = sum(joint.count for joint in report.joints if motion_kind(joint.type).turns)
     rails = sum(joint.count for joint in report.joints) - hinges
     boxes = {part.link for part in report.added if part.style == DeficiencyKind.DRAWER_BOX}
-    kinds = Counter(part.category for part in report.added if part.style not in _BY_STYLE)
+    kinds = Counter(part.category for part in report.additions if part.style not in _BY_STYLE)
     hardware = [(hinges, "hinge"), (rails, "rail"), (sum(joint.stays for joint in report.joints), "stay")]
     counts = [*hardware, *((count, kind.value) for kind, count in kinds.items())]
-    styles = Counter(part.style for part in report.added)
+    styles = Counter(part.style for part in report.additions)
     singly = ((styles[kind], kind.value) for kind in _BY_STYLE if kind is not DeficiencyKind.DRAWER_BOX)
     by_style = ((len(boxes), DeficiencyKind.DRAWER_BOX.value), *singly)
     return [counted(count, what) for count, what in (*counts, *by_style) if count]
@@ -136,7 +136,7 @@ def _mended(lack: DeficiencyRecord, report: Report) -> bool:
     if lack.kind is DeficiencyKind.DRAWER_BOX:
         return any(a.link == lack.part and a.category is not PartLabel.HANDLE for a in report.added)
     if lack.kind in _BY_STYLE:
-        return any(a.style == lack.kind for a in report.added)
+        return any(a.style == lack.kind for a in report.additions)
     return any(added.category is _ADDED_FOR[lack.kind] for added in report.added)
 
 
