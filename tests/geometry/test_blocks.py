@@ -1,5 +1,6 @@
 """Large meshes are asked block by block: the answers are those of one BVH, and far blocks are never built."""
 
+import gc
 from collections.abc import Iterator
 
 import numpy as np
@@ -81,6 +82,16 @@ def test_the_blocks_hold_each_face_once() -> None:
     assert divided is not None
     np.testing.assert_array_equal(np.sort(np.concatenate(divided.faces)), np.arange(len(BOARD.faces)))
     assert max(map(len, divided.faces)) <= blocks.BLOCK
+
+
+def test_a_dead_mesh_leaves_no_blocks_behind() -> None:
+    mesh = rough_board(4)
+    assert MeshCollider(mesh).distance(MeshCollider(SMALL)) == 0.0
+    gc.collect()
+    before = len(blocks._divided_meshes)
+    del mesh
+    gc.collect()
+    assert len(blocks._divided_meshes) == before - 1
 
 
 def test_a_mesh_that_is_not_large_is_not_divided() -> None:

@@ -1,7 +1,6 @@
 """A large mesh in blocks of faces that lie together, each with a BVH of its own, built when something comes near it.
 
-Parts meet at their borders. A question about a border then builds what lies along it, not the whole mesh: of a
-generated door of 70,000 faces a tenth.
+Parts meet at their borders. A question about a border then builds what lies along it, not the whole mesh.
 """
 
 from collections.abc import Iterator
@@ -18,7 +17,7 @@ from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.shapes import Float, Int
 
 LARGE = 5_000  # faces: smaller meshes are not divided
-BLOCK = 2000  # faces of a block, at most
+BLOCK = 2_000  # faces of a block, at most
 _SLACK = 1e-9  # metres by which boxes that only touch may seem apart, by rounding
 
 
@@ -27,7 +26,7 @@ class MeshBlocks:
     """The blocks of a mesh, and the boxes around them in its frame; not a value."""
 
     def __init__(self, mesh: TriangleMesh) -> None:
-        self._mesh = mesh
+        self._vertices, self._corners = mesh.vertices, mesh.faces  # not the mesh, which would never die
         low, high = triangle_bounds(mesh.triangles)
         self.faces: list[Int[np.ndarray, " _"]] = list(_divided((low + high) / 2, np.arange(len(low))))
         ends = [(low[block].min(axis=0), high[block].max(axis=0)) for block in self.faces]
@@ -39,8 +38,8 @@ class MeshBlocks:
     def tree(self, block: int) -> MeshTree:
         """Returns the BVH of a block, built when first asked for."""
         if block not in self._made:
-            corners, used = np.unique(self._mesh.faces[self.faces[block]], return_inverse=True)
-            self._made[block] = TriangleMesh(self._mesh.vertices[corners], used.reshape(-1, 3))
+            corners, used = np.unique(self._corners[self.faces[block]], return_inverse=True)
+            self._made[block] = TriangleMesh(self._vertices[corners], used.reshape(-1, 3))
         return model_of(self._made[block])
 
 
