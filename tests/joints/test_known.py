@@ -12,8 +12,8 @@ from grafu.asset.part import Part, PartSource
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.geometry.blocks import LARGE
 from grafu.geometry.box import Box
-from grafu.geometry.bvh import LARGE
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.joints.hinge.neighbours import neighbours_of
 from grafu.joints.known import change_between, worked_out
