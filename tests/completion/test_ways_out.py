@@ -2,12 +2,13 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.asset.part import Asset
-from grafu.completion.ways_out import WayOutConfig, rest_of, with_ways_out
+from grafu.completion.ways_out import WayOutConfig, rest_of, rest_through, with_ways_out
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster, open_ratios
 from grafu.graph.completion import Decision, GraphCompletion
@@ -154,7 +155,14 @@ def test_what_is_left_out_of_the_rest_no_ray_along_an_axis_through_the_part_meet
     drawer = (low, tuple(a + b for a, b in zip(low, size, strict=True)))
     completion, asset = completed(drawer, FRONT)
     part = asset.part("drawer")
-    rest = rest_of(asset, "drawer", completion.completed)
+    rest = rest_through(asset, "drawer", completion.completed)
     whole = RayCaster(merge_meshes([other.mesh for other in asset.parts if other is not part]))
     for axis in range(3):
         assert open_ratios(rest, part.box, axis) == open_ratios(whole, part.box, axis)
+
+
+def test_what_is_aside_of_a_part_and_behind_it_is_in_the_rest():
+    """What could hold a drawer is looked for beside its front and behind it, where no ray through the front leads."""
+    completion, asset = completed(PLATE, FRONT)
+    behind = np.array([[0.0, 0.2, 0.15]])
+    assert np.isfinite(rest_of(asset, "drawer", completion.completed).along(behind, np.array([1.0, 0.0, 0.0]))).all()

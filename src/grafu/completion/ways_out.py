@@ -67,7 +67,7 @@ def _with_doors(completion: GraphCompletion, asset: Asset, config: WayOutConfig)
     for hinge in doors:
         box = graph.node(hinge.child).box
         thin = box.thin_axis
-        low, high = _seen_from(rest_of(asset, hinge.child, graph), box, config)
+        low, high = _seen_from(rest_through(asset, hinge.child, graph), box, config)
         sign = sign_for_opening(thin, hinge.border, signed_axis(thin, high > low))
         if abs(high - low) >= config.seen and (sign != hinge.sign or thin != _UP):
             new[hinge.child] = sign, abs(high - low)
@@ -126,7 +126,7 @@ def _way_out(
     if part not in known or predicted == 2:
         return None
     axis = _across(known[part].box, predicted, config)
-    low, high = open_ratios(rest_of(asset, part, graph), known[part].box, axis)
+    low, high = open_ratios(rest_through(asset, part, graph), known[part].box, axis)
     sure = abs(high - low)
     return (signed_axis(axis, high > low), sure) if sure >= config.seen else None
 
@@ -138,13 +138,18 @@ def _across(box: Box, predicted: int, config: WayOutConfig) -> int:
 
 
 def rest_of(asset: Asset, part: str, graph: FunctionalGraph) -> RayCaster:
-    """Returns what casts rays on everything but a part and what is attached to it.
+    """Returns what casts rays on everything but a part and what is attached to it."""
+    return RayCaster(merge_meshes(_others(asset, part, graph)))
 
-    Rays must run along an axis through the part's box: what they cannot meet is left out.
-    """
+
+def rest_through(asset: Asset, part: str, graph: FunctionalGraph) -> RayCaster:
+    """Returns the same for rays that run along an axis through the part's box: what they cannot meet is left out."""
+    return RayCaster(_in_columns(_others(asset, part, graph), graph.node(part).box))
+
+
+def _others(asset: Asset, part: str, graph: FunctionalGraph) -> list[TriangleMesh]:
     own = {part, *(edge.child for edge in graph.attachments if edge.parent == part)}
-    box = graph.node(part).box
-    return RayCaster(_in_columns([part.mesh for part in asset.parts if part.id not in own], box))
+    return [part.mesh for part in asset.parts if part.id not in own]
 
 
 def _in_columns(meshes: Sequence[TriangleMesh], box: Box) -> TriangleMesh:
