@@ -8,9 +8,10 @@ with parts removed. Random variants are drawn --copies times. A motion is right 
 `aligned` (docs/evaluation.md). Prints a table in Markdown, one of the causes of what is wrong, and of the first two
 variants each part that is wrong.
 
-The last column is the expected calibration error: the confidence of a motion is the product of the scores of its
-decisions (what the part is, how it moves); in ten bins of confidence, how far the mean confidence is from the fraction
-that is right, a mean by the number of motions.
+The confidence of a motion is the product of the scores of its decisions (what the part is, how it moves). Its expected
+calibration error: in ten bins of confidence, how far the mean confidence is from the fraction that is right, a mean by
+the number of motions. Of few motions it is above zero by chance alone: the last column is what a predictor that is
+calibrated has with these confidences, the mean of many draws and, in brackets, what it exceeds in one draw of forty.
 """
 
 import argparse
@@ -39,6 +40,8 @@ from grafu.vocabulary import PartLabel
 
 GONE = 0.25  # of the parts that are static
 BINS = 10
+DRAWS = 4000  # of what a calibrated predictor would get right
+RARE = 97.5  # percentile of these draws
 CAUSES = ("does not move", "another type", "another direction", "another border")
 OF_MOTION = ("label", "border", "sign", "slide")
 Change = Callable[[Asset, Asset, int], Asset]
@@ -161,10 +164,30 @@ def calibration_error(sure: list[tuple[float, bool]]) -> float:
     """Returns the expected calibration error of confidences in ten bins; not a number where there are none."""
     if not sure:
         return float("nan")
-    confidence, right = np.array([c for c, _ in sure]), np.array([r for _, r in sure], dtype=float)
+    right = np.array([[r for _, r in sure]], dtype=float)
+    return float(binned_errors(np.array([c for c, _ in sure]), right)[0])
+
+
+def mean_confidence(sure: list[tuple[float, bool]]) -> float:
+    """Returns the mean confidence of motions that are stated; not a number where none is."""
+    return float(np.mean([c for c, _ in sure])) if sure else float("nan")
+
+
+def calibrated_errors(sure: list[tuple[float, bool]]) -> tuple[float, float]:
+    """Returns the calibration error of a calibrated predictor with the same confidences: its mean, and a rare one."""
+    if not sure:
+        return float("nan"), float("nan")
+    confidence = np.array([c for c, _ in sure])
+    right = np.random.default_rng(0).random((DRAWS, len(sure))) < confidence
+    errors = binned_errors(confidence, right.astype(float))
+    return float(errors.mean()), float(np.percentile(errors, RARE))
+
+
+def binned_errors(confidence: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Returns the expected calibration errors of confidences (n), one for each row of what is right (draws x n)."""
     bins = np.minimum((confidence * BINS).astype(int), BINS - 1)
-    apart = [abs(float((confidence - right)[bins == k].sum())) for k in range(BINS)]
-    return sum(apart) / len(sure)
+    apart = [np.abs((confidence - right)[:, bins == k].sum(axis=1)) for k in range(BINS)]
+    return np.sum(apart, axis=0) / len(confidence)
 
 
 def without_some_still_parts(asset: Asset, bare: Asset, draw: int) -> Asset:
@@ -211,7 +234,9 @@ def counts(found: list[Found]) -> dict[str, dict[str, object]]:
             "parts": sum(one.parts for one in ones),
             "wrong": [part for one in ones for part in one.wrong],
             "causes": {cause: sum(one.causes.count(cause) for one in ones) for cause in CAUSES},
+            "confidence": mean_confidence([pair for one in ones for pair in one.sure]),
             "calibration error": calibration_error([pair for one in ones for pair in one.sure]),
+            "if calibrated": calibrated_errors([pair for one in ones for pair in one.sure]),
         }
         for name, ones in of.items()
     }
@@ -220,12 +245,15 @@ def counts(found: list[Found]) -> dict[str, dict[str, object]]:
 def table(found: list[Found]) -> str:
     """Returns the counts as a table, and below it what is wrong in the variants that nothing is drawn for."""
     counted = counts(found)
-    lines = ["| asked about | motions | right | fraction | calibration error |", "|---|---|---|---|---|"]
+    head = ["asked about", "motions", "right", "fraction", "mean confidence", "calibration error", "if calibrated"]
+    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
     for name, one in counted.items():
         if one["parts"]:
             ratio = one["right"] / one["parts"]  # type: ignore[operator]
-            error = one["calibration error"]
-            lines.append(f"| {name} | {one['parts']} | {one['right']} | {ratio:.3f} | {error:.3f} |")
+            mean, rare = one["if calibrated"]  # type: ignore[misc]
+            cells = [f"{one[key]:.3f}" for key in ("confidence", "calibration error")]
+            cells = [str(one["parts"]), str(one["right"]), f"{ratio:.3f}", *cells, f"{mean:.3f} ({rare:.3f})"]
+            lines.append(f"| {name} | {' | '.join(cells)} |")
     lines += ["", f"| wrong | {' | '.join(CAUSES)} |", "|---" * (1 + len(CAUSES)) + "|"]
     for name, one in counted.items():
         if one["parts"]:

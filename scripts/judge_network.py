@@ -6,7 +6,8 @@ Each model is asked about as it was found, with its labels hidden, and lacking p
 Prints a table in Markdown, the paper's column beside ours, with the half widths of 95 % intervals from resampled
 models; then, of the doors as they were found, how many turn as they should, by what their handles say of the hinge's
 side; then, how often it states what the whole piece is, what is drawn ajar and what moves as one with a door or drawer,
-and how often that is right. With --rule the rule-based baseline is judged instead, which states none of the last.
+and how often that is right; last, edges and hinges where the input decides them (`judge_network_decided.py`). With
+--rule the rule-based baseline is judged instead, which states nothing of the whole piece.
 """
 
 import argparse
@@ -21,6 +22,7 @@ from pathlib import Path
 import numpy as np
 from judge_network_added import ASKED as ASKED_TO_ADD
 from judge_network_added import Added, added_table, judge_added
+from judge_network_decided import Decided, decided_table, judge_decided
 
 from grafu.completion.features import FeatureConfig
 from grafu.completion.network import complete_by_network
@@ -74,22 +76,26 @@ def main() -> int:
         doors: list[Doors] = []
         facts: list[Facts] = []
         added: list[dict[str, Added]] = []
+        decided: list[Decided] = []
         weights = None if options.rule else options.weights
         for one in pool.map(partial(judge, weights, options.seed), range(options.count), chunksize=4):
             found.append(one[0])
             doors.append(one[1])
             facts.append(one[2])
             added.append(one[3])
+            decided.append(one[4])
             print(f"  {len(found)}/{options.count}, {time.perf_counter() - began:.0f} s", file=sys.stderr, end="\r")
     print(file=sys.stderr)
-    print(
-        table(found), door_table(doors), *([] if options.rule else [fact_table(facts), added_table(added)]), sep="\n\n"
-    )
+    of_network = [] if options.rule else [fact_table(facts), added_table(added)]
+    print(table(found), door_table(doors), *of_network, decided_table(decided), sep="\n\n")
     return 0
 
 
-def judge(weights: Path | None, seed: int, number: int) -> tuple[Accuracies, Doors, Facts, dict[str, Added]]:
-    """Returns the figures of one model by variant, its doors, facts and added parts; without weights, by the rules."""
+def judge(weights: Path | None, seed: int, number: int) -> tuple[Accuracies, Doors, Facts, dict[str, Added], Decided]:
+    """Returns the figures of one model: by variant, its doors, facts, added parts, and where the input decides.
+
+    Without weights it is judged by the rules.
+    """
     complete = complete_by_rule if weights is None else partial(complete_by_weights, open_network(weights))
     natural = specimen_pair(make_specimen(seed, number, FeatureConfig().points))
     pairs = asked_pairs(natural, number)
@@ -97,7 +103,9 @@ def judge(weights: Path | None, seed: int, number: int) -> tuple[Accuracies, Doo
     accuracies = {name: graph_accuracy(completed[name], pair.target) for name, pair in pairs.items()}
     facts = {(name, what): n for name in ASKED for what, n in judge_facts(completed[name], pairs[name]).items()}
     added = {name: judge_added(completed[name].completed, pairs[name]) for name in ASKED_TO_ADD}
-    return accuracies, judge_doors(completed["natural"].completed, natural), facts, added
+    graph = completed["natural"].completed
+    undecided = frozenset(h.child for h in natural.target.hinges if is_undecided(h, natural))
+    return accuracies, judge_doors(graph, natural), facts, added, judge_decided(graph, natural, undecided)
 
 
 def judge_facts(found: GraphCompletion, pair: GraphPair) -> dict[str, tuple[int, int, int]]:
@@ -138,6 +146,11 @@ def judge_doors(found: FunctionalGraph, pair: GraphPair) -> Doors:
             right, all_of_kind = counts[kind]
             counts[kind] = (right + (motions.get(hinge.child) == (hinge.border, hinge.sign)), all_of_kind + 1)
     return counts
+
+
+def is_undecided(hinge: Hinge, pair: GraphPair) -> bool:
+    """Whether nothing that the input shows of a door tells the side on which it hangs."""
+    return hinge.child in pair.input and door_kind(hinge, pair) != DOOR_KINDS[0]
 
 
 def door_kind(hinge: Hinge, pair: GraphPair) -> str:

@@ -46,6 +46,7 @@ from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceC
 from grafu.asset.standing_out import StandingOutConfig
 from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
+from grafu.completion.copied_bars import CopiedBarsConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
 from grafu.completion.drawers_above_doors import DrawerAboveConfig
@@ -242,7 +243,7 @@ CONFIGS = (
     BodyKindConfig, BoxInCaseConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
-    CoverageTestConfig, DrawnGripConfig,
+    CopiedBarsConfig, CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig, FixedShelfConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,

@@ -13,6 +13,7 @@ from stated.store import Stored, Table, drawn_table
 FIGURE = re.compile(r"(<!-- figure: ([^:\n]+): ([^\n]+?) / ([^\n]+?) -->)(.*?)(<!-- end -->)", re.DOTALL)
 BESIDE_RULES = ("hinge", "rail", "attached", "border", "joint", "slide", "mount", "parent")
 KINDS = ("natural", "masked", "lacking")
+DECIDED = "where the input decides"
 LEFT_OUT = ("labels given", "no labels")
 
 Store = Mapping[str, Stored]
@@ -43,10 +44,12 @@ def tables(store: Store) -> dict[tuple[str, str], str]:
         ("network.md", "synthetic"): copied(store["synthetic"], 0),
         ("network.md", "network and rules"): beside(store),
         ("network.md", "doors"): doors(store),
+        ("network.md", "decided"): decided(store),
         ("network.md", "facts"): copied(store["synthetic"], 2),
         ("network.md", "added parts"): copied(store["synthetic"], 3),
         ("network.md", "motions"): motions(store),
         ("network.md", "causes"): causes(store),
+        ("network.md", "calibration"): calibration(store),
         ("additions.md", "statics made"): copied(store["statics"], 0),
         ("additions.md", "statics real"): copied(store["statics"], 1),
         ("training.md", "losses"): copied(store["losses"], 0),
@@ -112,6 +115,15 @@ def doors(store: Store) -> str:
     return drawn_table([[mine[0][0], "doors", "turn as they should: network", "rules"], *rows])
 
 
+def decided(store: Store) -> str:
+    """Returns the edges and hinges where the input decides them, of the network and of the rules."""
+    mine, theirs = (
+        next(t for t in store[name].tables if t[0][0] == DECIDED) for name in ("synthetic", "synthetic by rules")
+    )
+    rows = [[*a, b[2]] for a, b in zip(mine[1:], theirs[1:], strict=True)]
+    return drawn_table([[DECIDED, "there are", "network", "rules"], *rows])
+
+
 def motions(store: Store) -> str:
     """Returns the fractions of real motions that are right, of the network and of the rules."""
     head = ["asked about", "motions", "network", "rules"]
@@ -136,6 +148,15 @@ def causes(store: Store) -> str:
         for name, measure in who.items()
     ]
     return drawn_table([head, *rows])
+
+
+def calibration(store: Store) -> str:
+    """Returns how far the confidences of motions are from how many are right, of both sets of models."""
+    columns = ("motions", "fraction", "mean confidence", "calibration error", "if calibrated")
+    sets = {"the 17 models": store["motions"], "hard models": store["motions of hard models"]}
+    asked = [row[0] for row in store["motions"].tables[0][1:]]
+    rows: Table = [[name, one, *(kept.cell(name, c) for c in columns)] for name in asked for one, kept in sets.items()]
+    return drawn_table([["asked about", "models", "motions", "right", *columns[2:]], *rows])
 
 
 def _row(table: Table, name: str) -> list[str]:

@@ -20,6 +20,7 @@ from grafu.completion.selection import borders_of, choose_hinge, choose_parent, 
 from grafu.completion.slots import NewPart, weighed
 from grafu.completion.view import GraphView
 from grafu.dataclass import dataclass
+from grafu.geometry.arrays import Scalars
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Slide
 from grafu.graph.edit import with_edges
@@ -41,6 +42,10 @@ class DecodedGraph:
     def held(self) -> frozenset[str]:
         """The doors and drawers that have a handle."""
         return frozenset(edge.parent for edge in self.view.graph.attachments)
+
+    def stating(self, borders: Mapping[str, Scalars]) -> "DecodedGraph":
+        """Returns the same with what is stated of the borders of some doors (`GraphView.borders`)."""
+        return replace(self, view=replace(self.view, borders=borders))
 
 
 def decode_graph(

@@ -69,10 +69,15 @@ def with_handle_sides(
     return hung_on(completion, found)
 
 
+def given_handles(door: str, graph: FunctionalGraph, given: set[str]) -> list[Box]:
+    """Returns the boxes of the handles on a door that the input has (`given`: the ids of its parts)."""
+    nodes = (graph.node(edge.child) for edge in graph.attachments if edge.parent == door and edge.child in given)
+    return [node.box for node in nodes if node.label is PartLabel.HANDLE]
+
+
 def _stated_side(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: HandleSideConfig) -> HingeBorder | None:
     """Returns the border that the handles of a door state; None where they state none."""
-    nodes = (graph.node(edge.child) for edge in graph.attachments if edge.parent == hinge.child and edge.child in given)
-    handles = [node.box for node in nodes if node.label is PartLabel.HANDLE]
+    handles = given_handles(hinge.child, graph, given)
     if not handles:
         return None
     box = graph.node(hinge.child).box

@@ -23,10 +23,11 @@ from grafu.completion.features import FeatureConfig, GraphFeatures, graph_featur
 from grafu.completion.label_shapes import held_by_handles, with_held, without_cases, without_overlaid, without_slim
 from grafu.completion.misnamed_fronts import corrected_fronts, has_named
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
+from grafu.completion.selection import borders_without_handle
 from grafu.completion.session import GraphNetwork
 from grafu.completion.slots import NewPart, new_parts, regular_parts, with_parts
 from grafu.completion.votes import ranking_of
-from grafu.geometry.arrays import Indices, Points
+from grafu.geometry.arrays import Indices, Points, Scalars
 from grafu.geometry.budget import fits, present_budget, require_room, require_time
 from grafu.geometry.components import linked
 from grafu.graph.arrays import ATTACHED, DOOR, DRAWER, HANDLE, HINGE, LABELS, RAIL, UNKNOWN
@@ -189,10 +190,9 @@ def complete_by_network(
     seen, labelling, known = label_parts(graph, network, features, config, named)
     added: list[NewPart] = []
     given = frozenset(node.id for node in graph.nodes)
-    rounds, asked_rows = 0, False
+    rounds, asked_rows, labelled = 0, False, seen
+    first = inputs, probabilities = known or forward(seen, network, features)
     while True:
-        inputs, probabilities = known or forward(seen, network, features)
-        known = None
         parents = {part.node.id: part.parent for part in added if part.parent is not None}
         decoded = decode_graph(seen, probabilities, given, parents, config)
         most = config.rounds + len(decoded.view.moving_bodies) // _BODIES_PER_ROUND
@@ -201,11 +201,31 @@ def complete_by_network(
         if not found and not asked_rows:
             found, asked_rows = regular_parts(decoded.view), True
         if not found:
-            if config.mirror:
-                decoded = decode_graph(seen, with_image(probabilities, seen, inputs, network), given, parents, config)
-            return complete_decoded(graph, decoded, labelling, added)
+            break
         seen, rounds = with_parts(seen, found), rounds + 1
         added += found
+        inputs, probabilities = forward(seen, network, features)
+    if config.mirror:
+        decoded = decode_graph(seen, with_image(probabilities, seen, inputs, network), given, parents, config)
+    if any(part.node.label is PartLabel.HANDLE for part in added):
+        decoded = decoded.stating(_borders_before(labelled, first, network, given, config))
+    return complete_decoded(graph, decoded, labelling, added)
+
+
+def _borders_before(
+    graph: FunctionalGraph,
+    seen: tuple[GraphFeatures, Probabilities],
+    network: GraphNetwork,
+    given: frozenset[str],
+    config: DecodeConfig,
+) -> dict[str, Scalars]:
+    """Returns what was stated of the borders of doors without a handle before any was added: features, probabilities.
+
+    With its own handle on a door, the network is sure of the side away from it, whatever it knew before.
+    """
+    inputs, probabilities = seen
+    averaged = with_image(probabilities, graph, inputs, network) if config.mirror else probabilities
+    return borders_without_handle(decode_graph(graph, averaged, given, {}, config).view)
 
 
 def label_parts(

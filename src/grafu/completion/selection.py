@@ -114,6 +114,13 @@ def borders_of(door: PartNode, view: GraphView, scene: RuleScene) -> Scalars:
     return np.asarray(leaned_motion(door, motion, view.config.outward, scene).sum(axis=1))
 
 
+def borders_without_handle(view: GraphView) -> dict[str, Scalars]:
+    """Returns what the network states of the borders of each door of the input on which the input shows no handle."""
+    held = {edge.parent for edge in view.graph.attachments if edge.child in view.given}
+    doors = [n for n in view.graph.labelled(PartLabel.DOOR) if n.id in view.given - held] if len(view.supports) else []
+    return {door.id: np.einsum("k,kbs->b", *_hinges(door, _carriers(door, view), view)) for door in doors}
+
+
 def _carriers(door: PartNode, view: GraphView) -> Indices:
     """Returns the slots of what may carry a door: supports within reach, and doors that it likely hangs on."""
     return np.concatenate([view.within_reach(door, view.supports), view.hinged_doors(door)])
@@ -149,26 +156,20 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene, agreed: Scal
     mounts, motions = _hinges(door, slots, view)
     motion = np.einsum("k,kbs->bs", mounts, motions)
     leaned = leaned_motion(door, motion, view.config.outward, scene)
-    border = chosen_of(BORDERS, _stated(motion.sum(axis=1), door, view), leaned.sum(axis=1) * agreed)
-    flap = _plain_flap(door, border.choice, scene)
-    border = flap or border
+    weights = leaned.sum(axis=1) * agreed
+    own = chosen_of(BORDERS, motion.sum(axis=1), weights)
+    flap = _plain_flap(door, own.choice, scene)
+    border = flap or chosen_of(BORDERS, view.borders.get(door.id, motion.sum(axis=1)), weights)
     sign = chosen_of(SIGNS, motion[border.choice], leaned[border.choice])
     on = None if flap is None else _flap_mount(door, flap.choice, view, scene)
     mount = on or ranking_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
     edge = Hinge(mount.choice, door.id, border.choice, sign.choice)
     decisions = (
-        decision_of(door.id, "border", border, _by(border) if flap is None else BY_RULE),
+        decision_of(door.id, "border", border, _by(own) if flap is None else BY_RULE),
         decision_of(door.id, "sign", sign, _by(sign)),
         decision_of(door.id, "mount", mount, "" if on is None else BY_RULE),
     )
     return (edge,), decisions
-
-
-def _stated(borders: Scalars, door: PartNode, view: GraphView) -> Scalars:
-    """Returns what is stated of the network's borders: of a door on which the input shows no handle it is too sure."""
-    if any(edge.parent == door.id and edge.child in view.given for edge in view.graph.attachments):
-        return borders
-    return np.asarray(borders ** (1.0 / view.config.handleless))
 
 
 def _choose_slide(door: PartNode, slots: Indices, slid: Scalars, view: GraphView) -> MotionAnswer:

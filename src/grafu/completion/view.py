@@ -1,5 +1,7 @@
 """A graph beside its probabilities, and what selecting among parts asks repeatedly."""
 
+from collections.abc import Mapping
+from dataclasses import field
 from functools import cached_property
 from typing import final
 
@@ -22,6 +24,9 @@ class GraphView:
 
     Only the nodes of `given` may carry a mechanism: they are there, while what was added may still be left out. Doors
     that are known to be `still` carry none either: nothing carries them.
+
+    `borders` holds what is stated of the four borders of doors where that is not what the probabilities state: of a
+    door to which a handle was added, these repeat where the network itself put the handle.
     """
 
     graph: FunctionalGraph
@@ -29,6 +34,7 @@ class GraphView:
     given: frozenset[str]
     config: DecodeConfig
     still: frozenset[str] = frozenset()
+    borders: Mapping[str, Scalars] = field(default_factory=dict)
 
     @cached_property
     def place(self) -> dict[str, int]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from grafu.asset.part import Asset
 from grafu.completion.controls import without_controls
+from grafu.completion.copied_bars import with_copied_bars
 from grafu.completion.drawers_above_doors import with_drawers_above_doors
 from grafu.completion.dropping_doors import with_dropping_doors
 from grafu.completion.fixed_shelves import with_fixed_shelves
@@ -49,7 +50,8 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
 
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
     left or right side (`with_round_doors`), and so do high ones (`with_tall_doors`); those of ovens hang on their
-    lower border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`). What is
+    lower border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`), or,
+    with copied level bars, on the lower or upper border (`with_copied_bars`). What is
     only guessed to be a door, and is too thick, is a drawer (`with_thick_doors`), and so is what is low and wide
     above a door, or of the size of the drawer right above or below it (`with_drawers_above_doors`); what is only
     guessed to be a drawer, and can be none, is a door (`with_lone_fronts`), as below a panel with knobs
@@ -85,4 +87,4 @@ def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
 def _shaped(completion: GraphCompletion, asset: Asset) -> GraphCompletion:
     """Returns the completion in which shape decides where drawers and lids open to, and on which side doors hang."""
     turned = with_tall_doors(with_round_doors(with_ways_out(completion, asset), asset), asset)
-    return with_handle_sides(with_dropping_doors(turned, asset), asset)
+    return with_copied_bars(with_handle_sides(with_dropping_doors(turned, asset), asset), asset)
