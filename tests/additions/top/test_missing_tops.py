@@ -125,6 +125,27 @@ def test_a_basin_without_a_worktop_gets_one_with_its_cut_out() -> None:
     assert mesh.box.size[0] >= W
 
 
+def drained(bowl: float) -> Part:
+    """A sink that fills a worktop's hole; its bowl takes this fraction of the width, a drainer the rest."""
+    x, y, t, low, rim = 0.45 * W, 0.45 * D, 0.003, H - 0.12, H + 0.035
+    end = -x + bowl * 2 * x
+    return merged(
+        "inox",
+        ((-x, -y, low), (end, y, low + t)),
+        ((-x, -y, low), (-x + t, y, rim)),
+        ((end - t, -y, low), (end, y, rim)),
+        ((-x, -y, low), (end, -y + t, rim)),
+        ((-x, y - t, low), (end, y, rim)),
+        ((end, -y, rim - t), (x, y, rim)),
+    )
+
+
+@pytest.mark.parametrize("bowl", [0.5, 0.35])
+def test_a_sink_whose_drainer_takes_most_of_it_is_not_closed_by_a_predicted_top(bowl: float) -> None:
+    hint = Box(vec3(-W / 2, -D / 2, H + 0.01), vec3(W / 2, D / 2, H + 0.04))
+    assert missing_top([*carcass(), holed_top(0.88), drained(bowl), front()], [swing()], hint=hint).covered
+
+
 def test_racks_of_shelves_need_no_top_on_their_posts() -> None:
     posts = [
         board(f"post_{x}_{y}", (x - 0.015, y - 0.015, 0.0), (x + 0.015, y + 0.015, 1.8))
