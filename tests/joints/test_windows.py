@@ -154,3 +154,27 @@ def test_a_low_leaf_above_a_higher_one_of_its_width_hangs_from_its_upper_edge(he
     axes = {joint.child: joint.axis for joint in over_one_another(height, shift).object.joints}
     assert (abs(float(axes["high"].direction[0])) > 0.9) is hangs
     assert abs(float(axes["low"].direction[2])) > 0.9
+
+
+def three_leaves(called: bool, sill: float):
+    """A frame with three glazed leaves; the middle one and its pane are one object, which is a door by its name."""
+    low, high = 0.02 + sill, 1.94
+    frame = ring("frame", (-0.92, -0.05, 0.0), (0.92, 0.05, 2.0), max(sill, 0.05))
+    spans = {"west": (-0.86, -0.31), "middle": (-0.30, 0.30), "east": (0.31, 0.86)}
+    rings = {name: ring(name, (x0, -0.03, low), (x1, 0.0, high), 0.05) for name, (x0, x1) in spans.items()}
+    panes = {
+        n: box(f"pane_{n}", (x0 + 0.04, -0.02, low + 0.04), (x1 - 0.04, -0.01, 1.9)) for n, (x0, x1) in spans.items()
+    }
+    pull = box("pull", (-0.27, -0.06, 0.9), (-0.25, -0.03, 1.05))
+    if called:
+        whole = (*rings["middle"].surfaces, *panes.pop("middle").surfaces)
+        rings["middle"] = replace(rings["middle"], surfaces=whole, label=PartLabel.DOOR, labelled_by="name")
+    return scene(frame, *rings.values(), *panes.values(), pull)
+
+
+@pytest.mark.parametrize("sill", [0.05, 0.0], ids=["window", "door of a building"])
+@pytest.mark.parametrize(("called", "turning"), [(True, {"middle"}), (False, {"west", "middle", "east"})])
+def test_where_a_leaf_is_called_a_door_it_turns_and_the_others_stay(sill, called, turning):
+    made = built(three_leaves(called, sill))
+    assert {joint.child for joint in made.object.joints} == turning
+    assert all(joint.kind.turns and joint.limits.upper > 1.0 for joint in made.object.joints)

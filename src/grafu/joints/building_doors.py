@@ -111,7 +111,7 @@ def with_door_labels(asset: Asset, config: BuildingDoorConfig = BuildingDoorConf
     if found is None:
         return asset
     labels = dict.fromkeys((frame.id for frame in (found.frame, *found.inner_frames)), PartLabel.FACE_FRAME)
-    labels |= dict.fromkeys((leaf.id for leaf in found.leaves), PartLabel.DOOR)
+    labels |= {leaf.id: PartLabel.FACE_FRAME if found.is_fixed(leaf) else PartLabel.DOOR for leaf in found.leaves}
     return relabelled(asset, labels)
 
 
@@ -120,15 +120,16 @@ def with_building_doors(
 ) -> RealizationPlan:
     """Returns the plan in which the leaves of a door in its frame turn; the plan itself for any other piece.
 
-    A leaf that the plan slides keeps its motion. What is on a leaf goes with it.
+    A leaf that the plan slides keeps its motion. What is on a leaf goes with it. Where some leaves are called doors,
+    the others stay.
     """
     found = building_door(asset, config)
     if found is None:
         return plan
     sliding = {r.moving: r for r in plan.joints if r.kind.slides}
 
-    def request(leaf: Part, on_it: Sequence[Part]) -> JointRequest:
-        return sliding.get(leaf.id) or _request(leaf, on_it, found, asset, config)
+    def request(leaf: Part, on_it: Sequence[Part]) -> JointRequest | None:
+        return None if found.is_fixed(leaf) else sliding.get(leaf.id) or _request(leaf, on_it, found, asset, config)
 
     return found.with_joints(plan, asset, request)
 

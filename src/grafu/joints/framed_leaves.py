@@ -34,6 +34,10 @@ class FramedLeaves:
     on_leaf: tuple[tuple[Part, ...], ...]
     inner_frames: tuple[Part, ...] = ()
 
+    def is_fixed(self, leaf: Part) -> bool:
+        """Whether a leaf is fixed in the frame: others are called doors, and it is not."""
+        return not is_called_door(leaf) and any(is_called_door(other) for other in self.leaves)
+
     def with_joints(self, plan: RealizationPlan, asset: Asset, request: LeafRequest) -> RealizationPlan:
         """Returns the plan whose joints are those of the leaves alone.
 
@@ -44,6 +48,11 @@ class FramedLeaves:
         parts = {part.id for part in asset.parts}
         across = tuple(Refusal(a.id, Reason.NO_MOTION, _ACROSS) for a in self.leaves if a.box.thin_axis != _DEPTH)
         return replace(plan, joints=joints, refused=(*(r for r in plan.refused if r.part not in parts), *across))
+
+
+def is_called_door(part: Part) -> bool:
+    """Whether a part is a door by its name, or by the user."""
+    return part.label is PartLabel.DOOR and part.labelled_by in ("name", "user")
 
 
 def relabelled(asset: Asset, labels: Mapping[str, PartLabel]) -> Asset:

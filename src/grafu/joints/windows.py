@@ -1,7 +1,8 @@
 """Windows: leaves of a frame and panes in a frame that is closed all around. They are found by shape alone.
 
 A leaf is a frame of its own with panes in it; pictures and mirrors have none. It turns about the edge away from its
-handle. Leaves that lap in two planes slide.
+handle. Leaves that lap in two planes slide. What is called a door within the frame is a leaf, glazed in one object or
+not, and where some are called so the others stay.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,7 +15,14 @@ from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster, covered_ratio
 from grafu.graph.edges import Slide
 from grafu.joints.building_doors import building_door
-from grafu.joints.framed_leaves import SOURCE, FramedLeaves, nearer_to_back, relabelled, turning_leaf
+from grafu.joints.framed_leaves import (
+    SOURCE,
+    FramedLeaves,
+    is_called_door,
+    nearer_to_back,
+    relabelled,
+    turning_leaf,
+)
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.window_config import WindowConfig
@@ -53,7 +61,7 @@ def with_window_labels(asset: Asset, config: WindowConfig = WindowConfig()) -> A
     if found is None:
         return asset
     panes = {part.id for parts in found.on_leaf for part in parts if part.label.is_movable}
-    stay = {leaf.id for leaf in found.leaves if _stays(leaf, found.leaves, config)}
+    stay = {leaf.id for leaf in found.leaves if _stays(leaf, found.leaves, config) or found.is_fixed(leaf)}
     labels = {leaf.id: PartLabel.FACE_FRAME if leaf.id in stay else PartLabel.DOOR for leaf in found.leaves}
     labels[found.frame.id] = PartLabel.FACE_FRAME
     labels |= dict.fromkeys(panes, PartLabel.MISC)
@@ -95,7 +103,8 @@ def _leaves(frame: Part, others: Sequence[Part], config: WindowConfig) -> Iterat
             continue
         room = config.within * size
         inside = (part.box.low >= frame.box.low - room)[_PLANE] & (part.box.high <= frame.box.high + room)[_PLANE]
-        if inside.all() and _is_ring(part, config) and _covered(rays, part.box, frame.box) <= config.hidden:
+        is_leaf = inside.all() and (is_called_door(part) or _is_ring(part, config))
+        if is_leaf and _covered(rays, part.box, frame.box) <= config.hidden:
             found.append(part)
     yield from found
 
@@ -131,10 +140,11 @@ def _hit(rays: RayCaster, points: Float[np.ndarray, "n 3"], whole: Box) -> float
 
 
 def _has_panes(leaf: Part, on_it: Sequence[Part], config: WindowConfig) -> bool:
-    """Whether what is on a leaf closes its middle."""
-    if not on_it:
+    """Whether what is on a leaf, or a leaf that is called a door itself, closes its middle."""
+    closing = [*on_it, leaf] if is_called_door(leaf) else on_it
+    if not closing:
         return False
-    rays = RayCaster(merge_meshes([part.mesh for part in on_it]))
+    rays = RayCaster(merge_meshes([part.mesh for part in closing]))
     return _covered(rays, _middle(leaf.box, config), leaf.box) >= config.pane
 
 
@@ -155,7 +165,9 @@ def _lies_before(part: Part, leaf: Part, config: WindowConfig) -> bool:
 def _request(
     leaf: Part, on_it: Sequence[Part], found: FramedLeaves, asset: Asset, config: WindowConfig
 ) -> JointRequest | None:
-    """Returns the joint of a leaf; None for one that stays where it is as another slides past it."""
+    """Returns the joint of a leaf; None for one that stays where it is."""
+    if found.is_fixed(leaf):
+        return None
     attached = tuple(part.id for part in on_it)
     past = _past(leaf, found.leaves, config)
     if past is not None:
@@ -175,7 +187,7 @@ def _past(leaf: Part, leaves: Sequence[Part], config: WindowConfig) -> Part | No
 
 
 def _stays(leaf: Part, leaves: Sequence[Part], config: WindowConfig) -> bool:
-    """Whether a leaf stays where it is: the upper sash, which the lower one slides past."""
+    """Whether a leaf stays where it is as another slides past it: the upper sash, which the lower one passes."""
     past = _past(leaf, leaves, config)
     return past is not None and _sliding_side(leaf, past) is Side.BOTTOM
 

@@ -107,7 +107,7 @@ class EvidenceConfig:
     basin_full: float = 0.7
     """Fraction of its own box that a basin covers at least."""
     basin_hollow: float = 0.25
-    """Fraction of a basin that lies as deep as a shallow basin at least: a drainer beside two bowls takes much of it."""
+    """Fraction of a basin that lies as deep as a shallow basin at least: a drainer takes much of it."""
     flange: float = 0.015
     """Distance below a basin's rim at which it is as wide as its cut-out, metres."""
     inset: float = 0.2
