@@ -104,6 +104,30 @@ def test_sweet_home_names_give_joints(tmp_path):
     assert any("kept in place" in note for note in asset.notes)
 
 
+@pytest.mark.parametrize(
+    ("name", "material", "label"),
+    [
+        ("lamp_Cylinder.011_metal_handle", "metal_handle", PartLabel.MISC),
+        ("lamp_Cylinder.011_metal_handle", "chrome", PartLabel.HANDLE),
+        ("Cylinder.011_metal_handle", "metal_handle", PartLabel.HANDLE),
+        ("knob_Sphere_dark_door.jpg", "dark_door.jpg", PartLabel.HANDLE),
+        ("handle", "handle", PartLabel.HANDLE),
+    ],
+)
+def test_a_material_behind_the_name_of_a_group_tells_nothing_where_it_has_words_of_its_own(
+    tmp_path, name, material, label
+):
+    path = write_grouped_obj(tmp_path / "c.obj", names={"handle-8": name})
+    materials = {name: material}
+    lines = (
+        line + f"\nusemtl {materials.get(line[2:], 'plain')}" if line.startswith("g ") else line
+        for line in path.read_text().splitlines()
+    )
+    path.write_text("\n".join(lines) + "\n")
+    (part,) = (part for part in load_asset(path, LoadOptions(parts="input")).parts if part.source.name == name)
+    assert part.label is label
+
+
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 

@@ -17,7 +17,7 @@ from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
-from grafu.refusal import Reason
+from grafu.refusal import Reason, Refusal
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 from small_scenes import box, drawer
@@ -120,9 +120,26 @@ def test_what_hardly_touches_anything_moves(ratio):
 
 def test_what_the_user_states_is_no_guess():
     completion, done = one_guess()
-    assert not tuple(colliding_guesses(completion, [done], {"drawer"}))
+    assert not tuple(colliding_guesses(completion, [done], settled={"drawer"}))
 
 
 def test_nor_is_what_the_input_calls_a_drawer():
     completion, done = one_guess()
     assert not tuple(colliding_guesses(replace(completion, decisions=()), [done]))
+
+
+@pytest.mark.parametrize(
+    ("reason", "handle", "is_doubted"),
+    [
+        (Reason.BLOCKED, PartLabel.UNKNOWN, True),
+        (Reason.NO_FACING_SURFACES, PartLabel.UNKNOWN, True),
+        (Reason.NO_ROOM, PartLabel.UNKNOWN, False),
+        (Reason.BLOCKED, PartLabel.HANDLE, False),
+    ],
+)
+def test_a_guess_that_nothing_lets_move_is_doubted(reason, handle, is_doubted):
+    completion, _ = one_guess(handle)
+    found = tuple(colliding_guesses(completion, (), [Refusal("drawer", reason, "nothing lets it")]))
+    assert bool(found) is is_doubted
+    assert all(r.reason is Reason.UNLIKELY and r.why.endswith(", but nothing lets it") for r in found)
+    assert not tuple(colliding_guesses(completion, (), [Refusal("drawer", reason, "nothing lets it")], {"drawer"}))

@@ -67,7 +67,8 @@ def read_sweethome(path: Path, found: MeshFile) -> Reading:
 
 def _draft(piece: MeshPiece, file: str) -> PartDraft:
     match = _MOVING.match(piece.name)
-    spoken = piece.name[match.end() :] or "opening" if match else ""
+    own = piece.label_name or piece.name
+    spoken = own[match.end() :] or "opening" if match else piece.label_name
     return PartDraft(piece.name, piece.surfaces, label_name=spoken, file=file)
 
 
@@ -152,7 +153,10 @@ def read_mesh(path: Path, options: LoadOptions, files: ModelFiles | None = None)
     check_parts(len(filled), path, options.limits)
     if len(filled) == 1 and options.parts == "input":
         raise UnsegmentedAsset(_one_piece(path, found))
-    drafts = [PartDraft(piece.name or path.stem, piece.surfaces, file=path.name) for piece in filled]
+    drafts = [
+        PartDraft(piece.name or path.stem, piece.surfaces, label_name=piece.label_name, file=path.name)
+        for piece in filled
+    ]
     return Reading("mesh file", parts_of_drafts(drafts), _convention([path]), notes=found.notes)
 
 

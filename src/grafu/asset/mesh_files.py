@@ -4,11 +4,12 @@ Of an MTL the library and its images are read, and nothing else.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
+from grafu.asset.names import spoken
 from grafu.asset.obj_parser import ObjData, parse_obj, triangulate
 from grafu.asset.reading import MeshFile, MeshPiece
 from grafu.asset.resources import ModelFiles
@@ -154,7 +155,17 @@ def _piece(name: str, obj: ObjData, runs: dict[str, list[np.ndarray]], materials
     for material, chunks in runs.items():
         surface = _obj_surface(obj, np.concatenate(chunks), materials.get(material, _DEFAULT))
         surfaces.append(surface)
-    return MeshPiece(name, tuple(s for s in surfaces if not s.is_empty))
+    return MeshPiece(name, tuple(s for s in surfaces if not s.is_empty), _without_material(name, tuple(runs)))
+
+
+def _without_material(name: str, materials: Sequence[str]) -> str:
+    """Returns the name of a group without its material, which exporters write behind it; empty where it has none.
+
+    A name that then holds no word of its own, such as `Cube.012`, keeps the material: that may tell more.
+    """
+    material = f"_{materials[0]}" if len(materials) == 1 and materials[0] else ""
+    own = name.removesuffix(material)
+    return own if material and own != name and spoken(own) else ""
 
 
 def _obj_surface(obj: ObjData, triangles: np.ndarray, material: Material) -> Surface:

@@ -20,10 +20,14 @@ from grafu.geometry.mesh import TriangleMesh
 @final
 @dataclass(frozen=True)
 class MeshPiece:
-    """A named piece of a mesh file; the name is empty where the file gives none."""
+    """A named piece of a mesh file; the name is empty where the file gives none.
+
+    `label_name` is the name that its label is read from, where it is not its own.
+    """
 
     name: str
     surfaces: tuple[Surface, ...]
+    label_name: str = ""
 
 
 @final

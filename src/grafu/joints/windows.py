@@ -93,7 +93,7 @@ def _leaves(frame: Part, others: Sequence[Part], config: WindowConfig) -> Iterat
     """Yields the upright frames with an open middle within a frame, without those that lie within another."""
     rays, found = RayCaster(frame.mesh), list[Part]()
     least = config.leaf * float(np.prod(frame.box.size[_PLANE]))
-    for part in sorted(others, key=lambda part: -float(np.prod(part.box.size[_PLANE]))):
+    for part in sorted(others, key=lambda part: (not is_called_door(part), -float(np.prod(part.box.size[_PLANE])))):
         size, area = part.box.size, float(np.prod(part.box.size[_PLANE]))
         if (
             area < least

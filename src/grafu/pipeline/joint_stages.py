@@ -84,11 +84,12 @@ class JointStages:
         return best._replace(realized=replace(best.realized, report=report))
 
     def _without_colliding(self, made: BuiltJoints) -> BuiltJoints:
-        """Returns the joints in which what was only guessed to move stays where it cuts into other parts."""
+        """Returns the joints in which what was only guessed to move stays where it cannot, or cuts into other parts."""
         if self.method.reads_annotation or self.stages.gave_up("realize"):
             return made
         settled = {*self.motions, *(name for fold in self.folds for name in fold.leaves)}
-        doubtful = tuple(colliding_guesses(made.completion, made.realized.report.installed, settled))
+        report = made.realized.report
+        doubtful = tuple(colliding_guesses(made.completion, report.installed, report.skipped, settled))
         return self.built(with_static(made.completion, doubtful)) if doubtful else made
 
     def built(self, completion: GraphCompletion) -> BuiltJoints:
