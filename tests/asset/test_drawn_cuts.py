@@ -16,12 +16,15 @@ def part(name: str, mesh: TriangleMesh, label: PartLabel = PartLabel.UNKNOWN) ->
     return Part(name, label, (Surface(mesh),), PartSource(name), "none" if label is PartLabel.UNKNOWN else "name")
 
 
-def units(count: int = 4) -> TriangleMesh:
-    """A row of units, 2.4 long, of which each has two drawers drawn on it."""
+def units(bare: int = 8) -> TriangleMesh:
+    """A row of four units, 2.4 long, of which each has two drawers drawn on it; all but `bare` of these have a pull."""
     body = solid((0.0, 0.0, 0.0), (2.4, 0.6, 0.88))
-    for k in range(count):
-        for low, high in ((0.1, 0.5), (0.52, 0.86)):
-            body += solid((0.6 * k + 0.01, -0.02, low), (0.6 * k + 0.59, 0.1, high))
+    places = [(0.6 * k, z) for k in range(4) for z in ((0.1, 0.5), (0.52, 0.86))]
+    for x, (low, high) in places:
+        body += solid((x + 0.01, -0.02, low), (x + 0.59, 0.1, high))
+    for x, (low, high) in places[bare:]:
+        z = (low + high) / 2
+        body += solid((x + 0.24, -0.05, z - 0.01), (x + 0.36, -0.01, z + 0.01))
     return as_mesh(body)
 
 
@@ -52,6 +55,14 @@ def test_where_no_object_has_most_of_the_surface_none_is_looked_at():
     shelves = [board(f"shelf_{k}", (0.0, 1.0, 0.4 * k), (2.4, 1.6, 0.4 * k + 0.3)) for k in range(4)]
     found = cut(part("row", units()), *FITTINGS[:1], *shelves)
     assert not any("front" in one.id for one in found)
+
+
+@pytest.mark.parametrize(("bare", "fronts"), [(0, 8), (8, 0)])
+def test_beside_a_drawer_by_name_drawn_fronts_count_where_each_holds_a_handle(bare, fronts):
+    drawer = board("drawer_1", (2.4, -0.02, 0.1), (2.8, 0.6, 0.5), PartLabel.DRAWER)
+    found = cut(part("row", units(bare)), drawer)
+    assert sum(one.id.startswith("row_front") for one in found) == fronts
+    assert next(one for one in found if one.id == "drawer_1").label is PartLabel.DRAWER
 
 
 def handled(x: float) -> TriangleMesh:

@@ -88,8 +88,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     loose = [part.label in _LYING and part.carried_by is None for part in reading.parts]
     shells = MeshShells.of(meshes)
     cuts = divided(meshes, open_to, whole, materials, loose, shells=shells)
-    if not any(whole):
-        cuts = with_drawn_fronts(cuts, reading.parts, meshes, open_to, materials, shells=shells)
+    cuts = with_drawn_fronts(cuts, reading.parts, meshes, open_to, materials, shells=shells)
     cuts |= handles_on_plates(cuts, meshes, open_to, materials, shells=shells)
     if is_chest(name) and not any(whole) and _may_have_lid(meshes, cuts, config):
         cuts = lid_of_chest(meshes, open_to) or cuts  # its front wall is a plate, too

@@ -58,9 +58,12 @@ def with_drawn_fronts(
 ) -> Cuts:
     """Returns the cuts with those where fronts are drawn, if these are several more; by islands of UVs where no others.
 
+    Where some objects are doors or drawers by name, other fronts of an object count only if each holds a handle: a
+    maker who made one drawer an object may have drawn the others on the case.
+
     Args:
         cuts: what is known.
-        parts: the objects, none of which is a door or drawer by its name.
+        parts: the objects.
         meshes: the same, upright.
         open_to: which of them may be cut.
         materials: the number of the surface of each face.
@@ -69,11 +72,22 @@ def with_drawn_fronts(
     """
     if count_fronts(cuts) > 1 or not _is_nearly_one(meshes, config):
         return cuts
+    named = [part.label.is_movable for part in parts]
+    if any(named):
+        others = [may and not is_named for may, is_named in zip(open_to, named, strict=True)]
+        drawn = drawn_fronts(meshes, others, materials, shells=shells)
+        return cuts | {k: pieces for k, pieces in drawn.items() if _are_held(pieces)}
     drawn = drawn_fronts(meshes, open_to, materials, shells=shells)
     found = {**cuts, **drawn} if not cuts or count_fronts(drawn) > count_fronts(cuts) + 1 else cuts
     if not found and any(surface.uv is not None for part in parts for surface in part.surfaces):
         return drawn_fronts(meshes, open_to, [_islands(part) for part in parts], shells=shells)
     return found
+
+
+def _are_held(pieces: Sequence[FacePiece]) -> bool:
+    """Whether several fronts are cut from an object, and as many handles at least."""
+    fronts, handles = (sum(piece.role == role for piece in pieces) for role in ("front", "handle"))
+    return 1 < fronts <= handles
 
 
 def handles_on_plates(
