@@ -251,3 +251,17 @@ def test_a_face_frame_that_is_open_or_holds_inset_doors_of_another_object_is_no_
     doors = [board(x + 0.06, -0.019, 0.06, x + 0.38, 0.0, 1.34) for x in DOORS_AT] if filled != "open" else []
     found = fronts(merge_meshes(frame), merge_meshes(CUPBOARD), *doors)
     assert found.get(0, []) == []
+
+
+def table(depth):
+    """A table of one object, 0.8 x 0.8 x 1 m, with beams below its top; that in front is so deep, metres."""
+    legs = [board(x, y, 0.0, x + 0.06, y + 0.06, 0.96) for x, y in product((-0.4, 0.34), (0.0, 0.74))]
+    sides = [board(x, 0.06, 0.89, x + 0.06, 0.74, 0.95) for x in (-0.4, 0.34)]
+    beam, top = board(-0.335, 0.003, 0.89, 0.335, 0.003 + depth, 0.95), board(-0.4, 0.0, 0.96, 0.4, 0.8, 1.0)
+    back = board(-0.335, 0.74, 0.89, 0.335, 0.8, 0.95)
+    return merge_meshes([*legs, *sides, back, top, beam])
+
+
+@pytest.mark.parametrize(("depth", "count"), [(0.06, 0), (0.3, 1)], ids=["beam", "drawer"])
+def test_a_beam_as_deep_as_high_between_legs_is_no_drawer(depth, count):
+    assert len(fronts(table(depth)).get(0, [])) == count

@@ -50,6 +50,7 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
     plate = (thick <= config.plate * shorter) & (cover >= config.ring)
     body = (thick > config.plate * shorter) & (cover >= config.solid)
     body &= area <= config.body * scale.outline
+    beam = body & (longer >= config.beam * shorter) & (size[:, 2] <= config.square * shorter)
     found = np.flatnonzero(open_to & large & (plate | body))
     found = found[np.argsort(-area[found], kind="stable")]
     kept = [
@@ -59,6 +60,7 @@ def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig)
             (body[k] and has_handle(view, k, config.near * float(scale.extent[k]), config))
             or (
                 has_room(view, k, config.room * float(shorter[k]), config)
+                and not beam[k]
                 and (
                     plate[k]
                     or is_flanked(view, k, scale, config)

@@ -49,6 +49,10 @@ class CandidateConfig:
     """What the faces of a drawer drawn as one body cover (of its outline) ..."""
     body: float = 0.6
     """... and how large it is at most (of its object's outline)."""
+    beam: float = 5.0
+    """What is so many times as long as high (ratio) ..."""
+    square: float = 1.25
+    """... and no deeper than so (of its height) is a beam and no such body, unless a handle sits on it: an apron."""
     handle: float = 0.1
     """A handle that tells that such a body is a drawer, whatever stands around it (of its outline)."""
     hidden: float = 0.3
