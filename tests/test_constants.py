@@ -44,6 +44,7 @@ from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.shown_lids import ShownLidConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
 from grafu.asset.standing_out import StandingOutConfig
+from grafu.completion.alike import AlikeConfig
 from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.copied_bars import CopiedBarsConfig
@@ -243,7 +244,7 @@ CONFIGS = (
     BodyKindConfig, BoxInCaseConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
-    CopiedBarsConfig, CoverageTestConfig, DrawnGripConfig,
+    AlikeConfig, CopiedBarsConfig, CoverageTestConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig, FixedShelfConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,

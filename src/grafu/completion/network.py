@@ -4,9 +4,10 @@ Labels come first, because edges are more accurate when labels are given. Free s
 that they added as nodes of the input, until none fires: the number of handles has no limit. The last result is the mean
 of two forward passes, on the graph and on its mirror image: their errors differ.
 
-Labels of unlabelled parts: the network's category, weighed by whether anything could carry such a part, and by whether
-it is one of a row of fronts, which agree, or of a column of wide ones, which are rather drawers. A panel on which a
-smaller front with a handle lies is no front, nor is a rod or a button; what touches handles alone is a piece of one.
+Labels of unlabelled parts: the network's category, which equal boards beside one another have the mean of, weighed by
+whether anything could carry such a part, and by whether it is one of a row of fronts, which agree, or of a column of
+wide ones, which are rather drawers. A panel on which a smaller front with a handle lies is no front, nor is a rod or a
+button; what touches handles alone is a piece of one.
 
 Labels that the input states are kept, whatever the network states, but for fronts that are called something else
 (`misnamed_fronts`).
@@ -16,6 +17,7 @@ from collections.abc import Collection
 
 import numpy as np
 
+from grafu.completion.alike import with_alike
 from grafu.completion.answers import decision_of
 from grafu.completion.decode import complete_decoded, decode_graph
 from grafu.completion.decode_config import DecodeConfig
@@ -52,7 +54,8 @@ def choose_labels(
     """
     labels: dict[str, PartLabel] = {}
     decisions = []
-    weights = without_slim(_weights(probabilities, len(graph.nodes), config), graph, config)
+    weights = with_alike(_weights(probabilities, len(graph.nodes), config), graph)
+    weights = without_slim(weights, graph, config)
     weights = with_held(without_cases(without_overlaid(weights, graph, config), graph, config), graph, config)
     weights = _with_columns(weights, graph, config)
     for k, node in enumerate(graph.nodes):
