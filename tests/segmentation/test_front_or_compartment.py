@@ -265,3 +265,14 @@ def table(depth):
 @pytest.mark.parametrize(("depth", "count"), [(0.06, 0), (0.3, 1)], ids=["beam", "drawer"])
 def test_a_beam_as_deep_as_high_between_legs_is_no_drawer(depth, count):
     assert len(fronts(table(depth)).get(0, [])) == count
+
+
+@pytest.mark.parametrize(("height", "knobs", "count"), [(0.06, 0, 0), (0.06, 1, 1), (0.2, 0, 1)])
+def test_a_low_board_at_the_floor_below_a_door_is_a_plinth_unless_a_knob_is_on_it(height, knobs, count):
+    sides = [board(x, 0.0, 0.0, x + 0.016, 0.5, 0.8) for x in (0.0, 0.484)]
+    shelves = [board(0.0, 0.0, z, 0.5, 0.5, z + 0.016) for z in (0.784, height + 0.002)]
+    plinth = board(0.016, 0.001, 0.0, 0.484, 0.017, height)
+    knob = board(0.24, -0.02, height / 2 - 0.01, 0.26, 0.002, height / 2 + 0.01)
+    case = merge_meshes([*sides, *shelves, board(0.0, 0.48, 0.0, 0.5, 0.5, 0.8), plinth, *[knob] * knobs])
+    door = board(0.002, -0.02, height + 0.004, 0.498, -0.002, 0.796)
+    assert len(fronts(case, door, open_to=[True, False]).get(0, [])) == count

@@ -251,6 +251,11 @@ class DivisionConfig:
     """... which ends, and lies, as one of them does (of its object's largest side) ..."""
     slender: float = 8.0
     """... and is at most so many times as long as wide: plinths and cornices are longer."""
+    plinth: float = 0.1
+    """How high the only front of an object is at most, without a handle and at the floor, to be its plinth (of the
+    object's height) ..."""
+    floor: float = 0.02
+    """... and how far it ends above the lowest point of all (of the object's height)."""
     single: float = 0.8
     """What an object's one front covers (of the object's outline)."""
     knobs: int = 4

@@ -86,6 +86,8 @@ def hides(
         several = len(major) > 1 and filled >= config.division.filled
         several |= is_whole and len(fronts) > 1 and _is_nothing_else(view, np.flatnonzero(own), fronts)
         return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major, config.division))
+    if len(fronts) == 1 and not own.all() and _is_plinth(view, fronts[0], float(size[1]), config.division):
+        return False
     rest = own.copy()
     rest[[shell for front in fronts for shell in front.all_shells]] = False
     if len(major) > 1 or not rest.any():
@@ -98,6 +100,13 @@ def _is_nothing_else(view: ShellsView, own: Indices, fronts: tuple[FrontShells, 
     plates = [front.shells[0] for front in fronts]
     in_one_plane = view.low[plates, 2].max() < view.high[plates, 2].min()
     return bool(in_one_plane) and {k for front in fronts for k in front.all_shells} >= set(own.tolist())
+
+
+def _is_plinth(view: ShellsView, front: FrontShells, height: float, config: DivisionConfig) -> bool:
+    """Whether a front without a handle is a low board at the floor; `height` is that of its object."""
+    low, high = (ends[[*front.shells], 1] for ends in (view.low, view.high))
+    at_floor = float(low.min() - view.low[:, 1].min()) <= config.floor * height
+    return not front.is_held and at_floor and float(high.max() - low.min()) <= config.plinth * height
 
 
 def _major(view: ShellsView, fronts: tuple[FrontShells, ...], alike: float) -> tuple[FrontShells, ...]:
