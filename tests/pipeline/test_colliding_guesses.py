@@ -12,7 +12,7 @@ from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.parse import parse_graph
 from grafu.joints.motion_choice import MotionChoice, Moves
 from grafu.joints.report import Installed
-from grafu.pipeline.colliding_guesses import colliding_guesses
+from grafu.pipeline.colliding_guesses import blocked_guesses, colliding_guesses
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
@@ -139,7 +139,7 @@ def test_nor_is_what_the_input_calls_a_drawer():
 )
 def test_a_guess_that_nothing_lets_move_is_doubted(reason, handle, is_doubted):
     completion, _ = one_guess(handle)
-    found = tuple(colliding_guesses(completion, (), [Refusal("drawer", reason, "nothing lets it")]))
+    found = tuple(blocked_guesses(completion, [Refusal("drawer", reason, "nothing lets it")]))
     assert bool(found) is is_doubted
     assert all(r.reason is Reason.UNLIKELY and r.why.endswith(", but nothing lets it") for r in found)
-    assert not tuple(colliding_guesses(completion, (), [Refusal("drawer", reason, "nothing lets it")], {"drawer"}))
+    assert not tuple(blocked_guesses(completion, [Refusal("drawer", reason, "nothing lets it")], {"drawer"}))

@@ -22,7 +22,7 @@ from grafu.joints.plan import RealizationPlan
 from grafu.joints.realize import Realized, realize
 from grafu.joints.waste_bins import with_stated_bins
 from grafu.pipeline.additions import add_before_joints, without_idle
-from grafu.pipeline.colliding_guesses import colliding_guesses
+from grafu.pipeline.colliding_guesses import blocked_guesses, colliding_guesses
 from grafu.pipeline.finishing import to_build
 from grafu.pipeline.mechanisms import with_mechanisms
 from grafu.pipeline.motion_methods import MotionMethod
@@ -32,6 +32,7 @@ from grafu.pipeline.second_choices import noted, second_choices
 from grafu.pipeline.shown_by_shape import shown_by_shape
 from grafu.pipeline.stages import Stages, nothing_before_joints, without_joints
 from grafu.processes.cache import Cache
+from grafu.refusal import Refusal
 from grafu.templates.template import Gallery
 
 
@@ -84,13 +85,22 @@ class JointStages:
         return best._replace(realized=replace(best.realized, report=report))
 
     def _without_colliding(self, made: BuiltJoints) -> BuiltJoints:
-        """Returns the joints in which what was only guessed to move stays where it cannot, or cuts into other parts."""
+        """Returns the joints in which what was only guessed to move stays where it cuts into other parts.
+
+        What no joint could be built for stays as well, and is stated as a guess.
+        """
         if self.method.reads_annotation or self.stages.gave_up("realize"):
             return made
         settled = {*self.motions, *(name for fold in self.folds for name in fold.leaves)}
+        doubtful = tuple(colliding_guesses(made.completion, made.realized.report.installed, settled))
+        made = self.built(with_static(made.completion, doubtful)) if doubtful else made
         report = made.realized.report
-        doubtful = tuple(colliding_guesses(made.completion, report.installed, report.skipped, settled))
-        return self.built(with_static(made.completion, doubtful)) if doubtful else made
+        blocked = {refusal.part: refusal for refusal in blocked_guesses(made.completion, report.skipped, settled)}
+        if not blocked:
+            return made
+        outcomes = (blocked.get(o.part, o) if isinstance(o, Refusal) else o for o in report.outcomes)
+        realized = replace(made.realized, report=replace(report, outcomes=tuple(outcomes)))
+        return made._replace(completion=with_static(made.completion, tuple(blocked.values())), realized=realized)
 
     def built(self, completion: GraphCompletion) -> BuiltJoints:
         """Returns the joints of a completion."""
