@@ -55,6 +55,7 @@ from grafu.completion.dropping_doors import DroppingDoorConfig
 from grafu.completion.fixed_shelves import FixedShelfConfig
 from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
+from grafu.completion.held_borders import HeldBorderConfig
 from grafu.completion.level_bars import LevelBarConfig
 from grafu.completion.lone_fronts import LoneFrontConfig
 from grafu.completion.oven_doors import OvenDoorConfig
@@ -64,8 +65,10 @@ from grafu.completion.tall_doors import TallDoorConfig
 from grafu.completion.thick_doors import ThickDoorConfig
 from grafu.completion.wall_panels import WallPanelConfig
 from grafu.completion.ways_out import WayOutConfig
+from grafu.completion.window_doors import WindowDoorConfig
 from grafu.dataset.config import DescriptorConfig
 from grafu.export.gltf_packing import DracoConfig
+from grafu.geometry.leaning import LeaningConfig
 from grafu.judging.coverage import CoverageTestConfig
 from grafu.judging.panels import RoomSearchConfig
 from grafu.pipeline.verdict import VerdictConfig
@@ -175,7 +178,7 @@ OF_MODULES = {
     "completion": {
         "doors.py": {},
         "drawers.py": {"_DIRECTIONS": NUMBERING},
-        "handles.py": {"_FLUSH": TOLERANCE},
+        "handles.py": {"_FLUSH": TOLERANCE, "_UP": NUMBERING},
         "rows.py": {},
         "selection.py": {"_LEAST": VOTES},
         "slots.py": {},
@@ -248,7 +251,9 @@ CONFIGS = (
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig, FixedShelfConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,
-    FramedDoorsConfig, HandleSideConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig, LeafPieceConfig,
+    LeaningConfig,
+    FramedDoorsConfig, HandleSideConfig, HeldBorderConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig,
+    LeafPieceConfig,
     BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
     LevelBarConfig, LoneFrontConfig, LyingHandleConfig, OvenDoorConfig,
     LooseConfig,
@@ -259,7 +264,7 @@ CONFIGS = (
     StandingConfig, StandingOutConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DrawerAboveConfig, DroppingDoorConfig, JoiningConfig,
     TallDoorConfig, ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
-    WallPanelConfig, WayOutConfig,
+    WallPanelConfig, WayOutConfig, WindowDoorConfig,
 )  # fmt: skip
 NUMBERS = [
     (kind, f.name)

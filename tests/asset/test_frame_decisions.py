@@ -335,3 +335,13 @@ def test_a_drawer_known_by_its_box_alone_does_not_turn_what_fronts_were_cut_out_
     parts = (case, drawer, *(replace(bar, labelled_by="none") for bar in bars))
     reading = Reading("mesh file", parts, Convention("OBJ", usual_up="+Z"), fronts_face="-Y")
     assert settle_frame(reading, LoadOptions(up="+Z")).front == front
+
+
+@pytest.mark.parametrize(("height", "front"), [(0.6, "-Y"), (0.2, "+Y")], ids=["a lid", "a leaf before a case"])
+def test_a_lid_that_leans_to_the_back_above_all_tells_no_front(height, front):
+    """A leaf that reaches as far to the back, but is beside the case, tells that it faces there."""
+    case = box("case", (-0.5, -0.3, 0.0), (0.5, 0.3, 0.6))
+    lid = replace(box("lid", (-0.5, 0.2, height), (0.5, 0.32, height + 0.35)), label=PartLabel.DOOR, labelled_by="name")
+    asset = Asset("chest", "", "made", (case, lid))
+    votes = front_votes(asset.parts, asset.box, "+Z")
+    assert decide_front(votes, "-Y", "-Y")[0] == front

@@ -1,12 +1,19 @@
 """A broad plate that alone closes a hollow body is a lid without a name; tops of tables and cabinets are none."""
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 import trimesh
 
 from grafu.asset.load import load_asset
 from grafu.asset.options import LoadOptions
+from grafu.asset.reading import Convention, Reading
+from grafu.asset.settling import settled
+from grafu.geometry.mesh import TriangleMesh
 from grafu.vocabulary import PartLabel
+from small_scenes import box
 
 AUTO = LoadOptions(up="+Z", front="-Y", scale=1.0)
 W, D, H = 0.8, 0.5, 0.45
@@ -141,3 +148,34 @@ def test_walls_stay_what_they_are_where_something_else_is_a_door(tmp_path):
     parts = read(tmp_path, lid=plate(), cabinet_door=door, **boards())
 
     assert {p.label for p in parts if p.source.name == "Cube_2"} == {PartLabel.UNKNOWN}
+
+
+@pytest.mark.parametrize(("labels", "label"), [("none", PartLabel.DOOR), ("input", PartLabel.UNKNOWN)])
+def test_of_what_its_maker_divided_labels_tell_unless_they_are_hidden(labels, label):
+    boxes = [box("a", (-0.01, -0.01, H), (W + 0.01, D + 0.01, H + 0.03))]
+    boxes += [box("b", (0.0, 0.0, 0.0), (W, D, H))]
+    shell = TriangleMesh(np.array(tub().vertices), np.array(tub().faces))
+    parts = (boxes[0], replace(boxes[1], surfaces=(replace(boxes[1].surfaces[0], mesh=shell),)))
+    reading = Reading("partnet-mobility", parts, Convention("made", up="+Z", front="-Y", unit=1.0))
+    made = settled(reading, "piece", Path("piece"), LoadOptions(labels=labels))
+
+    assert made.part("a").label is label
+
+
+def leaning(degrees, low):
+    """A lid turned about its lower edge at the back."""
+    mesh = plate()
+    turn = trimesh.transformations.rotation_matrix(-np.radians(degrees), [1, 0, 0], [0, D, low])
+    return mesh.apply_translation([0, 0, low - H]).apply_transform(turn)
+
+
+@pytest.mark.parametrize(("low", "count"), [(H, 1), (H + 0.1, 0)], ids=["on the body", "above it"])
+@pytest.mark.parametrize("degrees", [40, 75])
+def test_a_lid_that_is_drawn_open_is_one_where_it_would_close_the_body(tmp_path, degrees, low, count):
+    assert len(lids(tmp_path, a=leaning(degrees, low), b=tub())) == count
+
+
+def test_a_panel_before_the_wall_of_a_tub_is_of_it(tmp_path):
+    panel = solid((0.02, -0.008, 0.03), (W - 0.02, 0, H - 0.01))
+
+    assert [part.source.name for part in lids(tmp_path, a=plate(), b=tub(), c=panel)] == ["a"]

@@ -99,6 +99,27 @@ def test_other_doors_stay_as_they_are_predicted(door, handles, face, how):
     assert after is before
 
 
+def lid_handle(x=(-0.1, 0.1), y=(-0.03, 0.0)):
+    return replace(box("handle", (x[0], y[0], 1.01), (x[1], y[1], 1.02)), label=PartLabel.HANDLE)
+
+
+def test_a_lid_hangs_opposite_to_the_border_at_which_its_handle_is():
+    _, after = hung(LID, [lid_handle()], FRONT, thin=2, front=TOP)
+    (hinge,) = after.completed.hinges
+    assert border_to_face(2, hinge.border) == BACK
+    assert opening_face(2, hinge.border, hinge.sign) == TOP
+
+
+@pytest.mark.parametrize(
+    ("handles", "face"),
+    [([lid_handle()], BACK), ([lid_handle()], LEFT), ([lid_handle(y=(0.2, 0.23))], FRONT), ([], FRONT)],
+    ids=["opposite already", "at a side", "in the middle", "no handle"],
+)
+def test_other_lids_stay_as_they_are_predicted(handles, face):
+    before, after = hung(LID, handles, face, thin=2, front=TOP)
+    assert after is before
+
+
 def test_numbers_are_above_nothing():
     with pytest.raises(ValueError, match="off"):
         HandleSideConfig(off=0.0)

@@ -16,6 +16,7 @@ from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.joints.closing import closed_plan
 from grafu.joints.config import RealizationConfig
 from grafu.joints.make_plan import plan_from_annotation
+from grafu.joints.plan import RealizationPlan
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.gallery import builtin_gallery
@@ -172,3 +173,63 @@ def test_every_source_of_motions_has_it_closed_first(source: MotionSource):
     (visual,) = (visual for visual in made.object.link("door").visuals if visual.name == "door")
     assert visual.mesh.box.size[1] == pytest.approx(0.02, abs=2e-3)
     assert installed.axis.direction[2] < 0
+
+
+FLAP = Axis(vec3(0.0, -0.25, 0.02), vec3(1.0, 0.0, 0.0))
+LID = Axis(vec3(0.0, 0.26, 0.7), vec3(-1.0, 0.0, 0.0))
+TUB = (
+    *CASE[:3],
+    box("front", (-0.42, -0.26, 0.0), (0.42, -0.25, 0.7)),
+    box("back", (-0.42, 0.25, 0.0), (0.42, 0.26, 0.7)),
+)
+
+
+def flap(angle: float) -> Asset:
+    """A case whose door drops."""
+    door = box("door", (-0.397, -0.25, 0.023), (0.397, -0.23, 0.697))
+    return scene(*CASE, drawn(door, FLAP, angle), joints=(hinged(axis=FLAP),))
+
+
+def chest(angle: float) -> Asset:
+    """A tub with a lid on it."""
+    lid = box("door", (-0.43, -0.27, 0.701), (0.43, 0.26, 0.72))
+    return scene(*TUB, drawn(lid, LID, angle), joints=(hinged(axis=LID),))
+
+
+@pytest.mark.parametrize("leaf", [flap, chest])
+@settings(max_examples=20)
+@given(angle=st.floats(radians(6), radians(100)))
+def test_a_flap_and_a_lid_that_stand_open_are_closed(leaf, angle: float):
+    assert angles(leaf(angle))["door"] == pytest.approx(angle, abs=TOLERANCE)
+
+
+@pytest.mark.parametrize("leaf", [flap, chest])
+def test_a_closed_flap_and_a_closed_lid_stay(leaf):
+    assert angles(leaf(0.0)) == {"door": 0.0}
+
+
+def test_a_flap_before_an_open_case_is_not_turned_into_it():
+    """It would fit on the floor of the case, where the boards above cover it."""
+    case = (
+        *(part for part in CASE if part.id in ("bottom", "back")),
+        box("shelf", (-0.4, -0.25, 0.6), (0.4, 0.25, 0.62)),
+    )
+    leaf = box("door", (-0.397, -0.25, 0.023), (0.397, -0.23, 0.5))
+    assert angles(scene(*case, leaf, joints=(hinged(axis=FLAP),))) == {"door": 0.0}
+
+
+def test_a_leaf_that_hangs_at_a_table_stays():
+    top = box("top", (-0.4, -0.25, 0.7), (0.4, 0.25, 0.72))
+    legs = [box(f"leg_{k}", (x, -0.2, 0.0), (x + 0.05, 0.2, 0.7)) for k, x in enumerate((-0.35, 0.3))]
+    leaf = box("door", (0.402, -0.25, 0.4), (0.422, 0.25, 0.7))
+    axis = Axis(vec3(0.41, 0.0, 0.71), vec3(0.0, -1.0, 0.0))
+    assert angles(scene(top, *legs, leaf, joints=(hinged(axis=axis),))) == {"door": 0.0}
+
+
+def test_a_door_that_was_taken_to_open_the_other_way_is_closed_too():
+    asset = inset(1.2)
+    (request,) = plan_from_annotation(asset).joints
+    asked = RealizationPlan((replace(request, axis=request.axis.reversed()),), ())
+    (made,) = closed_plan(asked, asset, RealizationConfig()).joints
+    assert made.drawn_at == pytest.approx(1.2, abs=TOLERANCE)
+    assert made.axis.direction[2] < 0

@@ -9,6 +9,7 @@ import grafu
 from fold_judge import cuts, cutting_over_sweep, loose, opened
 from grafu.asset.part import Asset, PartSource
 from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.graph.parse import parse_graph
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
@@ -119,3 +120,20 @@ def test_a_lid_that_turns_about_its_lower_back_edge_is_no_front_with_a_bin(heigh
     (request,) = (r for r in plan_from_annotation(stated).joints if r.moving == "door_lid")
     plan = RealizationPlan((replace(request, reference=None, source="network"),), ())
     assert with_tilts(plan, stated, parse_graph(stated)).joints == plan.joints
+
+
+@pytest.mark.parametrize(("thick", "stops"), [(0.018, False), (0.25, True)], ids=["a plate", "a bin"])
+def test_a_plate_that_leans_is_no_bin(thick, stops):
+    """The box around a flap that stands half open, with a pane on it, is as deep as that of a bin."""
+    hinge = Axis(vec3(0.0, -0.22, 0.003), vec3(1.0, 0.0, 0.0))
+    leaf = box("door", (-0.319, -0.22, 0.003), (0.319, -0.22 + thick, 0.597))
+    pane = box("pane", (-0.2, -0.215, 0.1), (0.2, -0.21, 0.5), carried_by="door")
+    lean = hinge.rotation(radians(40))
+    leaning = [replace(p, surfaces=tuple(surface.transformed(lean) for surface in p.surfaces)) for p in (leaf, pane)]
+    asset = scene(*FLAP, *leaning, joints=(hinged("door", hinge),))
+    (request,) = (r for r in plan_from_annotation(asset).joints if r.moving == "door")
+    before = vec3(0.0, float(asset.part("door").box.low[1]), 0.003)  # where the box around it ends
+    asked = replace(request, reference=None, source="network", axis=replace(hinge, point=before))
+    (made,) = with_tilts(RealizationPlan((asked,), ()), asset, parse_graph(asset)).joints
+
+    assert (made.stop is not None) == stops

@@ -79,7 +79,9 @@ def settled(
         reading = _with_split_handles(reading)
     reading = replace(reading, parts=with_bodies(with_control_panels(reading.parts)))
     _check_parts(reading, path, options)
-    reading = _without_labels(reading) if options.labels == "none" else reading
+    if options.labels == "none":
+        reading = _without_labels(reading)
+        reading = reading if stands is None else with_shown_lid(reading, stands, name)
     frame = settle_frame(reading, options, file, None if options.labels == "none" else stands)
     place, frame = Placing(frame), turned_before(frame, askew)
     annotation = reading.annotation and place.annotation(reading.annotation)

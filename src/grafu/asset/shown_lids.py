@@ -19,6 +19,7 @@ from grafu.asset.reading import Reading
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
+from grafu.geometry.leaning import laid_level, leans
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster, depths_below
 from grafu.vocabulary import PartLabel
@@ -82,11 +83,12 @@ def with_shown_lid(
     """
     parts = reading.parts
     movable = [part for part in parts if part.label.is_movable]
-    is_open = parts and not is_divided(reading) and [part.label for part in movable] in ([], [PartLabel.DOOR])
+    is_told = is_divided(reading) and any(part.labelled_by != "hidden" for part in parts)
+    is_open = parts and not is_told and [part.label for part in movable] in ([], [PartLabel.DOOR])
     if not is_open or _TABLES & set(spoken(name)):
         return reading
     T = turn_of(frame) * np.array([[frame.scale]] * 3 + [[1.0]])
-    meshes = {part.id: part.mesh.transformed(T) for part in parts}
+    meshes = {part.id: _closed(part.mesh.transformed(T)) for part in parts}
     lids, walls = _lids(parts, meshes, config)
     if not lids or any(part is not lids[0] for part in movable):
         return reading
@@ -99,6 +101,11 @@ def with_shown_lid(
     made = (lid if part is plate else with_pieces(part, (), joined) for part in parts if part.id not in joined)
     note = f"{in_words(lids)} taken for a lid: nothing else closes a hollow body from above"
     return replace(reading, parts=tuple(made), notes=(*reading.notes, note))
+
+
+def _closed(mesh: TriangleMesh) -> TriangleMesh:
+    """Returns a mesh as it is where it closes a body from above: a lid that leans is drawn open."""
+    return laid_level(mesh) if leans(mesh) else mesh
 
 
 def _lids(
@@ -160,18 +167,26 @@ def _is_box(body: Sequence[Part], meshes: dict[str, TriangleMesh], lid: Box, con
     is_deep = np.isfinite(depths) & (depths >= float(box.size[_UP]) / 2)
     if float(is_deep.mean()) < config.hollow or float(np.isfinite(depths).mean()) < config.floor:
         return False
+    if not _is_walled(mesh, box, config):
+        return False
+    alone = any(_is_walled(meshes[part.id], box, config) for part in body)
+    return alone or _is_walled_alike([meshes[part.id].box for part in body], box, config)
+
+
+def _is_walled(mesh: TriangleMesh, box: Box, config: ShownLidConfig) -> bool:
+    """Whether a mesh closes the four sides of a body in this box."""
     for axis in (0, 1):
-        for one in (mesh, _mirrored(mesh, axis)):
-            wall = depths_below(RayCaster(one), box, axis, _RAYS, above)
+        for one in (mesh, _mirrored(mesh, box, axis)):
+            wall = depths_below(RayCaster(one), box, axis, _RAYS, float(box.size.max()))
             if float((wall <= config.wall * float(box.size[axis])).mean()) < config.walls:
                 return False
-    return len(body) == 1 or _is_walled_alike([meshes[part.id].box for part in body], box, config)
+    return True
 
 
-def _mirrored(mesh: TriangleMesh, axis: int) -> TriangleMesh:
-    """Returns a mesh with its two ends along an axis exchanged, in its own box."""
+def _mirrored(mesh: TriangleMesh, box: Box, axis: int) -> TriangleMesh:
+    """Returns a mesh with its two ends along an axis exchanged, in a box."""
     vertices = mesh.vertices.copy()
-    vertices[:, axis] = mesh.box.low[axis] + mesh.box.high[axis] - vertices[:, axis]
+    vertices[:, axis] = box.low[axis] + box.high[axis] - vertices[:, axis]
     return TriangleMesh(vertices, mesh.faces[:, ::-1])
 
 

@@ -54,6 +54,8 @@ class FrontEvidenceConfig:
     """... and that the stated side may have at most."""
     small: float = 0.08
     """Largest side of a door or drawer that shows it where one of its faces is seen, over that of the object."""
+    above: float = 0.02
+    """How far below the upper end of all that stays a lid may begin (fraction of the height of that)."""
     seen: float = 0.5
     """How much more of one face of a door or drawer than of the other must be seen from outside (fraction)."""
 
@@ -218,6 +220,8 @@ def _votes(
     boxes = [part.box for part in parts if part.label is not PartLabel.HANDLE]
     body = Box.enclosing(boxes) if boxes else whole  # handles shift the middle of a leaf and its frame
     for part in parts:
+        if part.label.is_movable and _is_above_all(part, parts, up, config):
+            continue
         if part.label.is_movable:
             ratio = float(part.box.size.max() / whole.size.max())
             seen = _seen_side(part, caster, votes, config) if caster is not None and ratio >= config.small else None
@@ -228,6 +232,17 @@ def _votes(
             side = _side(part, whole, votes, config)
             _add(votes, side and spelled("XYZ".index(side[1]), side[0] == "-"), config.back)
     return votes
+
+
+def _is_above_all(part: Part, parts: Sequence[Part], up: str, config: FrontEvidenceConfig) -> bool:
+    """Whether a door lies or stands above all that stays, as a lid does: one that is open leans to the back."""
+    upwards, axis = vector(up), "XYZ".index(up[1])
+    stays = [p.box for p in parts if not p.label.is_movable and p.label is not PartLabel.HANDLE]
+    if not stays:
+        return False
+    body = Box.enclosing(stays)
+    low = float(part.box.center @ upwards - part.box.half[axis])
+    return low >= float(body.center @ upwards + (1 - 2 * config.above) * body.half[axis])
 
 
 def decide_front(

@@ -17,7 +17,7 @@ from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Hinge, HingeBorder
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import face_to_border, plane_axes, signed_axis
+from grafu.graph.motion import border_to_face, face_to_border, plane_axes, signed_axis
 from grafu.vocabulary import PartLabel
 
 _UP = 2
@@ -36,6 +36,8 @@ class HandleSideConfig:
     """How far the middle of the handles is from that of the door at least (fraction of the door's width)."""
     within: float = 0.5
     """How far at most: what is farther out is the handle of another door."""
+    rim: float = 0.45
+    """How far the handles of a lid are from its middle at least, to be at one of its borders (fraction of its side)."""
     upright: float = 1.5
     """A handle this many times as high as it is wide turns a predicted flap into a door that hangs on a side."""
     wide: float = 2.0
@@ -55,15 +57,17 @@ def with_handle_sides(
     """Returns the completion in which doors with a handle off the middle hang on the side away from it.
 
     That are doors that would hang on the handle's side, flaps with an upright handle, and wide fronts with a level bar
-    at their upper or lower edge. Lids, and leaves that fold, stay as they are predicted.
+    at their upper or lower edge, and lids that would hang on the border at which their handle is. Leaves that fold stay
+    as they are predicted.
     """
     given = {part.id for part in asset.parts}
     graph = completion.completed
     found: dict[str, tuple[HingeBorder, float]] = {}
     for hinge in graph.hinges:
-        if hinge.child not in given or hinge.coupling is not None or graph.node(hinge.child).box.thin_axis == _UP:
+        if hinge.child not in given or hinge.coupling is not None:
             continue
-        side = _stated_side(hinge, graph, given, config)
+        is_lid = graph.node(hinge.child).box.thin_axis == _UP
+        side = (_side_of_lid if is_lid else _stated_side)(hinge, graph, given, config)
         if side is not None and side != hinge.border:
             found[hinge.child] = side, other_scores(completion, hinge.child).get(str(side), 0.0)
     return hung_on(completion, found)
@@ -92,6 +96,17 @@ def _stated_side(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: 
     if stands_on_a_level_border(hinge, graph) and not _opens_sideways(handles, box, level, config):
         return None
     return upright_borders(box.thin_axis)[0 if off > 0 else 1]
+
+
+def _side_of_lid(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: HandleSideConfig) -> HingeBorder | None:
+    """Returns the border opposite to that of a lid if its handles are at the latter; else None."""
+    handles, box = given_handles(hinge.child, graph, given), graph.node(hinge.child).box
+    axis, is_high = divmod(border_to_face(box.thin_axis, hinge.border), 2)
+    if not handles or box.size[axis] <= 0:
+        return None
+    middle = float(np.mean([handle.center[axis] for handle in handles]) - box.center[axis]) / float(box.size[axis])
+    is_at = config.rim <= (middle if is_high else -middle)
+    return face_to_border(box.thin_axis, signed_axis(axis, positive=not is_high)) if is_at else None
 
 
 def _opens_sideways(handles: list[Box], door: Box, level: int, config: HandleSideConfig) -> bool:

@@ -1,6 +1,6 @@
 """Whose handle is whose: every handle goes to the door or drawer that it sits on. It looks at boxes alone."""
 
-from typing import final
+from typing import Final, final
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
 
 _FRONTS = (PartLabel.DOOR, PartLabel.DRAWER)
+_UP: Final = 2
 _FLUSH = 1e-3  # of a handle's largest side: what overlaps by less ends in one plane
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
 
@@ -59,13 +60,13 @@ def sits_on_static(handle: PartNode, graph: FunctionalGraph) -> bool:
 
     Handles that touch one another are pieces of one. Smaller things that it touches are its own posts. What has a
     category of its own carries it only where the handle stands beside all doors and drawers: a handle that hangs before
-    one may touch a frame.
+    one may touch a frame. One that is above a lid and does not touch it is not the lid's: a knob of a washing machine.
     """
     pieces = _pieces(handle, graph)
     touched = [(piece, graph.node(o)) for piece in pieces for o in graph.neighbours[piece.id]]
     if any(node.label in _FRONTS for _, node in touched):
         return False
-    beside = all(_stands_beside(handle.box, part) for part in graph.labelled(*_FRONTS))
+    beside = all(_stands_beside(handle.box, part) or _is_lid(part) for part in graph.labelled(*_FRONTS))
     others = ((piece, node) for piece, node in touched if node.label is not PartLabel.HANDLE)
     larger = (node for piece, node in others if float(np.sort(node.box.size)[1]) > float(piece.box.size.max()))
     return any(beside or node.label is PartLabel.MISC for node in larger)
@@ -81,6 +82,10 @@ def _pieces(handle: PartNode, graph: FunctionalGraph) -> list[PartNode]:
         found |= new
         queue += new
     return list(found.values())
+
+
+def _is_lid(part: PartNode) -> bool:
+    return part.label is PartLabel.DOOR and part.box.thin_axis == _UP
 
 
 def stands_apart(handle: Box, part: PartNode, reach: float) -> bool:

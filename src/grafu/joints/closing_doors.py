@@ -1,14 +1,15 @@
-"""How far upright doors stand open as they are drawn, found from the meshes, and the axis about which they close.
+"""How far doors, flaps and lids stand open as they are drawn, found from the meshes, and about which axis they close.
 
 A door stands open where it is turned against the furniture, or free of it, and fits where it is turned back to: the
 way is free, and on most of its sides something stands beside it or lies behind its border. A door that fits as it is
-drawn is closed, at whatever angle: fronts of corner cabinets.
+drawn is closed, at whatever angle: fronts of corner cabinets. A flap or a lid, which turns about a level axis, closes
+upright or level, and is seen from outside where it does.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from math import atan2, pi
+from math import atan2, cos, pi, sin
 from typing import final
 
 import numpy as np
@@ -24,7 +25,7 @@ from grafu.joints.config import RealizationConfig
 from grafu.joints.limits import blockers_at, in_the_way, is_free, swept_box
 from grafu.joints.plan import JointRequest
 from grafu.joints.rail_config import ClosingConfig
-from grafu.scene.border import BorderFrame, border_frame, part_axes
+from grafu.scene.border import BorderFrame, border_frame, part_axes, pitched_border_frame
 from grafu.scene.obstacles import Obstacle
 from grafu.scene.scene import Scene
 
@@ -54,6 +55,11 @@ class _Door:
     @property
     def closing(self) -> ClosingConfig:
         return self.config.closing
+
+    @property
+    def is_upright(self) -> bool:
+        """Whether it turns about an upright axis: a flap or a lid turns about a level one."""
+        return abs(float(self.frame.rotation[2, 2])) >= self.config.level_axis
 
     @cached_property
     def around(self) -> RayCaster:
@@ -114,6 +120,12 @@ class _Door:
         away = self.around.along(frame.to_object(points), frame.direction(float(across), 0.0, float(up)))
         return bool(np.median(away <= inside + closing.flush) == 1.0)
 
+    def is_seen(self, frame: BorderFrame) -> bool:
+        """Whether nothing covers the outer side of a flap or a lid: one that is turned into its case lies in that."""
+        x, z = (side.ravel() for side in np.meshgrid(_ALONG * frame.width, (_ALONG - 0.5) * frame.length))
+        points = np.column_stack([x, np.full(len(x), self.closing.flush), z])
+        return bool(self.around.is_clear(frame.to_object(points), frame.direction(0.0, 1.0, 0.0)).all())
+
     def is_free(self, angle: Axis, opening: float) -> bool:
         """Whether it can be turned back about an axis by an opening, radians."""
 
@@ -136,15 +148,23 @@ def drawn_angles(requests: Iterable[JointRequest], scene: Scene, config: Realiza
         is_stated = request.drawn_at > 0 or request.coupling is not None or request.parent
         if is_stated or not request.kind.turns or request.moving not in scene.parts:
             continue
-        mesh = scene.parts[request.moving].mesh
-        frame = border_frame(mesh, request.axis)
-        if abs(float(frame.rotation[2, 2])) < config.level_axis or frame.width < config.closing.shallowest:
+        door = _door(request, scene, config)
+        if door.frame.width < config.closing.shallowest:
             continue
-        body = scene.swept_body(request.moving, config.closing.flush, part_axes(mesh))
-        angle = _drawn_angle(_Door(request, scene, config, frame, body))
+        angle = _drawn_angle(door)
+        if angle is None and sum(door.sides(door.frame)) < config.closing.sides:
+            angle = _drawn_angle(_door(replace(request, axis=request.axis.reversed()), scene, config))
         if angle is not None:
             found[request.moving] = angle
     return found
+
+
+def _door(request: JointRequest, scene: Scene, config: RealizationConfig) -> _Door:
+    mesh = scene.parts[request.moving].mesh
+    is_upright = abs(float(request.axis.direction[2])) >= config.level_axis
+    frame = (border_frame if is_upright else pitched_border_frame)(mesh, request.axis)
+    axes = part_axes(mesh) if is_upright else frame.rotation
+    return _Door(request, scene, config, frame, scene.swept_body(request.moving, config.closing.flush, axes))
 
 
 def _drawn_angle(door: _Door) -> DrawnAngle | None:
@@ -153,8 +173,10 @@ def _drawn_angle(door: _Door) -> DrawnAngle | None:
         return None
     fits: list[tuple[float, int, DrawnAngle]] = []
     for angle, axis in _ways_back(door):
-        sides = sum(door.sides(_turned(door.frame, axis.rotation(-angle))))
-        if sides >= door.closing.door_sides and door.is_free(axis, angle):
+        frame = _turned(door.frame, axis.rotation(-angle))
+        sides = sum(door.sides(frame))
+        fits_there = sides >= door.closing.door_sides and (door.is_upright or door.is_seen(frame))
+        if fits_there and door.is_free(axis, angle):
             fits.append((round(angle, 3), -sides, DrawnAngle(angle, axis)))
     return min(fits, key=lambda fit: fit[:2])[2] if fits else None
 
@@ -162,9 +184,10 @@ def _drawn_angle(door: _Door) -> DrawnAngle | None:
 def _ways_back(door: _Door) -> Iterator[tuple[float, Axis]]:
     """Yields the angles by which a door comes to stand along the furniture, about each border of its hinge side."""
     frame, config = door.frame, door.closing
-    leaf = frame.direction(1.0, 0.0, 0.0)
-    heading = heading_of(part.mesh for part in door.scene.static_parts)
-    turned = (atan2(float(leaf[1]), float(leaf[0])) - heading) * float(np.sign(frame.rotation[2, 2]))
+    leaf, about = frame.direction(1.0, 0.0, 0.0), frame.rotation[:, 2]
+    heading = heading_of(part.mesh for part in door.scene.static_parts) if door.is_upright else 0.0
+    ahead = np.array([cos(heading), sin(heading), 0.0]) if door.is_upright else np.array([0.0, 0.0, 1.0])
+    turned = atan2(float(leaf @ np.cross(about, ahead)), float(leaf @ ahead))
     for quarter in range(4):
         angle = (turned - quarter * pi / 2) % (2 * pi)
         if config.least_turn <= angle <= config.widest_turn:

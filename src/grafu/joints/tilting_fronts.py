@@ -4,9 +4,9 @@ A bin is the front's own mesh, parts that ride on it, or parts behind it that ha
 A flap with a bin stops well before it is level: what lies in the bin would fall out.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from math import radians
+from math import atan2, radians
 from typing import final
 
 import numpy as np
@@ -17,10 +17,12 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
+from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes, touched_by
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.scene.border import pitched_border_frame
 from grafu.scene.scale import metre_on
 
 _WORDS = frozenset({"tilt", "tilting", "tiltout", "kippfront", "kippklappe"})
@@ -170,8 +172,10 @@ def _tilted(
     front = asset.part(request.moving)
     own = {front.id, *request.attached}
     behind = _bin(front.box, own, static, asset, graph, config)
-    boxes = [front.box, *(asset.part(name).box for name in (*request.attached, *behind))]
-    if not (is_stated or _has_bin(request, front.box, boxes, config)):
+    upright, boxes = _upright(
+        request, [asset.part(name).mesh for name in (front.id, *request.attached, *behind)], config
+    )
+    if not (is_stated or _has_bin(upright, boxes[0], boxes, config)):
         return request
     stop = min(request.reference or config.opening, config.most)
     return replace(request, attached=(*request.attached, *behind), reference=stop, stop=stop)
@@ -211,3 +215,18 @@ def _has_bin(request: JointRequest, front: Box, boxes: list[Box], config: TiltCo
     ends = [float((box.center - request.axis.point) @ inwards + box.half @ np.abs(inwards)) for box in boxes]
     deep = [box for box, end in zip(boxes, ends, strict=True) if end >= least]
     return bool(deep) and float(Box.enclosing(deep).size @ along) >= config.wide * float(front.size @ along)
+
+
+def _upright(
+    request: JointRequest, meshes: Sequence[TriangleMesh], config: TiltConfig
+) -> tuple[JointRequest, list[Box]]:
+    """Returns the request and the boxes of a front and of what it takes along, turned upright if the front leans.
+
+    A plate that leans is no bin, though the box around it is deep: it stands half open, or slopes as it is closed.
+    """
+    frame = pitched_border_frame(meshes[0], request.axis)
+    leaf, axis = frame.direction(1.0, 0.0, 0.0), frame.axis_at(0.0, 0.0)
+    if frame.thickness >= max(config.deep, config.of_height * frame.width):
+        return request, [mesh.box for mesh in meshes]
+    T = axis.rotation(-atan2(float(leaf @ np.cross(axis.direction, np.eye(3)[_UP])), float(leaf[_UP])))
+    return replace(request, axis=axis), [mesh.transformed(T).box for mesh in meshes]

@@ -13,6 +13,8 @@ from grafu.completion.drawers_above_doors import with_drawers_above_doors
 from grafu.completion.dropping_doors import with_dropping_doors
 from grafu.completion.fixed_shelves import with_fixed_shelves
 from grafu.completion.handle_sides import with_handle_sides
+from grafu.completion.held_borders import with_held_borders
+from grafu.completion.leaning_fronts import with_leaning_fronts
 from grafu.completion.lone_fronts import with_lone_fronts
 from grafu.completion.network import complete_by_network
 from grafu.completion.oven_doors import with_oven_doors
@@ -23,6 +25,7 @@ from grafu.completion.static_guesses import with_static_guesses
 from grafu.completion.tall_doors import with_tall_doors
 from grafu.completion.thick_doors import with_thick_doors
 from grafu.completion.ways_out import with_ways_out
+from grafu.completion.window_doors import with_window_doors
 from grafu.geometry.sampling import sample_surfaces
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.completion import GraphCompletion, decision_of
@@ -50,12 +53,14 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
 
     Drawers slide to the side that they are seen from, where rays tell it (`with_ways_out`); round doors hang on their
     left or right side (`with_round_doors`), and so do high ones (`with_tall_doors`); those of ovens hang on their
-    lower border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`), or,
-    with copied level bars, on the lower or upper border (`with_copied_bars`). What is
-    only guessed to be a door, and is too thick, is a drawer (`with_thick_doors`), and so is what is low and wide
-    above a door, or of the size of the drawer right above or below it (`with_drawers_above_doors`); what is only
-    guessed to be a drawer, and can be none, is a door (`with_lone_fronts`), as below a panel with knobs
-    (`with_oven_doors`); what is only guessed to be a door or drawer stays static where it cannot be one
+    lower border (`with_dropping_doors`), and doors on the side away from their handle (`with_handle_sides`), or, with
+    copied level bars, on the lower or upper border (`with_copied_bars`); none hangs on a border in the air where that
+    opposite is near what could hold it (`with_held_borders`). What is only guessed to be a door, and is too thick, is a
+    drawer (`with_thick_doors`), and so is what is low and wide above a door, or of the size of the drawer right above
+    or below it (`with_drawers_above_doors`); what is only guessed to be a drawer, and can be none, is a door
+    (`with_lone_fronts`), as below a panel with knobs (`with_oven_doors`) or where it leans (`with_leaning_fronts`); a
+    front with a window and a bar along its upper edge drops (`with_window_doors`); what is only guessed to be a door or
+    drawer stays static where it cannot be one
     (`with_static_guesses`). A shelf that is a board is fixed (`with_fixed_shelves`), and knobs of appliances are
     controls (`without_controls`).
 
@@ -70,7 +75,8 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     named = {part.id for part in asset.parts if part.labelled_by in ("name", "shape")}
     drawn = with_thick_doors(complete_by_network(seen, network, network.features, named=named), asset)
     predicted = with_lone_fronts(with_drawers_above_doors(drawn, asset), asset)
-    moved = _shaped(with_oven_doors(with_fixed_shelves(predicted, asset)), asset)
+    ovens = with_oven_doors(with_fixed_shelves(with_leaning_fronts(predicted, asset), asset))
+    moved = with_window_doors(_shaped(ovens, asset), asset)
     found = without_controls(with_static_guesses(moved, asset), asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
@@ -87,4 +93,5 @@ def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
 def _shaped(completion: GraphCompletion, asset: Asset) -> GraphCompletion:
     """Returns the completion in which shape decides where drawers and lids open to, and on which side doors hang."""
     turned = with_tall_doors(with_round_doors(with_ways_out(completion, asset), asset), asset)
-    return with_copied_bars(with_handle_sides(with_dropping_doors(turned, asset), asset), asset)
+    sided = with_handle_sides(with_dropping_doors(turned, asset), asset)
+    return with_held_borders(with_copied_bars(sided, asset))

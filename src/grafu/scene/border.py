@@ -88,6 +88,21 @@ def border_frame(mesh: TriangleMesh, axis: Axis) -> BorderFrame:
     return _framed(mesh, x, z)
 
 
+def pitched_border_frame(mesh: TriangleMesh, axis: Axis) -> BorderFrame:
+    """Returns the frame of the border of a leaf that is turned about its own axis: a flap that stands half open.
+
+    Its sides are those of the smallest rectangle around the leaf, seen along its axis; those of `border_frame` are
+    those of the leaf's own box, which is deep around a leaf that stands at a slant.
+    """
+    z = np.asarray(axis.direction)
+    x = np.eye(3)[int(np.argmin(np.abs(z)))]
+    x = x - z * float(z @ x)
+    x /= np.linalg.norm(x)
+    T = from_rotation(np.stack([x, np.cross(z, x), z]), np.zeros(3))
+    frame = border_frame(mesh.transformed(T), Axis(transform_points(T, axis.point[None])[0], vec3(0.0, 0.0, 1.0)))
+    return replace(frame, origin=frame.origin @ T[:3, :3], rotation=T[:3, :3].T @ frame.rotation)
+
+
 def _slanted(mesh: TriangleMesh, axis: Axis) -> BorderFrame:
     """Returns the frame about an axis that follows no side of the part's box."""
     to_center = mesh.box.center - axis.closest_point(mesh.box.center)
