@@ -32,6 +32,7 @@ from grafu.asset.leaf_pieces import LeafPieceConfig
 from grafu.asset.link_groups import LinkGroupConfig
 from grafu.asset.loose import LooseConfig
 from grafu.asset.lying_handles import LyingHandleConfig
+from grafu.asset.lying_windows import LyingWindowConfig
 from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.one_front import HeldTogetherConfig
 from grafu.asset.partnet_mobility import StandingConfig
@@ -155,6 +156,7 @@ OF_MODULES = {
         "plausibility.py": {},
         "reading.py": {"_FLATNESS": TOLERANCE},
         "scale.py": {"DOOR": SOLD, "STORAGE": SOLD, "TABLE": SOLD, "WINDOW": SOLD, "UNITS": SOLD},
+        "lying_windows.py": {"_RAYS": SAMPLES},
         "shown_lids.py": {"_UP": NUMBERING, "_RAYS": SAMPLES},
         "standing.py": {"_PLACES": NUMBERING},
     },
@@ -255,7 +257,7 @@ CONFIGS = (
     FramedDoorsConfig, HandleSideConfig, HeldBorderConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig,
     LeafPieceConfig,
     BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
-    LevelBarConfig, LoneFrontConfig, LyingHandleConfig, OvenDoorConfig,
+    LevelBarConfig, LoneFrontConfig, LyingHandleConfig, LyingWindowConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,

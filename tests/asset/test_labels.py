@@ -183,17 +183,28 @@ LANGUAGES = {
     PartLabel.DOOR: [
         *("Schranktür links", "Schiebetuer_2", "porte gauche", "Armario_Puerta_Izq", "Anta.001", "porta do armário"),
         *("柜门_1", "推拉门", "左扉", "引き戸"),
+        *("drzwi lewe", "Klapa.002", "wieko", "Дверь левая", "дверца_2", "dver_pravaya", "Крышка"),
     ],
     PartLabel.DRAWER: [
         *("Schublade.003", "Schubladenfront", "tiroir du bas", "cajón 2", "cassetto_sinistro", "gaveta_1"),
-        *("抽屉2", "引き出し_上"),
+        *("抽屉2", "引き出し_上", "szuflada_dolna", "Ящик 3", "Yaschik.003"),
     ],
     PartLabel.HANDLE: [
         *("Schubladengriff", "poignée de porte", "puerta_tirador", "maniglia anta", "puxador da gaveta"),
-        *("抽屉把手", "扉の取っ手"),
+        *("抽屉把手", "扉の取っ手", "uchwyt szuflady", "Ручка двери", "ручка_ящика"),
     ],
-    PartLabel.SHELF: ["Einlegeboden", "étagère_3", "estante", "ripiano", "prateleira", "层板", "棚板"],
-    PartLabel.LEG: ["Tischbein", "pied de table", "pata_1", "gamba.002", "perna", "桌腿", "脚"],
+    PartLabel.SHELF: [
+        "Einlegeboden",
+        "étagère_3",
+        "estante",
+        "ripiano",
+        "prateleira",
+        "层板",
+        "棚板",
+        "półka 1",
+        "Полка",
+    ],
+    PartLabel.LEG: ["Tischbein", "pied de table", "pata_1", "gamba.002", "perna", "桌腿", "脚", "nóżka", "Ножка_4"],
     PartLabel.TOP_PANEL: ["Tischplatte", "dessus", "encimera", "tampo", "台面", "天板"],
     PartLabel.BACK_PANEL: ["Rückwand", "panneau arrière", "schienale", "背板"],
     PartLabel.SIDE_PANEL: ["Seitenwand", "fianco destro", "侧板"],
@@ -210,7 +221,7 @@ def test_the_head_noun_counts(label, name):
 
 
 @pytest.mark.parametrize(("label", "name"), [(label, name) for label, names in LANGUAGES.items() for name in names])
-def test_eight_languages_give_labels(label, name):
+def test_ten_languages_give_labels(label, name):
     assert label_of(name) is label
 
 

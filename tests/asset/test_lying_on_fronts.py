@@ -148,3 +148,25 @@ def test_the_rim_of_a_lid_that_stands_out_is_no_part_of_the_lower_side(is_trunk)
     made = in_pose(tuple(parts), "+Y", "+Z")
 
     assert not lies_on_its_front(made, whole_box(made), "+Y")
+
+
+def row_of_units(count=3):
+    """Returns two high cases at the ends of a low one, with plain fronts: nothing stands above the low one."""
+    places = ((-1.8, -1.2, 2.0), (-1.2, 1.2, 0.6), (1.2, 1.8, 2.0))
+    cases = [box(f"case{x}", (x, -0.3, 0.0), (end, 0.3, z)) for x, end, z in places]
+    backs = [box(f"back{x}", (x, 0.3, 0.0), (end, 0.305, z)) for x, end, z in places]
+    fronts = [
+        box(f"front{x}{k}", (x + 0.01, -0.32, z * k / count + 0.005), (end - 0.01, -0.3, z * (k + 1) / count - 0.005))
+        for x, end, z in places
+        for k in range(count)
+    ]
+    return (*cases, *backs, *fronts)
+
+
+@pytest.mark.parametrize("convention", [GLTF, OBJ])
+def test_a_row_of_units_of_several_heights_does_not_lie_on_its_fronts(convention):
+    """Less than the outline is covered, as nothing stands above the low unit, but all that is seen is in front."""
+    frame = settle_frame(Reading("glb", in_pose(row_of_units(), "+Z", "-Y"), convention), LoadOptions())
+    assert (frame.up, frame.front) == ("+Z", "-Y")
+    standing = in_pose(row_of_units(), "+Y", "+Z")
+    assert not lies_on_its_front(standing, whole_box(standing), "+Y", is_stated=convention is GLTF)

@@ -11,10 +11,10 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import PartLabel
 
 BAR, DRAWER = LABELS.index(PartLabel.BAR), LABELS.index(PartLabel.DRAWER)
-DRAWER_SHARES = (0.5, 0.2, 0.95, 0.99)
+DRAWERS = (0.5, 0.2, 0.95, 0.99)
 
 
-def weighed(shares=DRAWER_SHARES, sizes=(0.15,) * 4, pitch=0.16, step=(0, 0, 1), first=PartLabel.UNKNOWN, deep=0.02):
+def weighed(drawers=DRAWERS, sizes=(0.15,) * 4, pitch=0.16, step=(0, 0, 1), first=PartLabel.UNKNOWN, deep=0.02):
     """The drawers' weights of boards in a row, before and after; the rest of the weight is the bars'."""
     nodes = []
     for k, size in enumerate(sizes):
@@ -22,24 +22,24 @@ def weighed(shares=DRAWER_SHARES, sizes=(0.15,) * 4, pitch=0.16, step=(0, 0, 1),
         box = Box(at, at + vec3(0.5, deep, size) if step[2] else at + vec3(size, deep, 0.5))
         nodes.append(PartNode(f"p{k}", first if k == 0 else PartLabel.UNKNOWN, box))
     weights = np.zeros((len(nodes), len(LABELS)))
-    weights[:, DRAWER], weights[:, BAR] = shares, 1.0 - np.array(shares)
+    weights[:, DRAWER], weights[:, BAR] = drawers, 1.0 - np.array(drawers)
     return with_alike(weights, FunctionalGraph("row", tuple(nodes)))[:, DRAWER]
 
 
 @pytest.mark.parametrize("step", [(0, 0, 1), (1, 0, 0)], ids=["column", "row"])
 @pytest.mark.parametrize("pitch", [0.15, 0.16])
 def test_equal_boards_beside_one_another_have_the_mean(step, pitch):
-    np.testing.assert_allclose(weighed(step=step, pitch=pitch), np.mean(DRAWER_SHARES))
+    np.testing.assert_allclose(weighed(step=step, pitch=pitch), np.mean(DRAWERS))
 
 
 @pytest.mark.parametrize(
     ("how", "expected"),
     [
-        ({"pitch": 0.2}, DRAWER_SHARES),
-        ({"sizes": (0.15, 0.13, 0.15, 0.13), "pitch": 0.15}, DRAWER_SHARES),
-        ({"step": (0, 1, 0), "pitch": 0.02}, DRAWER_SHARES),
-        ({"deep": 0.14}, DRAWER_SHARES),
-        ({"first": PartLabel.BAR}, (0.5, *[np.mean(DRAWER_SHARES[1:])] * 3)),
+        ({"pitch": 0.2}, DRAWERS),
+        ({"sizes": (0.15, 0.13, 0.15, 0.13), "pitch": 0.15}, DRAWERS),
+        ({"step": (0, 1, 0), "pitch": 0.02}, DRAWERS),
+        ({"deep": 0.14}, DRAWERS),
+        ({"first": PartLabel.BAR}, (0.5, *[np.mean(DRAWERS[1:])] * 3)),
     ],
     ids=["apart", "of two sizes", "one behind the other", "no boards", "a label that is given"],
 )

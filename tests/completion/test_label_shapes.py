@@ -58,6 +58,17 @@ def test_other_panels_stay_fronts(case):
     assert fronts(**case) == (True, True)
 
 
+def test_a_drawer_below_a_narrower_one_stays_a_drawer():
+    """Seen from above the upper one lies within the outline of the lower one, and so do the handles of both."""
+    lower = Box(vec3(0.0, 0.0, 0.5), vec3(0.5, 0.45, 0.7))
+    upper = Box(vec3(0.0, 0.0, 0.702), vec3(0.3, 0.45, 0.85))
+    grips = [Box(vec3(x, -0.01, z), vec3(x + 0.06, 0.01, z + 0.02)) for x, z in ((0.22, 0.6), (0.12, 0.78))]
+    nodes = tuple(PartNode(str(k), PartLabel.UNKNOWN, box) for k, box in enumerate((BODY, lower, upper, *grips)))
+    weights = np.full((len(nodes), len(LABELS)), 0.01)
+    weights[0, LABELS.index(PartLabel.SIDE_PANEL)], weights[1:3, DRAWER], weights[3:, HANDLE] = 0.9, 0.9, 0.9
+    assert np.array_equal(without_overlaid(weights, FunctionalGraph("g", nodes, ()), DecodeConfig()), weights)
+
+
 def test_it_holds_on_every_side_of_the_object():
     for turns in range(4):
         c, s = np.cos(turns * np.pi / 2), np.sin(turns * np.pi / 2)

@@ -181,3 +181,20 @@ def test_thresholds_of_handles_and_boxes_decide():
     assert turned(SHELF, handle=RIGHT, off=0.49) == BOTTOM_FACE
     assert turned(SHELF, wide=3.0) == LEFT_FACE
     assert np.isclose(PLATE.box.size[0] / PLATE.box.size[2], 2.4)
+
+
+BROAD = box("front", (-0.48, -0.02, 0.3), (0.48, 0.0, 0.85))
+
+
+@pytest.mark.parametrize(
+    ("front", "handle", "face"),
+    [
+        pytest.param(BROAD, (-0.05, 0.8), BOTTOM_FACE, id="its handle above"),
+        pytest.param(BROAD, (-0.05, 0.33), TOP_FACE, id="its handle below"),
+        pytest.param(box("front", (-0.48, -0.02, 0.3), (0.48, 0.0, 0.7)), (-0.05, 0.66), None, id="as high as deep"),
+        pytest.param(box("front", (-0.2, -0.02, 0.3), (0.2, 0.0, 0.85)), (-0.05, 0.8), None, id="a narrow pull-out"),
+    ],
+)
+def test_a_broad_front_that_is_higher_than_what_is_behind_it_is_deep_drops_or_lifts(front, handle, face):
+    """The whole is 0.4 m deep behind it: a dishwasher, a cabinet for shoes."""
+    assert turned(front=front, handle=handle) == face

@@ -329,3 +329,12 @@ def test_doors_that_are_faces_slide_past_each_other_only_in_two_planes(gap, plan
     right = ([0.5 + gap / 2, planes, 0.02], [0.98, planes, 0.98])
     completed = complete_by_rule(scene(**case(), door_1=left, door_2=right)).completed
     assert (len(completed.slides), len(completed.hinges)) == (slides, 2 - slides)
+
+
+@pytest.mark.parametrize(("plane", "slides"), [(0.0, 0), (0.03, 0), (0.0305, 0), (0.05, 2)])
+def test_a_face_beside_a_slab_slides_past_it_only_outside_its_depth(plane, slides):
+    """One door of a pair may be a face, the other a slab: their middles are apart, but the face lies in the slab."""
+    slab = ([0.02, 0.0, 0.02], [0.498, 0.03, 0.98])
+    face = ([0.502, plane, 0.02], [0.98, plane, 0.98])
+    completed = complete_by_rule(scene(**case(), door_1=slab, door_2=face)).completed
+    assert (len(completed.slides), len(completed.hinges)) == (slides, 2 - slides)

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from math import degrees, radians
 
+import numpy as np
 import pytest
 
 import grafu
@@ -10,6 +11,7 @@ from fold_judge import cuts, cutting_over_sweep, loose, opened
 from grafu.asset.part import Asset, PartSource
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.graph.parse import parse_graph
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
@@ -137,3 +139,16 @@ def test_a_plate_that_leans_is_no_bin(thick, stops):
     (made,) = with_tilts(RealizationPlan((asked,), ()), asset, parse_graph(asset)).joints
 
     assert (made.stop is not None) == stops
+
+
+@pytest.mark.parametrize(("degrees_back", "most"), [(38, 180), (0, 110)])
+def test_the_fall_of_a_bureau_holds_no_bin_however_deep_its_box_is(degrees_back, most):
+    """It leans back and drops until it is level, not only as far as a bin may tilt."""
+    plate = box("door", (-0.29, -0.2, 0.03), (0.29, -0.182, 0.43))
+    pin = from_rotation(np.eye(3), np.array([0.0, -0.2, 0.03]))
+    T = pin @ from_rotation(rotation_matrix(np.array([1.0, 0.0, 0.0]), -radians(degrees_back))) @ np.linalg.inv(pin)
+    fall = replace(plate, surfaces=tuple(surface.transformed(T) for surface in plate.surfaces))
+    asset = scene(*FLAP, fall)
+    result = grafu.functionalize(asset, motion="rule", motions={"door": "drop"})
+
+    assert 70 < degrees(result.joint("door").upper) < most

@@ -546,3 +546,22 @@ def test_a_side_is_traced_once_however_its_shells_are_parted(traced):
 
     assert divided(meshes, moving, moving, two) == {}
     assert len(traced) == 4
+
+
+@pytest.mark.parametrize("is_whole", [True, False], ids=["called a door", "without a name"])
+@pytest.mark.parametrize(
+    ("battens", "fronts"),
+    [
+        ([((0.02, 0.58), 0.2), ((0.02, 0.58), 0.9)], 0),
+        ([], 2),
+        ([((0.02, 0.28), 0.2), ((0.02, 0.28), 0.9), ((0.32, 0.58), 0.2), ((0.32, 0.58), 0.9)], 2),
+    ],
+    ids=["battens across both", "none", "battens on each"],
+)
+def test_boards_that_battens_hold_together_are_one_leaf(battens, fronts, is_whole):
+    """Two boards of a plank door stay together; two leaves beside each other do not, whatever lies on each."""
+    leaves = [board((x, 0.0, 0.0), (x + 0.297, 0.014, 1.2)) for x in (0.0, 0.303)]
+    strips = [board((a, -0.006, z), (b, 0.0, z + 0.07)) for (a, b), z in battens]
+    case = [board((-0.02, 0.014, -0.02), (0.62, 0.4, 0.0)), board((-0.02, 0.4, 0.0), (0.62, 0.41, 1.22))]
+    found = cut(merge_meshes([*leaves, *strips]), *case, moving=[is_whole, False, False])
+    assert len(boxes({k: p for k, p in found.items() if k == 0}, "front")) == fronts

@@ -10,6 +10,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.labels import label_of
+from grafu.asset.lying_windows import lies_as_a_window
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Placing, Reading
@@ -155,6 +156,8 @@ def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice, whole: Box) -> _C
     if votes.lying.any() or votes.tells_sense or (votes.standing.any() and votes.stands_along(usual.value)):
         return usual
     against, by_habit = f"against {usual.value} of {reading.convention.origin}", "+Z" if usual.value == "+Y" else "+Y"
+    if reading.convention.up is None and lies_as_a_window(reading.parts, whole, usual.value):
+        return _Choice(by_habit, f"it would be a window that lies on its face, {against}")
     other = stands_on_another_side(reading.parts, usual.value, by_habit)
     if other is not None:
         return _Choice(other, f"what the piece rests on tells, {against}")

@@ -1,7 +1,7 @@
 """Part labels from names, by a table of phrases and a little grammar. It looks at words only, never at geometry.
 
 The words cover PartNet's and PartNet-Mobility's part names (storage furniture, tables, desks), the authors'
-`<category>_<n>`, Blender's `.001`, camelCase, and eight languages (`grafu.asset.languages`).
+`<category>_<n>`, Blender's `.001`, camelCase, and ten languages (`grafu.asset.languages`, `languages_slavic`).
 
 The head noun is what a part is: the last one of a name, or of what stands before a preposition. `drawer_0_left_rail` is
 a rail, `door_handle` a handle, `opening_on_hinge_1_door` a door. Words that mean a piece of a door or drawer

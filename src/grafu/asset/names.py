@@ -14,6 +14,7 @@ from functools import lru_cache
 from typing import Final
 
 from grafu.asset.languages import CHINESE, ENGLISH, GERMAN, JAPANESE, ROMANCE, table, word_set
+from grafu.asset.languages_slavic import SLAVIC, latin
 
 CAMEL: Final = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 _LETTERS = re.compile(r"[a-z]+")
@@ -90,7 +91,7 @@ _RANKS: Final[dict[str, int]] = {
     **dict.fromkeys(("shelf", "divider", "leg", "tabletop", "stile", "mirror", "front", "side", "back", "base"), 3),
 }
 _HEAD_LAST = table(GERMAN)
-_ROMANCE = table(*ROMANCE)
+_ROMANCE = table(*ROMANCE, *SLAVIC)  # Slavic names, too, begin with the head
 _HAN_WORDS = table(CHINESE, JAPANESE)
 _LONGEST_HAN = max(map(len, _HAN_WORDS))
 _ENGLISH = frozenset(ENGLISH.split())
@@ -102,7 +103,7 @@ def spoken(name: str) -> tuple[str, ...]:
     """Returns the words of a name, lower-case, English and in English order; `OF` parts a thing from its owner."""
     found: list[str] = []
     is_romance = False
-    for word in _parted(unicodedata.normalize("NFKC", name)):
+    for word in _parted(latin(unicodedata.normalize("NFKC", name))):
         meaning, romance = _meaning(word)
         is_romance |= romance
         found += meaning

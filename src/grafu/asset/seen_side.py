@@ -60,7 +60,7 @@ class SeenSideConfig:
     close: float = 0.15
     """How far from the lower end lies what is close to it (fraction of the height) ..."""
     covered: float = 0.6
-    """... and how much of the outline that covers at least where it is a front (fraction): legs cover less."""
+    """... and how much of what is seen that is at least where it is a front (fraction): legs are less."""
 
     far: float = 0.5
     """From where on what is seen beside all that is close to the lower end is no front, but the rim of a top (the
@@ -78,7 +78,7 @@ class _Appearance:
     parts: float
     steps: float
     covered: float
-    """Fraction of the outline within `SeenSideConfig.close` of this end."""
+    """What lies within `SeenSideConfig.close` of this end (fraction of all that is seen)."""
 
 
 def most_shown_side(
@@ -183,7 +183,7 @@ def _appearance(
     faces, distances = caster.first_faces(origins.reshape(-1, 3), -sign * np.eye(3)[axis])
     depth = distances.reshape(config.rays, config.rays) / largest
     near = (depth - 0.1) * largest <= config.close * whole.size[axis]
-    covered = float(np.mean(near))
+    covered = float(near.sum() / max(np.isfinite(depth).sum(), 1))
     if is_base and near.any():
         beside = ~_filled(near) & ((depth - 0.1) * largest > config.far * whole.size[axis])
         faces, depth = np.where(beside.reshape(-1), -1, faces), np.where(beside, np.inf, depth)

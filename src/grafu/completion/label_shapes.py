@@ -171,8 +171,13 @@ def _has_fronts(body: Box, fronts: Sequence[Box], whole: Box, config: HeldFronts
 
 
 def _lies_on(front: Box, panel: Box, whole: Box, handles: list[Box], config: OverlayConfig) -> bool:
-    """Whether a front lies before a panel, within its outline, and has all the handles of both."""
+    """Whether a front lies before an upright panel, within its outline, and has all the handles of both.
+
+    A drawer that is lower than deep is no panel that lies: what stands above it is another drawer.
+    """
     thin = panel.thin_axis
+    if thin == _UP:
+        return False
     across = [axis for axis in range(3) if axis != thin]
     ratio = float(np.prod(front.size[across]) / max(np.prod(panel.size[across]), 1e-12))
     if not config.least <= ratio <= config.most or not _is_within(front, panel, across, config.spare):

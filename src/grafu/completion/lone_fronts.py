@@ -1,7 +1,8 @@
 """What is only guessed to be a drawer, but is a front alone that no drawer can be behind, is a flap or a door.
 
 A shelf or a divider stands close behind its middle, as in a secretary: a drawer would run into it. Or it is higher by
-far than wide, as the doors of lockers are, begins above the eyes of a person, or has its handle at a side.
+far than wide, as the doors of lockers are, begins above the eyes of a person, or has its handle at a side. It is wide
+and higher than what is behind it is deep, as the fronts of shoe cabinets and dishwashers are.
 """
 
 from collections.abc import Mapping, Set
@@ -15,6 +16,7 @@ from grafu.completion.boards_behind import BoardBehindConfig, is_board_behind
 from grafu.completion.rehang import upright_borders
 from grafu.completion.ways_out import rest_of
 from grafu.dataclass import dataclass
+from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, HingeBorder, Rail
@@ -58,9 +60,13 @@ class LoneFrontConfig:
     usual size."""
     narrow: float = 0.22
     """... and from this width on (m): narrower ones may be pull-outs for bottles and spices."""
+    deep: float = 1.2
+    """What is higher than this, in depths of the whole behind it, is no drawer ..."""
+    broad: float = 0.75
+    """... if it is as wide as this (in heights): narrower ones may be pull-outs."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "wide", "tall", "high", "narrow")
+        require_positive(self, "wide", "tall", "high", "narrow", "deep", "broad")
         require_ratios(self, "plate", "box", "edge", "off", "squat")
 
 
@@ -84,7 +90,9 @@ def with_lone_fronts(
             found[rail] = side
         elif (box := graph.node(rail.child).box).low[_UP] - graph.box.low[_UP] >= config.high:
             found[rail] = _border(rail.child, graph, config, lifts=True)
-        elif is_board_behind(box, graph.box, rest_of(asset, rail.child, graph), boards):
+        elif _is_higher_than_deep(box, graph.box, config) or is_board_behind(
+            box, graph.box, rest_of(asset, rail.child, graph), boards
+        ):
             found[rail] = _border(rail.child, graph, config)
     return as_doors(completion, found) if found else completion
 
@@ -95,6 +103,12 @@ def is_alone(front: str, graph: FunctionalGraph, config: LoneFrontConfig = LoneF
     riding = [graph.node(edge.child).box for edge in graph.attachments if edge.parent == front]
     is_plate = box.thin_axis == _DEPTH and box.size[_DEPTH] <= config.plate * depth
     return bool(is_plate and all(one.size[_DEPTH] <= config.box * depth for one in riding))
+
+
+def _is_higher_than_deep(front: Box, whole: Box, config: LoneFrontConfig) -> bool:
+    """Whether a broad front is higher than all that lies behind it is deep: no drawer is."""
+    behind, height = float(whole.high[_DEPTH] - front.high[_DEPTH]), float(front.size[_UP])
+    return height >= config.deep * behind and float(front.size[_LEVEL]) >= config.broad * height
 
 
 def _border(front: str, graph: FunctionalGraph, config: LoneFrontConfig, *, lifts: bool = False) -> HingeBorder:

@@ -52,6 +52,8 @@ def _laps(door: PartNode, other: PartNode, config: RowConfig) -> bool:
     apart = abs(float(door.box.center[thin] - other.box.center[thin]))
     sides = [_thickness(one, config) for one in (door, other)]
     thickness, farthest = min(sides), max(sides) * config.planes[1]
+    if _face_in_depth_of(door, other, config):
+        return False
     lap = -float(door.box.axis_gaps(other.box)[axis])
     width = float(min(door.box.size[axis], other.box.size[axis]))
     least, most = config.lap
@@ -60,10 +62,24 @@ def _laps(door: PartNode, other: PartNode, config: RowConfig) -> bool:
     return config.planes[0] * thickness <= apart <= farthest and (laps or meets)
 
 
+def _face_in_depth_of(door: PartNode, other: PartNode, config: RowConfig) -> bool:
+    """Whether one of two doors is drawn as a face alone that lies within the depth of the other, a slab, or on it."""
+    thin = door.box.thin_axis
+    if _is_face(door, config) == _is_face(other, config):
+        return False
+    face, slab = (door, other) if _is_face(door, config) else (other, door)
+    reach, at = config.sheet * float(slab.box.size.max()), float(face.box.center[thin])
+    return bool(slab.box.low[thin] - reach <= at <= slab.box.high[thin] + reach)
+
+
+def _is_face(door: PartNode, config: RowConfig) -> bool:
+    return float(door.box.size[door.box.thin_axis]) <= config.sheet * float(door.box.size.max())
+
+
 def _thickness(door: PartNode, config: RowConfig) -> float:
     """Returns how thick a door is, metres, and how thick one would be that is drawn as a face alone."""
     thickness, largest = float(door.box.size[door.box.thin_axis]), float(door.box.size.max())
-    return thickness if thickness > config.sheet * largest else config.thick * largest
+    return config.thick * largest if _is_face(door, config) else thickness
 
 
 def _row_of(door: PartNode, scene: RuleScene) -> list[PartNode]:

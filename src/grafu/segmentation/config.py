@@ -221,6 +221,13 @@ class DivisionConfig:
     """What the others have where several fronts are one plate (of the largest front's outline)."""
     board: float = 5.0
     """How many times as high as wide the boards of a panel are at least."""
+    batten: float = 0.6
+    """How much of each board's width a batten lies on that holds the boards of a leaf together (fraction); they end
+    short of the leaf's edges ..."""
+    batten_wide: float = 0.25
+    """... how wide it is at most (of the boards' length) ..."""
+    batten_thick: float = 3.0
+    """... and how thick (multiple of the boards' thickness)."""
     panel: float = 0.1
     """What a fixed panel beside one front covers at least (of the plate's outline) ..."""
     beside: float = 0.1

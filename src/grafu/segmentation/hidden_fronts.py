@@ -82,6 +82,8 @@ def hides(
         return True
     filled = sum(outline(view, front) for front in major) / float(size[0] * size[1])
     is_plate = size[2] <= config.division.plate * size[:2].min()
+    if (is_whole or is_plate) and len(major) > 1 and _are_battened(view, np.flatnonzero(own), major, config):
+        return False
     if is_whole or (is_plate and not _is_shallow_case(view, np.flatnonzero(own), fronts, config.division)):
         several = len(major) > 1 and filled >= config.division.filled
         several |= is_whole and len(fronts) > 1 and _is_nothing_else(view, np.flatnonzero(own), fronts)
@@ -124,6 +126,27 @@ def _is_boarded(view: ShellsView, major: tuple[FrontShells, ...], config: Segmen
     gap = config.frames.gap * float(Scale.of(view).extent[plates[0]])
     meet = bool((np.abs(low[1:, 0] - high[:-1, 0]) <= gap).all())
     return are_narrow and meet and not any(front.is_held for front in major)
+
+
+def _are_battened(view: ShellsView, own: Indices, major: tuple[FrontShells, ...], config: SegmentationConfig) -> bool:
+    """Whether the plates are the boards of one leaf, which battens hold together: two strips that lie on all of them.
+
+    Leaves beside each other have none: each could move no more. The side of a case behind fronts is far deeper.
+    """
+    plates = [front.shells[0] for front in major]
+    near = config.candidates.near * float(Scale.of(view).extent[plates[0]])
+    low, high = view.low[plates], view.high[plates]
+    thick = config.division.batten_thick * float(np.median(view.size[plates, 2]))
+    found = 0
+    for k in np.setdiff1d(own, plates).tolist():
+        touch = (view.low[k, 2] <= high[:, 2] + near) & (view.high[k, 2] >= low[:, 2] - near)
+        shared = np.minimum(high, view.high[k])[:, :2] - np.maximum(low, view.low[k])[:, :2]
+        along = int(np.argmax(view.size[k, :2]))
+        across = bool((shared[:, along] >= config.division.batten * (high - low)[:, along]).all())
+        is_strip = view.size[k, 1 - along] <= config.division.batten_wide * (high - low)[:, 1 - along].min()
+        within = bool((shared[:, 1 - along] >= view.size[k, 1 - along] - near).all())
+        found += bool(touch.all()) and across and bool(is_strip) and within and bool(view.size[k, 2] <= thick)
+    return found > 1
 
 
 def _is_beside_panel(view: ShellsView, own: Indices, major: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
