@@ -36,12 +36,13 @@ def test_equal_boards_beside_one_another_have_the_mean(step, pitch):
     ("how", "expected"),
     [
         ({"pitch": 0.2}, DRAWERS),
+        ({"drawers": DRAWERS[:2], "sizes": (0.15,) * 2}, DRAWERS[:2]),
         ({"sizes": (0.15, 0.13, 0.15, 0.13), "pitch": 0.15}, DRAWERS),
         ({"step": (0, 1, 0), "pitch": 0.02}, DRAWERS),
         ({"deep": 0.14}, DRAWERS),
         ({"first": PartLabel.BAR}, (0.5, *[np.mean(DRAWERS[1:])] * 3)),
     ],
-    ids=["apart", "of two sizes", "one behind the other", "no boards", "a label that is given"],
+    ids=["apart", "only two", "of two sizes", "one behind the other", "no boards", "a label that is given"],
 )
 def test_others_keep_theirs(how, expected):
     np.testing.assert_allclose(weighed(**how), expected)
@@ -50,3 +51,5 @@ def test_others_keep_theirs(how, expected):
 def test_fractions_are_checked():
     with pytest.raises(ValueError, match="same"):
         AlikeConfig(same=1.5)
+    with pytest.raises(ValueError, match="least"):
+        AlikeConfig(least=0)

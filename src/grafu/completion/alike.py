@@ -9,7 +9,7 @@ import numpy as np
 
 from grafu.dataclass import dataclass
 from grafu.geometry.components import linked
-from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.shapes import Bool, Float64
 from grafu.vocabulary import PartLabel
@@ -21,7 +21,7 @@ class AlikeConfig:
     """Which boards are alike.
 
     Raises:
-        ValueError: if a fraction is not between 0 and 1.
+        ValueError: if a fraction is not between 0 and 1, or `least` not above 0.
     """
 
     same: float = 0.02
@@ -30,9 +30,12 @@ class AlikeConfig:
     """How wide the gap to the next one is at most (fraction of the board's side along the row)."""
     thin: float = 0.3
     """How thick a board is at most (fraction of its middle side)."""
+    least: int = 3
+    """So many alike are needed: of two that differ neither is in the majority."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
+        require_ratios(self, "same", "apart", "thin")
+        require_positive(self, "least")
 
 
 def with_alike(
@@ -41,13 +44,14 @@ def with_alike(
     """Returns the weights of labels in which boards that are alike, next to one another, have the same."""
     unlabelled = [k for k, node in enumerate(graph.nodes) if node.label is PartLabel.UNKNOWN]
     boards = [k for k in unlabelled if _is_board(graph.nodes[k].box.size, config)]
-    if len(boards) < 2:
+    if len(boards) < config.least:
         return weights
     number = linked(len(boards), *np.nonzero(_next_to_alike(graph, boards, config)))
     made = weights.copy()
     for group in range(int(number.max()) + 1):
         members = np.array(boards)[number == group]
-        made[members] = made[members].mean(axis=0)
+        if len(members) >= config.least:
+            made[members] = made[members].mean(axis=0)
     return made
 
 
