@@ -84,6 +84,19 @@ def test_the_base_under_a_mattress_is_no_drawer_and_one_under_a_table_top_is():
     assert why([TOP, *LEGS, keys]) == "", "a board for a keyboard"
 
 
+@pytest.mark.parametrize(("length", "is_held", "said"), [(1.9, False, "longer"), (0.9, False, ""), (1.9, True, "")])
+def test_a_mattress_under_its_blanket_is_no_drawer(length, is_held, said):
+    """The blanket hangs down on all sides, as a case would stand around a drawer."""
+    blanket = merged(
+        "blanket",
+        ring("sides", (-0.71, 0.0, 0.2), (0.71, length, 0.5)),
+        box("above", (-0.71, 0.0, 0.48), (0.71, length, 0.5)),
+    )
+    base = box("base", (-0.7, 0.0, 0.1), (0.7, length, 0.24))
+    told = why([base, blanket, box("guess", (-0.69, 0.02, 0.25), (0.69, length - 0.02, 0.43))], is_held=is_held)
+    assert told == ("" if not said else "it is longer than drawers are")
+
+
 def test_the_frame_of_a_table_is_no_drawer():
     assert "no bottom" in why([TOP, *LEGS, ring("guess", (-0.06, -0.08, 0.7), (0.66, 0.6, 0.82))])
     assert "no bottom" in why([TOP, *LEGS, ring("guess", (-0.06, -0.08, 0.7), (0.66, 0.6, 0.82))], is_held=True)

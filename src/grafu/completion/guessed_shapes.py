@@ -16,7 +16,7 @@ from grafu.completion.ways_out import rest_of
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Scalars, Vec3
 from grafu.geometry.box import Box
-from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster, open_ratios
 from grafu.graph.edges import SignedAxis
@@ -35,7 +35,7 @@ class GuessedShapeConfig:
     """Which shapes no door and no drawer has.
 
     Raises:
-        ValueError: if a number is not between 0 and 1.
+        ValueError: if a fraction is not between 0 and 1, or `longest` not above 0.
     """
 
     straight: float = 0.9
@@ -73,11 +73,14 @@ class GuessedShapeConfig:
     """A post is no wider and no deeper than this (metres), with all that stands beside it for ..."""
     beside: float = 0.5
     """... as much of its height (fraction): a board of it is no door."""
+    longest: float = 1.2
+    """No drawer is longer than this in the direction in which it slides (metres): a mattress under its blanket is."""
     board: float = 0.1
     """A drawer may be a mere board that is at most so thick (fraction of the shorter of its level sides)."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
+        require_positive(self, "longest")
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name != "longest"))
 
 
 def shape_against(
@@ -154,6 +157,8 @@ def _no_drawer(
     config: GuessedShapeConfig,
 ) -> str:
     """Returns in words why a part that slides level is no drawer; empty where it may be one."""
+    if not is_held and float(box.size[slide // 2]) > config.longest:
+        return "it is longer than drawers are"
     if not is_held and is_without_case(box, slide, rest, whole):
         return "nothing that could hold it is beside it, or above and below"
     if is_front_only(box, slide // 2):
