@@ -17,7 +17,7 @@ from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import HingeBorder
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import face_to_border, plane_axes, signed_axis
+from grafu.graph.motion import face_to_border, level_axis, signed_axis
 
 _UP = 2
 
@@ -80,7 +80,7 @@ def _bar_off_the_middle(door: str, graph: FunctionalGraph, given: set[str], conf
     box, handles = graph.node(door).box, given_handles(door, graph, given)
     if len(handles) != 1 or box.thin_axis == _UP or not are_level_bars(handles, box):
         return None
-    level = _level_axis(box)
+    level = level_axis(box.thin_axis)
     off, up = ((handles[0].center - box.center)[[level, _UP]] / box.size[[level, _UP]]).tolist()
     is_low = bool(box.size[_UP] <= config.tall * box.size[level])
     return handles[0] if is_low and abs(off) >= config.off and abs(up) >= config.edge else None
@@ -89,7 +89,7 @@ def _bar_off_the_middle(door: str, graph: FunctionalGraph, given: set[str], conf
 def _are_copies(one: tuple[Box, Box], other: tuple[Box, Box], config: CopiedBarsConfig) -> bool:
     """Whether two doors, each with its bar, stand side by side, and one with its bar is a copy of the other."""
     (door, bar), (next_door, next_bar) = one, other
-    level = _level_axis(door)
+    level = level_axis(door.thin_axis)
     if next_door.thin_axis != door.thin_axis:
         return False
     moved = next_door.center - door.center
@@ -104,7 +104,3 @@ def _are_copies(one: tuple[Box, Box], other: tuple[Box, Box], config: CopiedBars
         and (abs(next_bar.center - bar.center - moved) <= near).all()
         and (abs(next_bar.size - bar.size) <= near).all()
     )
-
-
-def _level_axis(door: Box) -> int:
-    return next(axis for axis in plane_axes(door.thin_axis) if axis != _UP)

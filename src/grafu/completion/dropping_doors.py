@@ -15,7 +15,7 @@ from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Hinge
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
-from grafu.graph.motion import face_to_border, plane_axes, signed_axis
+from grafu.graph.motion import face_to_border, level_axis, signed_axis
 from grafu.vocabulary import PartLabel
 
 _UP = 2
@@ -70,5 +70,5 @@ def _may_drop(hinge: Hinge, box: Box, graph: FunctionalGraph, config: DroppingDo
     """Whether an upright door hangs on a side, and is not tall."""
     if box.thin_axis == _UP or stands_on_a_level_border(hinge, graph):
         return False
-    level = next(axis for axis in plane_axes(box.thin_axis) if axis != _UP)
+    level = level_axis(box.thin_axis)
     return float(box.size[_UP]) <= config.high * float(box.size[level])

@@ -17,7 +17,7 @@ from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Hinge, HingeBorder
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import border_to_face, face_to_border, plane_axes, signed_axis
+from grafu.graph.motion import border_to_face, face_to_border, level_axis, signed_axis
 from grafu.vocabulary import PartLabel
 
 _UP = 2
@@ -85,7 +85,7 @@ def _stated_side(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: 
     if not handles:
         return None
     box = graph.node(hinge.child).box
-    level = next(axis for axis in plane_axes(box.thin_axis) if axis != _UP)
+    level = level_axis(box.thin_axis)
     middle = np.mean([handle.center for handle in handles], axis=0) - box.center
     off, up = float(middle[level] / box.size[level]), float(middle[_UP] / box.size[_UP])
     is_wide = box.size[level] >= config.flap * box.size[_UP]

@@ -8,7 +8,7 @@ import numpy as np
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
-from grafu.graph.motion import plane_axes
+from grafu.graph.motion import level_axis
 
 _UP: Final = 2
 
@@ -33,7 +33,7 @@ class LevelBarConfig:
 
 def are_level_bars(handles: Sequence[Box], door: Box, config: LevelBarConfig = LevelBarConfig()) -> bool:
     """Whether all handles of an upright door are level bars, and together in the middle of its width."""
-    level = next(axis for axis in plane_axes(door.thin_axis) if axis != _UP)
+    level = level_axis(door.thin_axis)
     off = float(np.mean([handle.center[level] for handle in handles]) - door.center[level])
     are_level = all(handle.size[level] >= config.level * handle.size[_UP] for handle in handles)
     return bool(are_level and abs(off) <= config.centred * door.size[level])

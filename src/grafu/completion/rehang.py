@@ -7,7 +7,7 @@ from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, HingeBorder
 from grafu.graph.edit import rehung
 from grafu.graph.functional_graph import FunctionalGraph
-from grafu.graph.motion import border_to_face, face_to_border, plane_axes, signed_axis
+from grafu.graph.motion import border_to_face, face_to_border, level_axis, signed_axis
 
 _UP = 2
 
@@ -38,7 +38,7 @@ def stands_on_a_level_border(hinge: Hinge, graph: FunctionalGraph) -> bool:
 
 def upright_borders(thin: int) -> tuple[HingeBorder, HingeBorder]:
     """Returns the two upright borders of an upright door, that to the negative side of its level axis first."""
-    level = next(axis for axis in plane_axes(thin) if axis != _UP)
+    level = level_axis(thin)
     negative, positive = (face_to_border(thin, signed_axis(level, to_positive)) for to_positive in (False, True))
     return negative, positive
 

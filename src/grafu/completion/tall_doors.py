@@ -11,7 +11,7 @@ from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
-from grafu.graph.motion import face_to_border, plane_axes, signed_axis
+from grafu.graph.motion import face_to_border, level_axis, signed_axis
 
 _UP = 2
 
@@ -62,5 +62,5 @@ def _surely_drops(door: str, box: Box, completion: GraphCompletion, config: Tall
 
 def _ratio(box: Box) -> float:
     """Returns the height of an upright door over its width."""
-    level = next(axis for axis in plane_axes(box.thin_axis) if axis != _UP)
+    level = level_axis(box.thin_axis)
     return float(box.size[_UP] / max(float(box.size[level]), 1e-12))

@@ -48,6 +48,11 @@ def plane_axes(thin: int) -> tuple[int, int]:
     return first, second
 
 
+def level_axis(thin: int) -> int:
+    """Returns the first level axis of a door's plane, given its thin axis; Z is up. An upright door has only one."""
+    return 1 if thin == 0 else 0
+
+
 def border_to_face(thin: int, border: HingeBorder) -> SignedAxis:
     """Returns the face of the door's box that carries the pin (the authors' six-way `hinge_border`)."""
     return signed_axis(plane_axes(thin)[border // 2], border % 2 == 1)
