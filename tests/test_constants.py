@@ -60,6 +60,7 @@ from grafu.completion.held_borders import HeldBorderConfig
 from grafu.completion.level_bars import LevelBarConfig
 from grafu.completion.lone_fronts import LoneFrontConfig
 from grafu.completion.oven_doors import OvenDoorConfig
+from grafu.completion.rehang import RehangConfig
 from grafu.completion.round_doors import RoundDoorConfig
 from grafu.completion.static_guesses import StaticGuessConfig
 from grafu.completion.tall_doors import TallDoorConfig
@@ -261,7 +262,7 @@ CONFIGS = (
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
-    RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
+    RehangConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
     ScaleConfig, SeenSideConfig, SegmentationConfig, ShownLidConfig,
     StandingConfig, StandingOutConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DrawerAboveConfig, DroppingDoorConfig, JoiningConfig,

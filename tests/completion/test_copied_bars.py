@@ -7,7 +7,7 @@ import pytest
 from grafu.articulation.joint_values import Coupling
 from grafu.asset.part import Asset
 from grafu.completion.copied_bars import CopiedBarsConfig, with_copied_bars
-from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
+from grafu.graph.completion import BY_RULE, Decision, GraphCompletion
 from grafu.graph.edges import Attached, Hinge
 from grafu.graph.edit import with_edges
 from grafu.graph.motion import border_to_face, face_to_border, opening_face, sign_for_opening
@@ -59,7 +59,7 @@ def test_doors_whose_bars_are_copies_turn_about_the_border_away_from_them(z, at,
         assert border_to_face(1, hinge.border) == face
         assert opening_face(1, hinge.border, hinge.sign) == FRONT
         told = after.decision(hinge.child, "border")
-        assert (told.choice, told.score, told.by, told.runner_up_score) == (str(hinge.border), 0.1, BY_BOTH, 0.7)
+        assert (told.choice, told.score, told.by, told.runner_up_score) == (str(hinge.border), 0.75, BY_RULE, 0.25)
 
 
 PAIR = (door("a", (-0.4, -0.002)), door("b", (0.002, 0.4)))

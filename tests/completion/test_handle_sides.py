@@ -6,7 +6,7 @@ import pytest
 
 from grafu.asset.part import Asset
 from grafu.completion.handle_sides import HandleSideConfig, with_handle_sides
-from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
+from grafu.graph.completion import BY_RULE, Decision, GraphCompletion
 from grafu.graph.edges import Attached, Hinge
 from grafu.graph.edit import with_edges
 from grafu.graph.motion import border_to_face, face_to_border, opening_face, sign_for_opening
@@ -67,8 +67,8 @@ def test_a_door_hangs_on_the_side_away_from_its_handle_and_opens_to_the_same_fac
     assert border_to_face(1, hinge.border) == side
     assert opening_face(1, hinge.border, hinge.sign) == FRONT
     told = after.decision("door", "border")
-    assert (told.choice, told.score, told.by) == (str(hinge.border), 0.1, BY_BOTH)
-    assert (told.runner_up, told.runner_up_score) == (str(before.completed.hinges[0].border), 0.7)
+    assert (told.choice, told.score, told.by) == (str(hinge.border), 0.75, BY_RULE)
+    assert (told.runner_up, told.runner_up_score) == (str(before.completed.hinges[0].border), 0.25)
 
 
 @pytest.mark.parametrize(

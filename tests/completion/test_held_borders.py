@@ -6,7 +6,7 @@ import pytest
 
 from grafu.asset.part import Asset, Part
 from grafu.completion.held_borders import HeldBorderConfig, with_held_borders
-from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
+from grafu.graph.completion import BY_RULE, Decision, GraphCompletion
 from grafu.graph.edges import Attached, Hinge
 from grafu.graph.edit import with_edges
 from grafu.graph.motion import border_to_face, face_to_border, opening_face
@@ -38,7 +38,7 @@ def test_a_door_that_stands_open_hangs_on_the_border_near_its_case(others):
 
     assert border_to_face(0, hinge.border) == BACK
     assert opening_face(0, hinge.border, hinge.sign) == opening_face(0, face_to_border(0, FRONT), 0)
-    assert (after.decision("door", "border").by, after.decision("door", "border").score) == (BY_BOTH, 0.4)
+    assert (after.decision("door", "border").by, after.decision("door", "border").score) == (BY_RULE, 0.75)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from typing import final
 from grafu.asset.part import Asset
 from grafu.completion.handle_sides import given_handles
 from grafu.completion.level_bars import are_level_bars
-from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border
+from grafu.completion.rehang import hung_on, stands_on_a_level_border
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
@@ -66,12 +66,11 @@ def with_copied_bars(
     for one, other in combinations(bars, 2):
         if _are_copies((graph.node(one).box, bars[one]), (graph.node(other).box, bars[other]), config):
             copied |= {one, other}
-    found: dict[str, tuple[HingeBorder, float]] = {}
+    found: dict[str, HingeBorder] = {}
     for name in copied:
         box = graph.node(name).box
         is_above = float(bars[name].center[_UP]) > float(box.center[_UP])
-        border = face_to_border(box.thin_axis, signed_axis(_UP, positive=not is_above))
-        found[name] = border, other_scores(completion, name).get(str(border), 0.0)
+        found[name] = face_to_border(box.thin_axis, signed_axis(_UP, positive=not is_above))
     return hung_on(completion, found)
 
 

@@ -8,7 +8,7 @@ from typing import final
 from grafu.asset.appliance_names import is_drop_down, is_dropping_door
 from grafu.asset.part import Asset
 from grafu.completion.level_bars import are_level_bars
-from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border
+from grafu.completion.rehang import hung_on, stands_on_a_level_border
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
@@ -58,7 +58,7 @@ def with_dropping_doors(
         box = graph.node(hinge.child).box
         if hinge.child in named - held and hinge.coupling is None and _may_drop(hinge, box, graph, config):
             lower = face_to_border(box.thin_axis, signed_axis(_UP, positive=False))
-            found[hinge.child] = lower, other_scores(completion, hinge.child).get(str(lower), 0.0)
+            found[hinge.child] = lower
     return hung_on(completion, found)
 
 

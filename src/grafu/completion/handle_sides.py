@@ -10,7 +10,7 @@ import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.completion.level_bars import are_level_bars
-from grafu.completion.rehang import hung_on, other_scores, stands_on_a_level_border, upright_borders
+from grafu.completion.rehang import hung_on, stands_on_a_level_border, upright_borders
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
@@ -62,14 +62,14 @@ def with_handle_sides(
     """
     given = {part.id for part in asset.parts}
     graph = completion.completed
-    found: dict[str, tuple[HingeBorder, float]] = {}
+    found: dict[str, HingeBorder] = {}
     for hinge in graph.hinges:
         if hinge.child not in given or hinge.coupling is not None:
             continue
         is_lid = graph.node(hinge.child).box.thin_axis == _UP
         side = (_side_of_lid if is_lid else _stated_side)(hinge, graph, given, config)
         if side is not None and side != hinge.border:
-            found[hinge.child] = side, other_scores(completion, hinge.child).get(str(side), 0.0)
+            found[hinge.child] = side
     return hung_on(completion, found)
 
 

@@ -8,7 +8,7 @@ from typing import final
 
 import numpy as np
 
-from grafu.completion.rehang import hung_on, other_scores
+from grafu.completion.rehang import hung_on
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
@@ -42,13 +42,13 @@ def with_held_borders(completion: GraphCompletion, config: HeldBorderConfig = He
     """Returns the completion in which doors hang on the border opposite to one that is far from all other parts."""
     graph = completion.completed
     given = {decision.part for decision in completion.decisions if decision.question == "border"}
-    found: dict[str, tuple[HingeBorder, float]] = {}
+    found: dict[str, HingeBorder] = {}
     for hinge in graph.hinges:
         if hinge.coupling is not None or hinge.child not in given:
             continue
         opposite = _held_opposite(hinge, graph, config)
         if opposite is not None:
-            found[hinge.child] = opposite, other_scores(completion, hinge.child).get(str(opposite), 0.0)
+            found[hinge.child] = opposite
     return hung_on(completion, found)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from grafu.asset.part import Asset
 from grafu.completion.level_bars import are_level_bars
 from grafu.completion.lone_fronts import as_doors, is_alone
-from grafu.completion.rehang import hung_on, other_scores
+from grafu.completion.rehang import hung_on
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
@@ -73,7 +73,7 @@ def with_window_doors(
         elif isinstance(edge, Hinge) and edge.child in asked and edge.border != lower:
             hinges.append(edge)
     turned = as_doors(completion, dict.fromkeys(rails, lower)) if rails else completion
-    return hung_on(turned, {h.child: (lower, other_scores(turned, h.child).get(str(lower), 0.0)) for h in hinges})
+    return hung_on(turned, {hinge.child: lower for hinge in hinges})
 
 
 def _is_oven_door(name: str, graph: FunctionalGraph, asset: Asset, config: WindowDoorConfig) -> bool:
