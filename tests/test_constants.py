@@ -171,7 +171,7 @@ OF_MODULES = {
     },
     "segmentation": {
         "boxes_in_case.py": {"_TURNS": NUMBERING},
-        "creases.py": {"_SAME_UV": TOLERANCE},
+        "creased_surface.py": {"_SAME_UV": TOLERANCE},
         "mesh_shells.py": {"_Z": NUMBERING},
         "fronts.py": {"SHEET": TOLERANCE},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},

@@ -10,6 +10,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.components import (
     clustered,
     connected_parts,
+    drawn_once,
     part_boxes,
     patches_of,
     repeated_faces,
@@ -48,6 +49,22 @@ def test_a_cube_with_faces_turned_at_random_is_closed_and_faces_outwards(turned)
 
     assert patches.closed.tolist() == [True]
     assert np.isclose(volume(soup(TriangleMesh(CUBE.vertices, faces)), patches.faces), 1)
+
+
+@given(st.lists(st.booleans(), min_size=10, max_size=10))
+def test_an_open_surface_drawn_from_both_sides_is_turned_outwards_once(turned):
+    """A tub: a cube without two triangles of its top, some faces of which come first from inside."""
+    tub = CUBE.with_faces(np.arange(10))
+    one = np.where(np.array(turned)[:, None], tub.faces[:, ::-1], tub.faces)
+    no_area = [[one[0, 0], one[0, 0], one[0, 1]]]
+    mesh = soup(TriangleMesh(tub.vertices, np.vstack([one, one[:, ::-1], no_area])))
+
+    once, repeats = drawn_once(mesh)
+
+    outwards = np.einsum("ij,ij->i", once.face_normals, once.triangles.mean(axis=1) - tub.box.center)
+    assert (len(once.faces), bool((outwards > 0).all())) == (10, True)
+    assert repeats[-1] == -1
+    assert np.allclose(once.triangles[repeats[:-1]].mean(axis=1), mesh.triangles[:-1].mean(axis=1))
 
 
 def test_a_face_drawn_twice_counts_once():

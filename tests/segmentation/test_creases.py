@@ -12,7 +12,8 @@ from grafu.errors import UnsegmentedAsset
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.segmentation.backs import back_of
-from grafu.segmentation.creases import CreasedSurface, drawn_fronts
+from grafu.segmentation.creased_surface import CreasedSurface
+from grafu.segmentation.creases import drawn_fronts
 from grafu.segmentation.surface_config import CreaseConfig
 from solids import as_mesh, solid
 
@@ -56,6 +57,39 @@ def test_fronts_drawn_on_one_surface_are_found(drawn):
     assert outlines(mesh, found[0]) == EXPECTED
     assert all(np.allclose(piece.towards, FRONT) for piece in found[0] if piece.role == "front")
     assert sum(len(piece.faces) for piece in found[0]) == len(mesh.faces)
+
+
+def as_downloaded(mesh: TriangleMesh) -> TriangleMesh:
+    """The mesh in smaller faces, each drawn from both sides, in any order, and with corners of its own."""
+    mesh = TriangleMesh(*trimesh.remesh.subdivide(*trimesh.remesh.subdivide(mesh.vertices, mesh.faces)))
+    faces = np.random.default_rng(3).permutation(np.vstack([mesh.faces, mesh.faces[:, ::-1]]))
+    return TriangleMesh(mesh.vertices[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3))
+
+
+@pytest.mark.parametrize("drawn", ["groove", "raised", "sunk"])
+def test_a_surface_that_is_drawn_from_both_sides_has_the_same_fronts(drawn):
+    mesh = as_downloaded(cabinet(drawn))
+    found = cut(mesh)
+    assert outlines(mesh, found[0]) == EXPECTED
+    assert sum(len(piece.faces) for piece in found[0]) == len(mesh.faces)
+
+
+def test_each_material_of_a_surface_drawn_from_both_sides_is_a_front():
+    mesh, drawn = even_faces()
+    faces = np.vstack([mesh.faces, mesh.faces[:, ::-1]])
+    found = cut(TriangleMesh(mesh.vertices, faces), materials=[np.tile(np.where(drawn > 0, 1, 0), 2)])
+    assert [piece.role for piece in found[0]].count("front") == 2
+
+
+def test_nothing_is_drawn_on_loose_triangles():
+    fine = trimesh.creation.icosphere(subdivisions=5)
+    triangles = np.asarray(fine.triangles)
+    middle = triangles.mean(axis=1, keepdims=True)
+    loose = (middle + 0.9 * (triangles - middle)).reshape(-1, 3)
+    mesh = TriangleMesh(loose, np.arange(len(loose)).reshape(-1, 3))
+    config, numbers = CreaseConfig(), np.zeros(len(mesh.faces), np.int64)
+    assert len(mesh.faces) > config.most
+    assert not CreasedSurface.of(mesh, numbers, config).patches(FRONT, config).any()
 
 
 def test_a_low_step_along_a_wide_frame_is_a_corner():

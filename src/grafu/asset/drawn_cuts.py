@@ -10,7 +10,8 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
-from grafu.segmentation.creases import drawn_fronts, drawn_handles, uv_islands
+from grafu.segmentation.creased_surface import uv_islands
+from grafu.segmentation.creases import drawn_fronts, drawn_handles
 from grafu.segmentation.division import FacePiece
 from grafu.segmentation.mesh_shells import MeshShells
 

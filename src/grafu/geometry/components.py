@@ -124,6 +124,25 @@ def first_alike(position: Faces) -> Indices:
     return first[number]
 
 
+def drawn_once(mesh: TriangleMesh) -> tuple[TriangleMesh, Indices]:
+    """Returns the distinct faces of a mesh, turned outwards, and for each face of the mesh which of these it repeats.
+
+    They are turned one way as in `patches_of`; a patch that bounds no solid is turned so that the volume below it,
+    seen from its middle, is above 0. -1 stands for a face without area.
+    """
+    patches = patches_of(mesh)
+    corners, lies_on = mesh.vertices[patches.faces], patches.patch
+    count = np.maximum(np.bincount(lies_on, minlength=len(patches.closed)), 1)[:, None]
+    middle = np.stack([np.bincount(lies_on, corners.mean(axis=1)[:, k], len(count)) for k in range(3)], axis=1) / count
+    volume = np.bincount(lies_on, _tetrahedra(corners - middle[lies_on][:, None]), len(count))
+    faces = np.where((volume < 0)[lies_on][:, None], patches.faces[:, ::-1], patches.faces)
+    place = welded(mesh.vertices) if len(mesh.vertices) else np.zeros(0, np.int64)
+    keys = row_keys(np.sort(np.vstack([place[faces], place[mesh.faces]]), axis=1))
+    first, number = first_of_each(keys)
+    found = first[number][len(faces) :]
+    return TriangleMesh(mesh.vertices, faces), np.where(found < len(faces), found, -1)
+
+
 def connected_parts(mesh: TriangleMesh) -> list[TriangleMesh]:
     """Returns the pieces of a mesh that share no position with one another, in order of their first face."""
     faces = faces_of_parts(part_numbers(mesh))

@@ -12,7 +12,7 @@ from typing import final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Indices, Mask, cross
+from grafu.geometry.arrays import Indices, Mask, Points, cross
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_room
 from grafu.geometry.intersection import MeshCollider
@@ -40,18 +40,27 @@ def near_pairs(boxes: list[Box], margin: float) -> list[tuple[int, int]]:
     """
     if len(boxes) < 2:
         return []
-    low, high = np.array([b.low for b in boxes]), np.array([b.high for b in boxes])
+    first, second = near_ends(np.array([b.low for b in boxes]), np.array([b.high for b in boxes]), margin)
+    require_room(len(first), _JOINED, f"the contacts of {len(boxes):,} parts")
+    found = np.sort(np.stack([first, second], axis=1), axis=1)
+    return sorted((int(i), int(j)) for i, j in found)
+
+
+def near_ends(low: Points, high: Points, margin: float) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the indices of the first and of the second box of each such pair, in no order, from the boxes' ends.
+
+    Raises:
+        TooComplex: if so many boxes overlap that their pairs do not fit into the budget.
+    """
     order = np.argsort(low[:, 0], kind="stable")
     ends = np.searchsorted(low[order, 0], high[order, 0] + margin, side="right")
     counts = np.maximum(ends - np.arange(len(order)) - 1, 0)
-    require_room(int(counts.sum()), _LOOKED_AT, f"looking at the neighbours of {len(boxes):,} parts")
+    require_room(int(counts.sum()), _LOOKED_AT, f"looking at the neighbours of {len(low):,} parts")
     first = np.repeat(np.arange(len(order)), counts)
     second = first + 1 + counters(counts)
     a, b = order[first], order[second]
     near = np.all(np.maximum(low[a] - high[b], low[b] - high[a]) <= margin, axis=1)
-    require_room(int(near.sum()), _JOINED, f"the contacts of {len(boxes):,} parts")
-    found = np.sort(np.stack([a[near], b[near]], axis=1), axis=1)
-    return sorted((int(i), int(j)) for i, j in found)
+    return a[near], b[near]
 
 
 def touching_pairs(meshes: Sequence[TriangleMesh], pairs: Pairs, tolerance: float) -> list[tuple[int, int]]:

@@ -9,6 +9,7 @@ import numpy as np
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Indices
 from grafu.geometry.components import linked
+from grafu.geometry.touching import near_ends
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.drawer_boxes import drawer_boards, drawer_tub
 from grafu.segmentation.surroundings import Scale, overlaps, with_ring, within
@@ -258,8 +259,7 @@ class _FrontFinder:
             return ()
         low, high = self._view.low[shells], self._view.high[shells]
         near = self._config.handle_touch * self._near[shells].max()
-        gaps = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
-        label = linked(len(shells), *np.nonzero(gaps <= near))
+        label = linked(len(shells), *near_ends(low, high, near))
         groups = [label == k for k in range(int(label.max()) + 1)]
         sizes = [high[group].max(axis=0) - low[group].min(axis=0) for group in groups]
         least = np.array([SHEET, SHEET, self._config.thick_handle]) * near

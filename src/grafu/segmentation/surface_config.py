@@ -31,6 +31,8 @@ class CreaseConfig:
     """How thick a front becomes that is drawn as a sheet (of its object's largest side)."""
     main: float = 0.8
     """What a drawer drawn as one body has of its shell at least, all but its handle (of its outline)."""
+    most: int = 4000
+    """A surface in more patches than this stays whole: its triangles hang together nowhere."""
     stand_out: float = 0.5
     """How far a handle drawn on a front stands out of it at least (of its own shorter side): mouldings are flatter."""
 
