@@ -190,6 +190,27 @@ def test_a_surface_without_clear_fronts_stays_whole(mesh):
     assert cut(mesh) == {}
 
 
+def test_what_lies_behind_drawers_of_their_own_is_their_case():
+    """Two panels raised on one surface, and three drawers on each that are objects of their own."""
+    sides = ((0.03, 0.28), (0.32, 0.57))
+    case = cabinet("raised", tuple((x, (0.05, 0.75)) for x in sides))
+    plates = [
+        as_mesh(solid((left + 0.01, -0.035, low), (right - 0.01, -0.015, low + 0.21)))
+        for left, right in sides
+        for low in (0.06, 0.29, 0.52)
+    ]
+    assert [piece.role for piece in cut(case)[0]].count("front") == 2
+    assert cut(case, *plates) == {}
+
+
+@pytest.mark.parametrize("is_held", [True, False])
+def test_beside_a_door_of_its_own_only_drawn_fronts_with_handles_count(is_held):
+    case, door = cabinet("raised"), as_mesh(solid((0.61, -0.02, 0.02), (1.18, 0.0, 0.78)))
+    bars = [as_mesh(solid((0.2, -0.045, z), (0.4, -0.02, z + 0.015))) for z in (0.7, 0.54, 0.38)]
+    found = cut(merge_meshes([case, *bars]) if is_held else case, as_mesh(solid((0.6, 0, 0), (1.2, 0.4, 0.8))), door)
+    assert [piece.role for piece in found.get(0, [])].count("front") == (3 if is_held else 0)
+
+
 def test_a_single_front_with_a_handle_is_clear():
     handle = TriangleMesh.box_mesh(Box(np.array([0.5, -0.05, 0.2]), np.array([0.52, -0.015, 0.35])))
     mesh = merge_meshes([cabinet("raised", FRONTS[2:]), handle])

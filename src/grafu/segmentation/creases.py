@@ -14,6 +14,7 @@ import numpy as np
 
 from grafu.geometry.arrays import Indices
 from grafu.geometry.mesh import TriangleMesh
+from grafu.segmentation.candidates import candidates
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.creased_surface import CreasedSurface
 from grafu.segmentation.division import FacePiece, FoundFronts, fronts_by_object
@@ -21,9 +22,11 @@ from grafu.segmentation.fronts import FrontShells
 from grafu.segmentation.hidden_fronts import outline
 from grafu.segmentation.mesh_shells import MeshShells, axes_from
 from grafu.segmentation.surface_config import CreaseConfig
-from grafu.segmentation.surroundings import within
+from grafu.segmentation.surroundings import overlaps, within
 from grafu.segmentation.view import ShellsView
 from grafu.shapes import Bool
+
+FrontsOfObjects = dict[int, tuple[FrontShells, ...]]
 
 
 def drawn_fronts(
@@ -57,7 +60,7 @@ def drawn_fronts(
         view = parted.seen(axes)
         may = np.asarray(open_to)[parted.owner] & ~_is_in_edge(view, whole, config)
         found = fronts_by_object(view, may, [False] * len(meshes), config)
-        clear = found.clear(config.division)
+        clear = _unless_others_are_fronts(found.clear(config.division), view, config)
         area = sum(outline(view, front) for fronts in clear.values() for front in fronts)
         if area > most:
             most = area
@@ -65,6 +68,31 @@ def drawn_fronts(
         if pieces:
             break  # the front is most likely at -Y: other sides count only where it shows none
     return {k: [replace(p, is_sheet=p.role == "front") for p in found] for k, found in sorted(pieces.items())}
+
+
+def _unless_others_are_fronts(clear: FrontsOfObjects, view: ShellsView, config: SegmentationConfig) -> FrontsOfObjects:
+    """Returns the clear fronts of objects; where other objects are fronts themselves, only what cannot be their case.
+
+    A maker who made some drawers objects of their own may have drawn on the case what lies behind or beside these.
+    Fronts on it count if each is held and has none of the others before it.
+    """
+    left = ~np.isin(view.owner, [*clear])
+    if not clear or not left.any():
+        return clear
+    low, high = np.full((int(view.owner.max()) + 1, 2), np.inf), np.full((int(view.owner.max()) + 1, 2), -np.inf)
+    np.minimum.at(low, view.owner, view.low[:, :2])
+    np.maximum.at(high, view.owner, view.high[:, :2])
+    whole = (high - low).prod(axis=1)[view.owner]
+    left &= view.size[:, :2].prod(axis=1) >= config.creases.main * whole
+    fronts = candidates(view, left, config.candidates)
+    if not len(fronts):
+        return clear
+
+    def is_one(front: FrontShells) -> bool:
+        plate, nested = front.shells[0], config.members.nested
+        return front.is_held and not any(overlaps(view, other)[plate] >= nested for other in fronts.tolist())
+
+    return {owner: found for owner, found in clear.items() if all(is_one(front) for front in found)}
 
 
 def _is_in_edge(view: ShellsView, whole: MeshShells, config: SegmentationConfig) -> Bool[np.ndarray, " shells"]:
