@@ -133,6 +133,18 @@ def test_pieces_of_one_door_that_meet_at_corners_are_joined():
     assert [set(group) for group in joined_objects([leaf, strip, case], [True, True, False], has_name=True)] == [{0, 1}]
 
 
+@pytest.mark.parametrize("is_carried", [True, False])
+def test_a_front_and_what_is_behind_it_are_not_all_that_there_is(is_carried):
+    """A flap with its bar, and a case behind it with faces drawn from both sides, are no drawer; in a case they are."""
+    front, bar = board((-0.8, -0.32, 0.0), (0.8, -0.3, 0.6)), board((-0.2, -0.36, 0.1), (0.2, -0.32, 0.12))
+    boards = [board((x, -0.3, 0.01), (x + 0.02, 0.2, 0.55)) for x in (-0.79, 0.77)]
+    boards += [board((-0.77, -0.3, 0.01), (0.77, 0.2, 0.03)), board((-0.77, 0.18, 0.03), (0.77, 0.2, 0.55))]
+    box = merge_meshes([TriangleMesh(one.vertices, np.vstack([one.faces, one.faces[:, ::-1]])) for one in boards])
+    around = sheets((-0.82, -0.28, -0.02), (0.82, 0.25, 0.62), (0.0, -1.0, 0.0))
+    meshes = [front, bar, box, *([around] if is_carried else [])]
+    assert [set(group) for group in joined_objects(meshes, [True] * len(meshes))] == ([{0, 2}] if is_carried else [])
+
+
 def flat(x, z):
     corners = np.array([[x[0], 0.0, z[0]], [x[1], 0.0, z[0]], [x[1], 0.0, z[1]], [x[0], 0.0, z[1]]])
     return TriangleMesh(corners, np.array([[0, 1, 2], [0, 2, 3]]))

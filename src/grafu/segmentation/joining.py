@@ -36,7 +36,8 @@ def joined_objects(
 ) -> list[Group]:
     """Returns the objects that are one front with what belongs to it, or one handle; two at least each.
 
-    The plate comes first. Only objects that belong to it whole are joined, and never all that `open_to` names.
+    The plate comes first. Only objects that belong to it whole are joined, and never all that `open_to` names, nor all
+    but its handles.
     Where their names tell that they are doors or drawers, all may be one, and the pieces of handles stay apart.
 
     Args:
@@ -59,11 +60,17 @@ def joined_objects(
     found: list[Group] = []
     for front in single:
         handles = () if has_name else front.handles
+        if not has_name and len({*contacts.hanging_together(front, may), *_all(front.handles)}) >= int(may.sum()):
+            continue  # nothing would be left that carries it
         for group in (contacts.hanging_together(front, may), *(contacts.handle_of(h, front) for h in handles)):
             if len(group) > 1 and not taken & {*group}:
                 found.append(group)
                 taken |= {*group}
-    return [group for group in found if has_name or len(group) < int(may.sum())]
+    return found
+
+
+def _all(groups: Sequence[Group]) -> set[int]:
+    return {one for group in groups for one in group}
 
 
 @final
