@@ -23,13 +23,16 @@ def lying_on_fronts(
     The first of `fronts` are hidden in objects, the second are plates that are objects of their own: on such, handles
     count alone, on a single one those that stand before it. `may` are the shells that may be parted by the first, and
     those that may by either. What is as small as a handle may be inset: it reaches the face of its front from behind.
+    Large objects before a single hidden front are fronts themselves.
     The handle on the other side of a door, behind that on its face, lies on it as well.
     """
     hidden, alone = fronts
     plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
     is_hidden = np.arange(len(plates) + len(alone)) < len(plates)
     plates = np.concatenate([plates, alone])
-    near, gap = config.candidates.near * Scale.of(view).extent[plates], config.members.handle_gap
+    extent = Scale.of(view).extent[plates]
+    near, gap = config.candidates.near * extent, config.members.handle_gap
+    deep = config.members.handle_side * extent
     thin = float(SHEET * near.max(initial=0.0))
     area = np.prod(view.size[:, :2], axis=1)
     found: dict[int, tuple[tuple[int, ...], ...]] = {}
@@ -40,7 +43,7 @@ def lying_on_fronts(
         shared = np.minimum(grown[1], view.high[plates, :2]) - np.maximum(grown[0], view.low[plates, :2])
         on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(axis=2)
         is_small = area[own, None] <= config.members.handle_area * area[plates]
-        is_inset = is_small & (high[..., 2] >= view.high[plates, 2])
+        is_inset = is_small & (high[..., 2] >= view.high[plates, 2]) & ((high - low)[..., 2] <= deep)
         on &= (is_hidden | (is_small & may[1][own, None])) & (view.owner[plates] != owner)
         on &= is_inset | (low[..., 2] >= view.low[plates, 2] - near)
         on &= low[..., 2] <= view.high[plates, 2] + gap * near
@@ -48,6 +51,8 @@ def lying_on_fronts(
         lies, front = on.any(axis=1), on.argmax(axis=1)
         served = np.unique(front[lies]).tolist()
         in_others = bool(served) and is_hidden[served].any()
+        if in_others and len(served) == 1 and not is_small[:, served[0]].all():
+            continue  # a drawer of its own, before the apron of another object
         is_ahead = view.low[own][:, 2] >= (view.high[plates, 2] - near)[front]
         if len(served) > 1 or ((in_others or (lies & is_ahead).any()) and not lies.all()):
             found[owner] = tuple(tuple(own[lies & (front == k)].tolist()) for k in served)
