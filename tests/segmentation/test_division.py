@@ -417,6 +417,17 @@ def test_what_lies_on_fronts_of_another_object_is_parted_by_them(others):
     assert [role for role, _ in found[1]].count("rest") == bool(others)
 
 
+@pytest.mark.parametrize("wide", [0.12, 0.3])
+def test_a_drawer_that_stands_before_a_front_of_another_object_stays_whole(wide):
+    front, knob = board((-wide, -0.04, 0.06), (wide, -0.02, 0.2)), board((-0.02, -0.06, 0.12), (0.02, -0.04, 0.14))
+    sides = [board((x, -0.02, 0.08), (x + 0.01, 0.35, 0.18)) for x in (-wide + 0.01, wide - 0.02)]
+    ends = [board((-wide + 0.02, y, 0.08), (wide - 0.02, y + 0.01, 0.18)) for y in (0.0, 0.34)]
+    found = cut(merge_meshes([*CHEST, *STACK]), merge_meshes([front, knob, *sides, *ends]))
+
+    assert boxes({0: found[0]}, "front") == rounded(STACK)
+    assert not [role for role, _ in found.get(1, []) if role in ("on front", "rest")]
+
+
 def test_a_handle_on_the_only_door_is_parted_from_the_case_that_it_is_one_object_with():
     door, bar = board((-0.42, -0.02, 0.03), (0.42, 0.0, 0.47)), board((0.36, -0.05, 0.2), (0.38, -0.02, 0.3))
     through = board((0.36, -0.02, 0.2), (0.38, 0.05, 0.3))  # reaches the face from behind, as a bolt: it is no handle

@@ -23,7 +23,7 @@ def lying_on_fronts(
     The first of `fronts` are hidden in objects, the second are plates that are objects of their own: on such, handles
     count alone, on a single one those that stand before it. `may` are the shells that may be parted by the first, and
     those that may by either. What is as small as a handle may be inset: it reaches the face of its front from behind.
-    Large objects before a single hidden front are fronts themselves.
+    What is large, or has more behind its front, is a front itself before a single hidden one.
     The handle on the other side of a door, behind that on its face, lies on it as well.
     """
     hidden, alone = fronts
@@ -41,18 +41,22 @@ def lying_on_fronts(
         low, high = view.low[own, None], view.high[own, None]
         grown = low[..., :2] - thin, high[..., :2] + thin  # a sheet seen from its edge has an outline, too
         shared = np.minimum(grown[1], view.high[plates, :2]) - np.maximum(grown[0], view.low[plates, :2])
-        on = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(axis=2)
+        in_outline = np.maximum(shared, 0.0).prod(axis=2) >= config.members.on_front * (grown[1] - grown[0]).prod(
+            axis=2
+        )
         is_small = area[own, None] <= config.members.handle_area * area[plates]
         is_inset = is_small & (high[..., 2] >= view.high[plates, 2]) & ((high - low)[..., 2] <= deep)
-        on &= (is_hidden | (is_small & may[1][own, None])) & (view.owner[plates] != owner)
+        on = in_outline & (is_hidden | (is_small & may[1][own, None])) & (view.owner[plates] != owner)
         on &= is_inset | (low[..., 2] >= view.low[plates, 2] - near)
         on &= low[..., 2] <= view.high[plates, 2] + gap * near
         on |= _behind(view, own, on & is_small, (view.low[plates, 2], near, gap), config.members.on_front)
         lies, front = on.any(axis=1), on.argmax(axis=1)
         served = np.unique(front[lies]).tolist()
         in_others = bool(served) and is_hidden[served].any()
-        if in_others and len(served) == 1 and not is_small[:, served[0]].all():
-            continue  # a drawer of its own, before the apron of another object
+        if in_others and len(served) == 1:
+            behind = ~lies & (high[:, 0, 2] <= view.high[plates[served[0]], 2]) & in_outline[:, served[0]]
+            if behind.any() or not is_small[:, served[0]].all():
+                continue  # a drawer of its own, before the apron of another object
         is_ahead = view.low[own][:, 2] >= (view.high[plates, 2] - near)[front]
         if len(served) > 1 or ((in_others or (lies & is_ahead).any()) and not lies.all()):
             found[owner] = tuple(tuple(own[lies & (front == k)].tolist()) for k in served)
