@@ -139,6 +139,18 @@ def test_fronts_with_handles_are_clearer_than_a_back_in_two_panels(turns):
     assert boxes(found, "front") == rounded(doors)
 
 
+def test_where_an_object_is_a_front_with_a_handle_the_front_of_the_piece_is_there():
+    """What looks like fronts behind it is the back of the case."""
+    case = merge_meshes([mesh_of(name) for name in CABINET]).transformed(np.linalg.matrix_power(QUARTER, 2))
+    low, high = case.box.low[1], case.box.high[2]
+    door = board((-0.39, low - 0.02, 0.02), (0.39, low, high - 0.02))
+    bar = board((0.3, low - 0.05, 0.4), (0.32, low - 0.02, 0.6))
+
+    assert len(boxes(cut(case), "front")) == 2
+    found = cut(case, merge_meshes([door, bar]))
+    assert {k: [role for role, _ in pieces] for k, pieces in found.items()} == {1: ["body", "handle"]}
+
+
 def test_the_only_object_of_an_input_is_a_case_also_where_it_looks_like_a_drawer():
     """A base cabinet has no top, and its door is as wide as its sides stand apart."""
     names = ("vertical_side_panel-1", "vertical_side_panel-2", "bottom_panel-4", "back_panel-5")

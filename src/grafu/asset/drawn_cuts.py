@@ -60,7 +60,8 @@ def with_drawn_fronts(
     """Returns the cuts with those where fronts are drawn, if these are several more; by islands of UVs where no others.
 
     Where some objects are doors or drawers by name, other fronts of an object count only if each holds a handle: a
-    maker who made one drawer an object may have drawn the others on the case.
+    maker who made one drawer an object may have drawn the others on the case. Where an object is a front with handles,
+    none is drawn on other sides than that at -Y.
 
     Args:
         cuts: what is known.
@@ -78,7 +79,8 @@ def with_drawn_fronts(
         others = [may and not is_named for may, is_named in zip(open_to, named, strict=True)]
         drawn = drawn_fronts(meshes, others, materials, shells=shells)
         return cuts | {k: pieces for k, pieces in drawn.items() if _are_held(pieces)}
-    drawn = drawn_fronts(meshes, open_to, materials, shells=shells)
+    has_front = any(piece.role == "body" for pieces in cuts.values() for piece in pieces)
+    drawn = drawn_fronts(meshes, open_to, materials, shells=shells, sides=1 if has_front else 4)
     found = {**cuts, **drawn} if not cuts or count_fronts(drawn) > count_fronts(cuts) + 1 else cuts
     if not found and any(surface.uv is not None for part in parts for surface in part.surfaces):
         return drawn_fronts(meshes, open_to, [_islands(part) for part in parts], shells=shells)

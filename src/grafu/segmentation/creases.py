@@ -35,6 +35,7 @@ def drawn_fronts(
     materials: Sequence[Indices],
     config: SegmentationConfig = SegmentationConfig(),
     shells: MeshShells | None = None,
+    sides: int = 4,
 ) -> dict[int, list[FacePiece]]:
     """Returns for each mesh on which fronts are drawn what it is cut into, as it is seen from its best side.
 
@@ -46,6 +47,7 @@ def drawn_fronts(
         materials: for each mesh the number of each face's material.
         config: the thresholds.
         shells: those of the meshes, where they are known.
+        sides: from how many sides they are looked at, in the order of `axes_from`.
     """
     if not any(len(mesh.faces) and is_open for mesh, is_open in zip(meshes, open_to, strict=True)):
         return {}
@@ -53,7 +55,7 @@ def drawn_fronts(
     surfaces = [CreasedSurface.of(mesh, m, config.creases) for mesh, m in zip(meshes, materials, strict=True)]
     most = 0.0
     pieces: dict[int, list[FacePiece]] = {}
-    for turn in range(4):
+    for turn in range(sides):
         axes = axes_from(turn)
         patches = [surface.patches(axes[2], config.creases) for surface in surfaces]
         parted = whole.parted(patches)

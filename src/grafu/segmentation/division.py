@@ -153,8 +153,8 @@ def _from_the_best_side(
         sides.append(found)
         ranks.append((bool(clear) and is_held, bool(clear) and turn == 0, area))
     best = max(range(4), key=lambda turn: ranks[turn])
-    if sides[0].serves_several and not sides[best].is_held(config.division):
-        best = 0  # what lies on several fronts there are their handles, and a back in two panels has none
+    if sides[0].with_handles or (sides[0].serves_several and not sides[best].is_held(config.division)):
+        best = 0  # an object there is a front with handles, or lies on several as these; a back in two panels has none
     ahead, handled = sides[0], next((side.with_handles for side in sides if side.with_handles), {})
     if best > 0 and ranks[best][2] > 0:
         return replace(sides[best], hidden=sides[best].clear(config.division))
