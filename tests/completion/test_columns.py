@@ -88,6 +88,14 @@ def test_what_is_no_row_stays_as_the_network_has_it(other):
     assert labels_of((0.01, 3.0), ROW[0], other)[0] == [DRAWER, DOOR]
 
 
+@pytest.mark.parametrize(("right", "is_mirrored"), [(1.2, True), (1.1, False)])
+def test_mirror_images_on_the_left_and_right_of_the_piece_agree(right, is_mirrored):
+    low, high = front("low", 0.5, 0.0, 0.6, 0.2), front("high", 0.5, 0.4, 0.6, 0.1)  # between them, of other heights
+    left, other = front("one", 0.0, 0.0, 0.4, 0.5), front("other", right, 0.0, 0.4, 0.5)
+    labels = labels_of((0.1, 500.0, 0.001, 0.001), left, other, low, high)[0]
+    assert labels == [DOOR if is_mirrored else DRAWER, DOOR, DRAWER, DRAWER]
+
+
 def test_fronts_that_are_higher_than_wide_are_no_column():
     doors = (front("low", 0, 0.0, 0.4, 0.4), front("high", 0, 0.42, 0.4, 0.4))
     assert labels_of((3.0, 3.0), *doors)[0] == [DOOR, DOOR]

@@ -123,13 +123,20 @@ def _columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) 
 
 
 def _rows(weights: np.ndarray, graph: FunctionalGraph) -> list[Group]:
-    """Returns the rows of fronts side by side, of one height and in one plane, each as the numbers of its nodes."""
+    """Returns the rows of fronts of one height and in one plane, each as the numbers of its nodes.
+
+    They are side by side, or mirror images of each other on the left and right of the piece.
+    """
     low, high, fronts = _fronts(weights, graph)
     size = high - low
     apart = np.maximum(np.abs(low[:, None] - low[None]), np.abs(high[:, None] - high[None]))
     level = (apart[:, :, 2] <= _ALIGNED * size[:, None, 2]) & (apart[:, :, 1] <= _BETWEEN * size[:, None, 2])
     between = np.maximum(low[:, None, 0] - high[None, :, 0], low[None, :, 0] - high[:, None, 0])
-    return _groups(level & (np.abs(between) <= _BETWEEN * size[:, None, 2]), fronts)
+    beside = np.abs(between) <= _BETWEEN * size[:, None, 2]
+    ends = [node.box.low[0] for node in graph.nodes], [node.box.high[0] for node in graph.nodes]
+    off = low[:, None, 0] + high[None, :, 0] - (min(ends[0]) + max(ends[1]))
+    mirrored = np.maximum(np.abs(off), np.abs(off.T)) <= _ALIGNED * size[:, None, 0]
+    return _groups(level & (beside | mirrored), fronts)
 
 
 def _fronts(weights: np.ndarray, graph: FunctionalGraph) -> tuple[Points, Points, Indices]:
