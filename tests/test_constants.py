@@ -40,6 +40,7 @@ from grafu.asset.pieces import PieceConfig
 from grafu.asset.place_names import PlaceNamesConfig
 from grafu.asset.plausibility import PlausibilityConfig
 from grafu.asset.resting import RestConfig
+from grafu.asset.ring_seats import RingSeatConfig
 from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.shown_lids import ShownLidConfig
@@ -48,6 +49,7 @@ from grafu.asset.standing_out import StandingOutConfig
 from grafu.completion.alike import AlikeConfig
 from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
+from grafu.completion.control_panels import ControlPanelConfig
 from grafu.completion.copied_bars import CopiedBarsConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
@@ -58,6 +60,7 @@ from grafu.completion.guessed_shapes import GuessedShapeConfig
 from grafu.completion.handle_sides import HandleSideConfig
 from grafu.completion.held_borders import HeldBorderConfig
 from grafu.completion.level_bars import LevelBarConfig
+from grafu.completion.lids_above import LidAboveConfig
 from grafu.completion.lone_fronts import LoneFrontConfig
 from grafu.completion.oven_doors import OvenDoorConfig
 from grafu.completion.rehang import RehangConfig
@@ -258,6 +261,7 @@ CONFIGS = (
     FramedDoorsConfig, HandleSideConfig, HeldBorderConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig,
     LeafPieceConfig,
     BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
+    ControlPanelConfig, LidAboveConfig, RingSeatConfig,
     LevelBarConfig, LoneFrontConfig, LyingHandleConfig, LyingWindowConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,

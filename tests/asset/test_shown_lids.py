@@ -125,6 +125,20 @@ def test_what_is_as_high_as_a_cupboard_or_as_long_as_a_bed_has_none(tmp_path, sc
     assert bool(lids(tmp_path, **meshes)) is is_lid
 
 
+@pytest.mark.parametrize(("is_one", "is_lid"), [(True, True), (False, False)], ids=["a bin", "a locker of boards"])
+def test_a_slender_bin_may_be_as_high_as_a_cupboard(tmp_path, is_one, is_lid):
+    meshes = {"a": plate(), **({"b": tub()} if is_one else boards())}
+    for mesh in meshes.values():
+        mesh.apply_scale((0.6, 1.0, 2.3))
+
+    assert bool(lids(tmp_path, **meshes)) is is_lid
+
+
+def test_a_domed_lid_may_be_almost_half_as_high_as_the_chest(tmp_path):
+    assert lids(tmp_path, a=plate(thick=0.35), b=tub()) != []
+    assert lids(tmp_path, a=plate(thick=0.45), b=tub()) == []
+
+
 def test_names_tell_first(tmp_path):
     assert lids(tmp_path, name="coffee_table", a=plate(), b=tub()) == []
     assert lids(tmp_path, top_panel=plate(), b=tub()) == []

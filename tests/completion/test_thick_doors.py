@@ -72,3 +72,14 @@ def test_other_doors_stay_doors(door, guessed):
 def test_how_deep_it_is_at_least_is_a_choice():
     with pytest.raises(ValueError, match="deep"):
         ThickDoorConfig(deep=1.5)
+
+
+def test_a_thick_door_on_which_another_hangs_stays_a_door():
+    """No hinge is on a drawer: the other one would be left without a motion."""
+    leaf = replace(box("leaf", (0.38, -0.02, 0.1), (0.5, 0.0, 0.6)), label=PartLabel.DOOR)
+    parts = (BODY, replace(DEEP, label=PartLabel.DOOR), leaf)
+    graph = parse_graph(Asset("made", "", "made", parts))
+    edges = [Hinge("body", "door", 0, 1), Hinge("door", "leaf", 0, 1)]
+    guess = Decision("door", "label", "door", 0.7, "drawer", 0.3)
+    before = GraphCompletion(graph, with_edges(graph, edges), "network", decisions=(guess,))
+    assert with_thick_doors(before, Asset("made", "", "made", parts)) is before

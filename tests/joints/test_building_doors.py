@@ -201,3 +201,16 @@ def test_a_leaf_that_is_drawn_open_across_its_frame_stays_and_the_report_states_
     assert made.object.joints == ()
     (line,) = [line for line in report_of(made).verdict.lines if line.part == "door"]
     assert "drawn open" in line.why
+
+
+@pytest.mark.parametrize(("y", "towards"), [((-0.06, -0.02), -1.0), ((0.02, 0.06), 1.0)])
+def test_a_casing_before_the_frame_is_part_of_it(y, towards):
+    """The casing is wider and higher than the frame, and flat: a leaf flush with the frame's front is behind it."""
+    bars = [
+        box("casing", (-0.08, -0.08, 0.0), (0.02, -0.061, 2.12)),
+        box("casing", (0.88, -0.08, 0.0), (0.98, -0.061, 2.12)),
+        box("casing", (-0.08, -0.08, 2.06), (0.98, -0.061, 2.16)),
+    ]
+    casing = replace(bars[0], surfaces=tuple(surface for bar in bars for surface in bar.surfaces))
+    (joint,) = built(frame(), casing, leaf(y), knob(0.79, (y[0] - 0.04, y[0]))).object.joints
+    assert joint.axis.direction[2] == pytest.approx(towards)

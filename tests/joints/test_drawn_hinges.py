@@ -5,6 +5,7 @@ from dataclasses import replace
 import manifold3d
 import numpy as np
 import pytest
+import trimesh
 
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
@@ -121,6 +122,23 @@ def test_nothing_is_cut_for_drawn_hinges_about_which_a_door_is_blocked_most_of_t
 def test_a_motion_stays_where_nothing_tells_of_another(parts):
     before, after = told(LEAF, *CASE, *parts)
     assert after is before or after == before
+
+
+def posts(x):
+    """Two square posts of a bar handle before the door, one upright line: seen along it, all corners and middles."""
+    made = []
+    for low in (0.1, 0.5):
+        post = box(f"post_{low}", (x - 0.006, -0.032, low), (x + 0.006, -0.02, low + 0.012), carried_by="door")
+        quads = trimesh.Trimesh(post.mesh.vertices, post.mesh.faces).subdivide()
+        soup = np.asarray(quads.triangles, float).reshape(-1, 3)
+        mesh = TriangleMesh(soup, np.arange(len(soup)).reshape(-1, 3))
+        made.append(replace(post, surfaces=(Surface(mesh),)))
+    return made
+
+
+def test_the_posts_of_a_bar_handle_are_no_barrels():
+    before, after = told(LEAF, *CASE, *posts(0.38))
+    assert after is before
 
 
 def test_hardware_that_is_chosen_stays_where_it_was_chosen():

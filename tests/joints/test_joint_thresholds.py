@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from grafu.joints.box_flaps import BoxFlapConfig
 from grafu.joints.boxes_behind import BoxBehindConfig
 from grafu.joints.building_doors import BuildingDoorConfig
 from grafu.joints.clearance_config import ClearanceConfig
@@ -38,6 +39,7 @@ from grafu.joints.rail_config import (
 )
 from grafu.joints.rail_footing_config import RailFootingConfig
 from grafu.joints.raised_leaves import RaisedLeafConfig
+from grafu.joints.ring_seats import SeatPairConfig
 from grafu.joints.stay_config import StayConfig
 from grafu.joints.swivel_mirrors import MirrorConfig
 from grafu.joints.tilting_fronts import TiltConfig
@@ -121,6 +123,9 @@ REASONS = {
         "_BETWEEN": SAMPLES,
         "_HALVINGS": SAMPLES,
     },
+    "box_flaps.py": {"_UP": NUMBERING, "_RAYS": SAMPLES},
+    "plate_edges.py": {"_UP": NUMBERING},
+    "ring_seats.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
     "lone_leaves.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING},
     "measuring.py": {"_MEASURED_POSES": SAMPLES},
     "motion_choice.py": {"_BOARD": OUTLINE, "_LEVEL": TOLERANCE, "DIRECTIONS": NUMBERING},
@@ -147,6 +152,7 @@ CONFIGS = (
     DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, HungPartsConfig,
     LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
+    BoxFlapConfig, SeatPairConfig,
     PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RackGuideConfig, RailConfig, RailFootingConfig,
     RaisedLeafConfig,
     RealizationConfig,

@@ -8,6 +8,8 @@ import trimesh
 
 from grafu.asset.part import Part
 from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
 from grafu.joints.config import RealizationConfig
 from grafu.joints.make_plan import plan_from_annotation
@@ -194,3 +196,21 @@ def test_hinges_that_were_chosen_are_built_beside_drawn_ones():
     plan = plan_from_annotation(asset)
     chosen = tuple(replace(joint, choice=JointChoice(count=2)) for joint in plan.joints)
     assert installed(realize(replace(plan, joints=chosen), asset, GALLERY))["door"].template != DRAWN
+
+
+@pytest.mark.parametrize(("source", "is_built"), [("rule", True), ("network", False)])
+def test_what_shape_tells_to_move_waits_for_what_lies_over_it(source, is_built):
+    """A strip on the left door covers the edge of the right one; only flaps and the like are built without hinges."""
+    strip = box("handle_strip", (0.39, -0.03, 0.0), (0.43, -0.02, 0.6), carried_by="door")
+    right = box("door_2", (0.405, -0.02, 0.0), (0.8, 0.0, 0.6))
+    far = box("far_post", (0.8, 0.0, 0.2), (0.82, 0.4, 0.4))
+    axis = Axis(vec3(0.8, 0.0, 0.0), vec3(0.0, 0.0, 1.0))
+    asset = scene(DOOR, POST, strip, right, far, joints=(hinged(), hinged("door_2", axis)))
+    plan = plan_from_annotation(asset)
+    told = tuple(replace(joint, source=source) for joint in plan.joints)
+
+    found = installed(realize(replace(plan, joints=told), asset, NO_HINGES))
+
+    assert ("door_2" in found) == is_built
+    if is_built:
+        assert found["door_2"].after == ("door_joint",)

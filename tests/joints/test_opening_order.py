@@ -2,15 +2,22 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.joints.config import RealizationConfig
+from grafu.joints.nesting import bodies_of
+from grafu.joints.order import BuiltJoint, order_joints
+from grafu.joints.plan import JointRequest
 from grafu.metrics.collision import CollisionConfig, collision_shares
+from grafu.scene.scene import Scene
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.fronts.layout import Drawer, Pair
 from grafu.synth.samples import KINDS
+from grafu.vocabulary import JointType
 from judging import installed, realized, realized_kind
 from small_scenes import DOOR, SIDE, box, hinged, scene
 
@@ -83,3 +90,30 @@ def test_order_is_never_circular():
             assert free, order
             for name in free:
                 del order[name]
+
+
+def stacked(opens: float):
+    """The order of a lid, which opens by so many degrees, and the seat below it, which would open further."""
+    pan = box("pan", (0.0, 0.0, 0.0), (0.4, 0.45, 0.4))
+    seat = box("seat", (0.0, 0.0, 0.402), (0.4, 0.45, 0.42))
+    lid = box("lid", (0.0, 0.0, 0.422), (0.4, 0.45, 0.44))
+    pin = Axis(vec3(0.0, 0.452, 0.401), vec3(-1.0, 0.0, 0.0))
+    requests = [JointRequest(name, JointType.REVOLUTE, pin, "rule") for name in ("lid", "seat")]
+    moving = Scene({p.id: p for p in (pan, seat, lid)}, bodies_of(requests), 0.5)
+    upper = {"lid": np.radians(opens), "seat": np.radians(90.0)}
+    met = {"lid": (), "seat": ("lid",)}
+    built = [BuiltJoint(n, pin.rotation, float(upper[n]), float(upper[n]), met[n]) for n in ("lid", "seat")]
+    return order_joints(built, moving, RealizationConfig())["seat"]
+
+
+def test_a_seat_opens_after_its_lid_and_as_far_as_that():
+    order = stacked(80.0)
+    assert order.after == ("lid",)
+    assert np.radians(74) < order.upper < np.radians(82)
+    assert stacked(95.0).upper == np.radians(90.0)
+
+
+def test_a_seat_does_not_wait_for_a_lid_that_hardly_opens():
+    order = stacked(30.0)
+    assert order.after == ()
+    assert order.upper < np.radians(5)

@@ -64,3 +64,33 @@ def test_a_bar_is_found_at_any_scale(scale):
     parts = [box(p.id, tuple(scale * p.box.low), tuple(scale * p.box.high), p.carried_by) for p in (DOOR, SIDE, bar())]
     plan = with_wide_bars(RealizationPlan((REQUEST,), ()), scene(*parts))
     assert np.abs(plan.joints[0].axis.direction[0]) == pytest.approx(1.0)
+
+
+HIGH = box("high", (0.0, -0.02, 0.705), (0.6, 0.0, 1.7))
+HIGH_BAR = box("high_handle", (0.05, -0.06, 0.75), (0.55, -0.048, 0.765), carried_by="high")
+ON_RIGHT = Axis(vec3(0.6, 0.0, 1.2), vec3(0.0, 0.0, 1.0))
+DROPPED = Axis(vec3(0.3, 0.0, 0.1), vec3(1.0, 0.0, 0.0))
+
+
+def column(low_axis, low_bar, high=HIGH, high_bar=HIGH_BAR):
+    """The requests of a door and of a high one above it, with their bars."""
+    requests = (
+        JointRequest("door", JointType.REVOLUTE, low_axis, "network", attached=("handle",)),
+        JointRequest("high", JointType.REVOLUTE, ON_RIGHT, "network", attached=("high_handle",)),
+    )
+    return with_wide_bars(RealizationPlan(requests, ()), scene(DOOR, high, SIDE, low_bar, high_bar)).joints
+
+
+def test_doors_of_a_refrigerator_with_bars_where_they_meet_hang_on_one_side():
+    low, high = column(DROPPED, bar())
+    assert high.axis == ON_RIGHT
+    assert np.allclose(low.axis.direction, ON_RIGHT.direction)
+    assert np.allclose(low.axis.point, (0.6, 0.0, 0.4))
+    assert column(UPRIGHT, bar())[0].axis == UPRIGHT
+
+
+def test_a_door_below_a_high_one_drops_where_the_bars_do_not_meet():
+    assert column(DROPPED, bar(z=(0.4, 0.415)))[0].axis == DROPPED
+    away = box("high", (0.0, -0.02, 0.9), (0.6, 0.0, 1.9))
+    far_bar = box("high_handle", (0.05, -0.06, 0.95), (0.55, -0.048, 0.965), carried_by="high")
+    assert column(DROPPED, bar(), away, far_bar)[0].axis == DROPPED

@@ -30,6 +30,7 @@ from grafu.asset.pieces import with_joined_pieces
 from grafu.asset.place_names import with_place_names
 from grafu.asset.plausibility import with_blind_fronts, with_bodies, with_control_panels, with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
+from grafu.asset.ring_seats import with_ring_seats
 from grafu.asset.shown_lids import with_shown_lid
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
 from grafu.vocabulary import PartLabel
@@ -86,7 +87,7 @@ def settled(
     place, frame = Placing(frame), turned_before(frame, askew)
     annotation = reading.annotation and place.annotation(reading.annotation)
     placed = place.parts(reading.parts)
-    parts, told = with_blind_fronts(placed if options.labels == "none" else with_either_kind(placed))
+    parts, told = with_blind_fronts(placed if options.labels == "none" else with_ring_seats(with_either_kind(placed)))
     return Asset(name, str(path), reading.kind, parts, frame, notes=(*reading.notes, *told), annotation=annotation)
 
 

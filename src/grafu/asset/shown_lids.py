@@ -40,10 +40,14 @@ class ShownLidConfig:
 
     plan: float = 0.85
     """Least plan of a lid (fraction of the area of the box around all)."""
-    thick: float = 0.4
+    thick: float = 0.45
     """Greatest thickness of a lid, with what lies on it (fraction of the height of all)."""
     high: float = 0.9
     """Greatest height of such a piece (metres): a lid is lifted from above ..."""
+    bin: float = 1.3
+    """... or of a bin (metres): one part closes it all round, ..."""
+    slender: float = 1.5
+    """... and it is so many times as high as it is wide ..."""
     wide: float = 1.7
     """... and its greatest side (metres): a bed is longer."""
     overhang: float = 0.035
@@ -64,7 +68,7 @@ class ShownLidConfig:
     """What is smaller, seen from each side, is a fitting: no wall, and no back of a seat (fraction of that side)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "high", "wide", "overhang", "near")
+        require_positive(self, "high", "bin", "slender", "wide", "overhang", "near")
         require_ratios(self, "plan", "thick", "hollow", "floor", "walls", "wall", "alike", "small")
 
 
@@ -117,7 +121,8 @@ def _lids(
     """
     whole = Box.enclosing(mesh.box for mesh in meshes.values())
     fitting = {p.id for p in parts if p.label is PartLabel.HANDLE or _is_small(meshes[p.id].box, whole, config)}
-    if whole.size[_UP] > config.high or whole.size[:_UP].max() > config.wide:
+    is_slim = bool(whole.size[_UP] >= config.slender * whole.size[:_UP].max())
+    if whole.size[_UP] > (config.bin if is_slim else config.high) or whole.size[:_UP].max() > config.wide:
         return [], set()
     plates = [p for p in parts if p.id not in fitting and _is_plate(p, meshes[p.id].box, whole, config)]
     if not plates:
@@ -170,6 +175,8 @@ def _is_box(body: Sequence[Part], meshes: dict[str, TriangleMesh], lid: Box, con
     if not _is_walled(mesh, box, config):
         return False
     alone = any(_is_walled(meshes[part.id], box, config) for part in body)
+    if float(lid.high[_UP] - box.low[_UP]) > config.high:
+        return alone
     return alone or _is_walled_alike([meshes[part.id].box for part in body], box, config)
 
 

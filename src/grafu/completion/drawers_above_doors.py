@@ -10,7 +10,7 @@ import numpy as np
 
 from grafu.asset.part import Asset
 from grafu.completion.lone_fronts import is_alone
-from grafu.completion.thick_doors import as_drawers
+from grafu.completion.thick_doors import as_drawers, bare_doors
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
@@ -75,7 +75,7 @@ def with_drawers_above_doors(
 def _guessed(completion: GraphCompletion, asset: Asset, config: DrawerAboveConfig) -> list[Hinge]:
     """Returns the hinges of fronts that are only guessed to be doors, and may be drawers."""
     graph = completion.completed
-    guessed = {d.part for d in completion.decisions if d.question == "label" and d.choice == PartLabel.DOOR}
+    guessed = bare_doors(completion)
     given = {part.id for part in asset.parts}
     return [
         hinge

@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.completion.guessed_shapes import shape_against
+from grafu.completion.lids_above import lid_on
 from grafu.completion.twins import static_twin
 from grafu.completion.wall_panels import wall_behind
 from grafu.dataclass import dataclass
@@ -121,9 +122,12 @@ def static_guesses(
     graph = completion.completed
     guesses = [(d, graph.node(d.part)) for d in guessed_to_move(completion)]
     bounds = {part.id: _Bounds.of(part) for part in asset.parts} if guesses else {}
+    touch = config.touch * float(asset.box.size.max())
     for guess, node in guesses:
         taken, held = taken_for(guess), _is_held(node, completion)
-        if not held and (carried := _carried(node, completion, bounds, asset.box, config)):
+        if not held and (
+            carried := _carried(node, completion, bounds, asset.box, config) or lid_on(node, completion, touch)
+        ):
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but {carried} stands on it and on nothing else")
         elif not held and _stands_on_legs(node, completion, asset.box, config):
             yield Refusal(node.id, Reason.CARRIES, f"{taken}, but legs carry it")
@@ -131,7 +135,7 @@ def static_guesses(
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but it would slide away from {front}, which closes it")
         elif not held and (wall := _wall_of_door(node, asset, graph)):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but it lies on {wall}, a wall with nothing behind it")
-        elif not held and (twin := static_twin(guess, completion, config.touch * float(asset.box.size.max()))):
+        elif not held and (twin := static_twin(guess, completion, touch)):
             yield Refusal(node.id, Reason.UNLIKELY, f"{taken}, but {twin} on the other side is like it, and is none")
         elif (not held and (why := _unlikely(node, guess, completion, config))) or (
             why := shape_against(node, asset, graph, held)

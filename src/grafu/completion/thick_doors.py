@@ -44,7 +44,7 @@ def with_thick_doors(
     They slide out to the front. What the input labels as a door stays one.
     """
     graph = completion.completed
-    guessed = {d.part for d in completion.decisions if d.question == "label" and d.choice == PartLabel.DOOR}
+    guessed = bare_doors(completion)
     doors = [
         hinge
         for hinge in graph.hinges
@@ -56,6 +56,12 @@ def with_thick_doors(
     return as_drawers(completion, doors) if doors else completion
 
 
+def bare_doors(completion: GraphCompletion) -> set[str]:
+    """Returns the guessed doors on which no other hangs: no hinge is on a drawer."""
+    guessed = {d.part for d in completion.decisions if d.question == "label" and d.choice == PartLabel.DOOR}
+    return guessed - {edge.parent for edge in completion.completed.motions}
+
+
 def _reaches_back(door: str, graph: FunctionalGraph, config: ThickDoorConfig) -> bool:
     box, depth = graph.node(door).box, float(graph.box.size[_DEPTH])
     is_in_front = box.low[_DEPTH] - graph.box.low[_DEPTH] <= config.before * depth
@@ -63,7 +69,7 @@ def _reaches_back(door: str, graph: FunctionalGraph, config: ThickDoorConfig) ->
 
 
 def as_drawers(completion: GraphCompletion, doors: Sequence[Hinge]) -> GraphCompletion:
-    """Returns the completion in which doors are drawers that slide out to the front."""
+    """Returns the completion in which doors (of `bare_doors`) are drawers that slide out to the front."""
     rails = [Rail(hinge.parent, hinge.child, _FRONT) for hinge in doors]
     drawers = {rail.child for rail in rails}
     graph = relabelled(completion.completed, dict.fromkeys(drawers, PartLabel.DRAWER))

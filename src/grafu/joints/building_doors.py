@@ -239,10 +239,11 @@ def _request(
         k for k, other in enumerate(leaves) if abs(other.box.center[_WIDTH] - leaf.box.center[_WIDTH]) <= config.touch
     ]
     side = hinged_side(leaf, leaves, [part for k in above for part in door.on_leaf[k]], config)
-    return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, frame, on_it, config))
+    whole = Box.enclosing(part.box for part in (frame, *door.inner_frames))  # the casing before it is part of it
+    return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, whole, on_it, config))
 
 
-def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: BuildingDoorConfig) -> bool:
+def _opens_backwards(leaf: Part, frame: Box, on_it: Sequence[Part], config: BuildingDoorConfig) -> bool:
     """Whether a leaf opens away from the viewer: to the face of the frame that it is nearer to.
 
     In the middle of its frame it opens to the viewer, unless what it is grasped by is on the viewer's side alone: that

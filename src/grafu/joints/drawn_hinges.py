@@ -264,11 +264,14 @@ def _as_barrel(shell: TriangleMesh, part: str, frame: BorderFrame, config: Drawn
 
 
 def _lies_on_rim(points: Float[np.ndarray, "n 2"], radius: float, config: DrawnConfig) -> bool:
-    """Whether points around a pin lie on a rim, but for those of caps, and for those of a bore or a pin within it."""
+    """Whether points around a pin lie on a rim, but for those of caps, and for those of a bore or a pin within it.
+
+    What lies beyond the rim is of neither: the posts of a bar handle have corners there.
+    """
     off = np.hypot(*points.T)
     off, near = off[off > (1 - config.round) * radius], (1 - config.round) * radius
     on_rim = np.abs(off - radius) <= near
-    inner = off[~on_rim]
+    inner = off[~on_rim & (off < radius)]
     in_bore = np.count_nonzero(np.abs(inner - median(inner)) <= near) if len(inner) else 0
     found = int(np.count_nonzero(on_rim))
     return bool(found >= config.corners and found + in_bore >= config.round * len(off))

@@ -9,6 +9,7 @@ import numpy as np
 from grafu.asset.part import Asset, Part
 from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
+from grafu.geometry.box import Box
 from grafu.graph.edges import Hinge
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
@@ -78,13 +79,13 @@ def _sets_off(axis: Axis, side: Side) -> float:
     return float(np.cross(axis.direction, -DIRECTIONS[side])[_DEPTH])
 
 
-def nearer_to_back(leaf: Part, frame: Part, flush: float) -> bool | None:
+def nearer_to_back(leaf: Part, frame: Box, flush: float) -> bool | None:
     """Whether a leaf is nearer to the back face of its frame than to the front; None where it is in the middle.
 
     It is in the middle where the two gaps differ by at most the fraction `flush` of the frame's depth.
     """
-    before = float(leaf.box.low[_DEPTH] - frame.box.low[_DEPTH])
-    behind = float(frame.box.high[_DEPTH] - leaf.box.high[_DEPTH])
-    if abs(before - behind) <= flush * float(frame.box.size[_DEPTH]):
+    before = float(leaf.box.low[_DEPTH] - frame.low[_DEPTH])
+    behind = float(frame.high[_DEPTH] - leaf.box.high[_DEPTH])
+    if abs(before - behind) <= flush * float(frame.size[_DEPTH]):
         return None
     return before > behind

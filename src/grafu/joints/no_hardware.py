@@ -10,6 +10,7 @@ from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
 from grafu.geometry.transform import from_rotation, transform_points
+from grafu.joints.framed_leaves import SOURCE as BY_SHAPE
 from grafu.joints.gaps import gap_growth
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.limits import PoseFunction
@@ -60,9 +61,10 @@ def door_without_hardware(search: DoorSearch) -> Placement | None:
 def _about(axis: Axis, search: DoorSearch) -> Placement | None:
     upper = search.widest(axis, search.most)
     in_way = search.bodies_in_the_way(axis, upper)
-    if in_way or upper < search.config.restricted * search.wanted:
+    waits = search.request.source == BY_SHAPE  # what shape tells to move waits for what lies over it
+    if (in_way and not waits) or upper < search.config.restricted * search.wanted:
         return None
-    return _joint(search, axis, axis.rotation, upper, ())
+    return _joint(search, axis, axis.rotation, upper, in_way)
 
 
 def support_without_hardware(search: DoorSearch) -> Placement | None:

@@ -1,8 +1,8 @@
 """Which joint must be open before which: a drawer behind a door, a door under another's overlap. It builds no hardware.
 
-A joint that runs into a closed neighbour waits for it, if the neighbour, open, does not block it and does not itself
-wait; else its opening ends where the neighbour begins, and the report states it. Beyond a quarter turn a door opens
-only as far as it blocks no open neighbour, unless a wider opening was chosen.
+A joint that runs into a closed neighbour waits for it, if the neighbour, open, lets it open far enough and does not
+itself wait; else its opening ends where the neighbour begins, and the report states it. Beyond a quarter turn a door
+opens only as far as it blocks no open neighbour, unless a wider opening was chosen.
 """
 
 from collections.abc import Mapping, Sequence
@@ -60,12 +60,10 @@ def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: Realization
         for name in joint.in_way:
             other = by_id.get(name)
             waits_for_us = joint.moving in all_before(name, waits)
-            if (
-                other is not None
-                and not waits_for_us
-                and _is_free_of(joint, joint.upper, _open(other, other.upper, scene), scene, config)
-            ):
+            beyond = 0.0 if other is None or waits_for_us else _beside_open(joint, other, scene, config)
+            if beyond >= config.restricted * joint.upper:
                 after.append(name)
+                upper = min(upper, beyond)
             else:
                 upper = min(upper, _until(joint, scene.moving_mesh(name), scene, config))
         waits[joint.moving] = set(after)
@@ -138,6 +136,15 @@ def _body(joint: BuiltJoint, scene: Scene, config: RealizationConfig) -> SweptBo
 
 def _is_free_of(joint: BuiltJoint, upper: float, obstacle: Obstacle, scene: Scene, config: RealizationConfig) -> bool:
     return is_free(_body(joint, scene, config), joint.motion, upper, [obstacle], config.coarse_poses)
+
+
+def _beside_open(joint: BuiltJoint, other: BuiltJoint, scene: Scene, config: RealizationConfig) -> float:
+    """Returns how far a moving body opens before it meets a neighbour that stands open: a seat, against its lid."""
+    obstacle = _open(other, other.upper, scene)
+    if _is_free_of(joint, joint.upper, obstacle, scene, config):
+        return joint.upper
+    free = sweep(_body(joint, scene, config), joint.motion, joint.upper, [obstacle], config.fine_poses).free
+    return max(free - config.short * joint.upper, 0.0)
 
 
 def _until(joint: BuiltJoint, mesh: TriangleMesh, scene: Scene, config: RealizationConfig) -> float:

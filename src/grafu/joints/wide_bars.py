@@ -44,12 +44,17 @@ class WideBarConfig:
     """How far it stands out of the door at least (metres): a profile on an edge is on side-hung doors, too."""
     edge: float = 0.3
     """It lies in this upper or lower part of the door (fraction of its height)."""
+    tall: float = 1.5
+    """Where one of them is higher than this (ratio of height to width) all stay: doors of refrigerators have such bars
+    where they meet ..."""
+    meets: float = 0.05
+    """... with gaps up to this between them (fraction of their width)."""
     upright: float = 0.9
     """From this cosine on to the vertical an axis is upright."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "out")
-        require_ratios(self, "alone", "wide", "slim", "edge", "upright")
+        require_positive(self, "out", "tall")
+        require_ratios(self, "alone", "wide", "slim", "edge", "meets", "upright")
 
 
 def with_wide_bars(
@@ -57,25 +62,64 @@ def with_wide_bars(
 ) -> RealizationPlan:
     """Returns the plan in which predicted side-hung doors with a bar across turn about the border away from the bar.
 
-    `settled` are the parts whose motions the user states.
+    High ones do not, nor do any where one is high; what meets that one bar to bar hangs as it does. `settled` are the
+    parts whose motions the user states.
     """
     config = at_scale(config, metre_on(asset.extent))
-    joints = tuple(r if r.moving in settled else _turned(r, asset, config) for r in plan.joints)
-    return replace(plan, joints=joints)
+    found = {r.moving: side for r in plan.joints if (side := _pulled_to(r, asset, config)) is not None}
+    tall = [r for r in plan.joints if r.moving in found and _is_tall(asset.part(r.moving).box, config)]
+    if tall:
+        beside = (r if r.moving in settled else _as_above(r, tall[0], asset, config) for r in plan.joints)
+        return replace(plan, joints=tuple(beside))
+    joints = (_turned(r, found[r.moving], asset) if r.moving in found.keys() - set(settled) else r for r in plan.joints)
+    return replace(plan, joints=tuple(joints))
 
 
-def _turned(request: JointRequest, asset: Asset, config: WideBarConfig) -> JointRequest:
+def _as_above(request: JointRequest, tall: JointRequest, asset: Asset, config: WideBarConfig) -> JointRequest:
+    """Returns the request of a door that drops or lifts on the side on which a high one hangs that it meets.
+
+    It is right below or above that, as wide, and both have their bars where they meet.
+    """
+    door, high = asset.part(request.moving), asset.part(tall.moving)
+    is_level = abs(float(request.axis.direction[_UP])) < config.upright
+    if not request.kind.turns or not is_level or door.box.thin_axis != high.box.thin_axis or request.parent:
+        return request
+    across = 1 - high.box.thin_axis
+    off = config.meets * float(high.box.size[across])
+    ends = np.abs([door.box.low[across] - high.box.low[across], door.box.high[across] - high.box.high[across]])
+    above, below = (high, door) if high.box.center[_UP] > door.box.center[_UP] else (door, high)
+    gap = abs(float(above.box.low[_UP] - below.box.high[_UP]))
+    sides = {
+        part.id: {_side(p.box, part, config) for p in asset.parts if _is_handle(p, r)} - {None}
+        for part, r in ((door, request), (high, tall))
+    }
+    meet = sides[above.id] == {Side.TOP} and sides[below.id] == {Side.BOTTOM}
+    if max(*ends, gap) > off or not meet:
+        return request
+    axis = tall.axis
+    place = np.array([axis.point[0], axis.point[1], door.box.center[_UP]])
+    return replace(request, axis=replace(axis, point=place), source=SOURCE)
+
+
+def _is_tall(door: Box, config: WideBarConfig) -> bool:
+    return float(door.size[_UP]) >= config.tall * float(door.size[1 - door.thin_axis])
+
+
+def _turned(request: JointRequest, side: Side, asset: Asset) -> JointRequest:
+    choice = MotionChoice(Moves.TURNS, side)
+    return replace(request, axis=axis_of_motion(asset.part(request.moving), choice, asset.box), source=SOURCE)
+
+
+def _pulled_to(request: JointRequest, asset: Asset, config: WideBarConfig) -> Side | None:
+    """Returns the border about which a side-hung door turns that has a bar across it, else None."""
     is_upright = abs(float(request.axis.direction[_UP])) >= config.upright
     if not (request.kind.turns and is_upright) or request.parent or request.coupling is not None:
-        return request
+        return None
     door = asset.part(request.moving)
     if float(door.box.size[:_UP].max()) < config.alone * float(asset.box.size[int(np.argmax(door.box.size[:_UP]))]):
-        return request
+        return None
     sides = {_side(part.box, door, config) for part in asset.parts if _is_handle(part, request)} - {None}
-    if len(sides) != 1:
-        return request
-    choice = MotionChoice(Moves.TURNS, sides.pop())
-    return replace(request, axis=axis_of_motion(door, choice, asset.box), source=SOURCE)
+    return sides.pop() if len(sides) == 1 else None
 
 
 def _is_handle(part: Part, request: JointRequest) -> bool:

@@ -243,7 +243,7 @@ def _opens_backwards(leaf: Part, frame: Part, on_it: Sequence[Part], config: Win
 
     In the middle of its frame it opens to the side of its handle, and without one to the viewer.
     """
-    at_back = nearer_to_back(leaf, frame, config.flush)
+    at_back = nearer_to_back(leaf, frame.box, config.flush)
     if at_back is not None:
         return at_back
     low, high = leaf.box.low[_DEPTH], leaf.box.high[_DEPTH]

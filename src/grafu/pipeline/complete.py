@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grafu.asset.part import Asset
+from grafu.completion.control_panels import with_panels_of_controls
 from grafu.completion.controls import without_controls
 from grafu.completion.copied_bars import with_copied_bars
 from grafu.completion.drawers_above_doors import with_drawers_above_doors
@@ -60,8 +61,8 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     or below it (`with_drawers_above_doors`); what is only guessed to be a drawer, and can be none, is a door
     (`with_lone_fronts`), as below a panel with knobs (`with_oven_doors`) or where it leans (`with_leaning_fronts`); a
     front with a window and a bar along its upper edge drops (`with_window_doors`); what is only guessed to be a door or
-    drawer stays static where it cannot be one
-    (`with_static_guesses`). A shelf that is a board is fixed (`with_fixed_shelves`), and knobs of appliances are
+    drawer stays static where it cannot be one (`with_static_guesses`), as a panel with buttons beside a door
+    (`with_panels_of_controls`). A shelf that is a board is fixed (`with_fixed_shelves`), and knobs of appliances are
     controls (`without_controls`).
 
     Raises:
@@ -77,7 +78,7 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     predicted = with_lone_fronts(with_drawers_above_doors(drawn, asset), asset)
     ovens = with_oven_doors(with_fixed_shelves(with_leaning_fronts(predicted, asset), asset))
     moved = with_window_doors(_shaped(ovens, asset), asset)
-    found = without_controls(with_static_guesses(moved, asset), asset)
+    found = without_controls(with_static_guesses(with_panels_of_controls(moved, asset), asset), asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
         replace(node, points=None, source_name=names.get(node.id, node.source_name)) for node in found.completed.nodes

@@ -11,6 +11,7 @@ from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import at_scale
 from grafu.graph.edit import without_nodes
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.joints.box_flaps import with_box_flaps, with_flap_labels
 from grafu.joints.boxes_behind import with_boxes_behind
 from grafu.joints.building_doors import building_door, with_building_doors, with_door_labels
 from grafu.joints.config import RealizationConfig, SmallPartConfig
@@ -29,6 +30,7 @@ from grafu.joints.portholes import with_porthole_labels
 from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
 from grafu.joints.raised_leaves import with_raised_leaves
+from grafu.joints.ring_seats import with_seat_labels, with_seat_pair
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.joints.swivel_mirrors import swivel_mirrors
@@ -53,11 +55,12 @@ class WantedSmallParts:
 
 
 def with_labels_by_shape(asset: Asset) -> Asset:
-    """Returns the asset in which the leaves of a building's door or window, and a round door, have these labels.
+    """Returns the asset in which the leaves of a building's door or window, a round door, flaps and seats are doors.
 
     What holds drawers that all parts are called has none.
     """
-    return with_porthole_labels(with_window_labels(with_door_labels(with_lone_labels(with_case_label(asset)))))
+    doors = with_door_labels(with_lone_labels(with_case_label(asset)))
+    return with_seat_labels(with_flap_labels(with_porthole_labels(with_window_labels(doors))))
 
 
 def shown_by_shape(
@@ -77,6 +80,7 @@ def shown_by_shape(
     plan = with_sliding_doors(with_drawn_hinges(plan, asset, joints), asset)
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_wide_bars(with_boxes_behind(plan, asset, settled), asset, settled)
+    plan = with_box_flaps(with_seat_pair(plan, asset, settled), asset, settled)
     plan = with_hung_parts(plan, asset, settled)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
     plan = with_raised_leaves(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset)
