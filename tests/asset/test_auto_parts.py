@@ -198,6 +198,24 @@ def test_high_fronts_of_appliances_are_doors_and_low_ones_are_left_open(part, mo
     assert labels[tuple(np.round(low, 4))] is PartLabel.UNKNOWN
 
 
+@pytest.mark.parametrize(("name", "is_cut"), [("roundDoorFrame", False), ("doorway_2", False), ("door_cabinet", True)])
+def test_in_the_frame_of_a_door_there_are_no_fronts(name, is_cut):
+    reading = Reading("mesh file", (welded(name="Object_7"),), Convention("test"))
+    assert (len(cut_where_fronts_appear(reading, IDENTITY_FRAME, name).parts) > 1) is is_cut
+
+
+@pytest.mark.parametrize(
+    ("body", "by", "is_cut"), [("oven", "name", False), ("oven", "none", True), ("case", "name", True)]
+)
+def test_an_appliance_that_has_its_door_as_an_object_hides_no_more_fronts(body, by, is_cut):
+    """What else looks like fronts on it are panels of knobs."""
+    away = trimesh.transformations.translation_matrix((5.0, 0.0, 0.0))
+    leaf = welded((FRONTS[0],), PartLabel.DOOR if by == "name" else PartLabel.UNKNOWN, "leaf")
+    leaf = replace(leaf, labelled_by=by, surfaces=tuple(s.transformed(away) for s in leaf.surfaces))
+    found = cut(welded(name=body), leaf).parts
+    assert (len(found) > 2) is is_cut
+
+
 def test_handles_of_fronts_that_were_cut_are_split_between_them(tmp_path):
     """One mesh holds both handles, another the case with its fronts."""
     rest = [mesh_of(name) for name in CABINET if not name.startswith("handle")]

@@ -1,11 +1,17 @@
 """A window without names stands, also where the usual direction of its format would lay it on its face."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
+import trimesh
 
 from grafu.asset.frame import settle_frame, whole_box
 from grafu.asset.lying_windows import LyingWindowConfig, lies_as_a_window
 from grafu.asset.options import LoadOptions
 from grafu.asset.reading import Convention, Reading
+from grafu.geometry.appearance import Surface
+from grafu.geometry.mesh import TriangleMesh
 from small_scenes import box
 
 OBJ = Convention("OBJ", usual_up="+Y")
@@ -45,6 +51,22 @@ def test_a_window_in_a_file_that_has_z_up_stands():
 def test_only_a_usual_direction_gives_way():
     stated = Convention("glTF", up="+Y", front="+Z")
     assert "a window that" not in settle_frame(Reading("glb", WINDOW, stated), LoadOptions()).assumed[0]
+
+
+def disc(name, radius, inner, depth):
+    """A disc that faces -Y, with a round hole in it where its inner radius is above 0."""
+    made = trimesh.creation.annulus(inner, radius, depth) if inner else trimesh.creation.cylinder(radius, depth)
+    made.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0)))
+    made.apply_translation((0.0, 0.0, radius))
+    return replace(box(name, (0, 0, 0), (1, 1, 1)), surfaces=(Surface(TriangleMesh.from_trimesh(made)),))
+
+
+def test_a_round_window_rests_on_little_and_stands_all_the_same():
+    frame, pane = disc("ring", 0.45, 0.43, 0.15), replace(disc("pane", 0.44, 0.0, 0.01))
+    stated = Convention("made", usual_up="+Z")
+    assert settle_frame(Reading("mesh file", (frame, pane), stated), LoadOptions()).up == "+Z"
+    stool = (disc("seat", 0.45, 0.0, 0.15),)
+    assert settle_frame(Reading("mesh file", stool, stated), LoadOptions()).up != "+Z"
 
 
 @pytest.mark.parametrize(

@@ -104,6 +104,13 @@ def test_sweet_home_names_give_joints(tmp_path):
     assert any("kept in place" in note for note in asset.notes)
 
 
+@pytest.mark.parametrize(("pane", "unit"), [("sweethome3d_window_pane", 0.01), ("window_pane", None)])
+def test_a_fixed_window_of_sweet_home_has_panes_alone_and_its_unit(tmp_path, pane, unit):
+    asset = load_asset(write_grouped_obj(tmp_path / "c.obj", 100 * Y_UP, {"shelf-6": pane}))
+    assert ("Sweet Home" in asset.frame.assumed[2]) is (unit is not None)
+    assert asset.joints == ()
+
+
 @pytest.mark.parametrize(
     ("name", "material", "label"),
     [

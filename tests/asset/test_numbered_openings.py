@@ -39,11 +39,19 @@ PREFIX = "sweethome3d_opening_on_hinge_1"
             {f"{PREFIX}_door": ("door", 1, None), "sweethome3d_opening_on_hinge_2_door": ("door", 1, None)},
         ),
         (
+            ("sweethome3d_opening_on_rail_1", "sweethome3d_window_pane_on_rail_1"),
+            {"sweethome3d_opening_on_rail_1_door": ("door", 2, None)},
+        ),
+        (
+            ("sweethome3d_opening_on_rail_1", "sweethome3d_opening_on_rail_1_edge"),
+            {"sweethome3d_opening_on_rail_1": ("misc", 2, None)},
+        ),
+        (
             ("sweethome3d_opening_on_rail_1_drawer", "sweethome3d_opening_on_rail_1_edge"),
             {"sweethome3d_opening_on_rail_1_drawer": ("drawer", 2, None)},
         ),
     ],
-    ids=["two faces", "by their sides", "two leaves", "a drawer"],
+    ids=["two faces", "by their sides", "two leaves", "a sash", "a box", "a drawer"],
 )
 def test_one_number_is_one_leaf(names, expected):
     assert parts(*names) == expected

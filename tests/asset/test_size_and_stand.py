@@ -13,8 +13,13 @@ from small_scenes import box
 
 @pytest.mark.parametrize(
     ("size", "unit"),
-    [((100.0, 17.0, 212.0), "centimetres"), ((60.0, 14.0, 70.0), "centimetres"), ((36.0, 18.0, 40.0), "inches")],
-    ids=["door in its frame", "wall cabinet", "sideboard"],
+    [
+        ((100.0, 17.0, 212.0), "centimetres"),
+        ((60.0, 14.0, 70.0), "centimetres"),
+        ((36.0, 18.0, 40.0), "inches"),
+        ((390.0, 26.0, 220.0), "centimetres"),
+    ],
+    ids=["door in its frame", "wall cabinet", "sideboard", "door of a garage"],
 )
 def test_how_deep_something_shallow_is_does_not_tell_its_unit(size, unit):
     """Depth tells the unit of what stands on a floor; a door or a cabinet on a wall is less deep than furniture is."""
@@ -22,6 +27,11 @@ def test_how_deep_something_shallow_is_does_not_tell_its_unit(size, unit):
     estimate = estimate_scale(parts, Box.enclosing(part.box for part in parts), 2, None)
 
     assert likely_unit(max(size), estimate)[0] == unit
+
+
+def test_what_is_deep_keeps_the_unit_that_its_depth_tells():
+    parts = (box("object_1", (0.0, 0.0, 0.0), (390.0, 120.0, 220.0)),)
+    assert likely_unit(390.0, estimate_scale(parts, parts[0].box, 2, None)) is None
 
 
 def test_hidden_names_do_not_tell_how_a_piece_stands_before_it_is_cut(tmp_path, monkeypatch):

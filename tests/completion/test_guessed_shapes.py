@@ -97,6 +97,18 @@ def test_a_mattress_under_its_blanket_is_no_drawer(length, is_held, said):
     assert told == ("" if not said else "it is longer than drawers are")
 
 
+@pytest.mark.parametrize(
+    ("width", "height", "is_held", "said"),
+    [(0.05, 0.2, False, True), (0.05, 0.2, True, False), (0.05, 0.06, False, False), (0.12, 0.2, False, False)],
+    ids=["a book", "with a handle", "a low one", "a wide one"],
+)
+def test_a_book_in_a_case_is_no_drawer(width, height, is_held, said):
+    books = [box(f"book_{k}", (0.03 + k, 0.1, 0.1), (0.02 + k + width, 0.35, 0.1 + height)) for k in (0.2, 0.4)]
+    guess = tray("guess", (0.25, 0.1, 0.1), (0.25 + width, 0.35, 0.1 + height))
+    told = why([*BASE_CASE, *books, guess], is_held=is_held)
+    assert (told == "it is as narrow and high as a book") is said
+
+
 def test_the_frame_of_a_table_is_no_drawer():
     assert "no bottom" in why([TOP, *LEGS, ring("guess", (-0.06, -0.08, 0.7), (0.66, 0.6, 0.82))])
     assert "no bottom" in why([TOP, *LEGS, ring("guess", (-0.06, -0.08, 0.7), (0.66, 0.6, 0.82))], is_held=True)

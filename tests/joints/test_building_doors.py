@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import trimesh
 
@@ -191,13 +192,29 @@ def test_the_user_may_fix_a_leaf():
     assert functionalize(asset, MotionSource.NETWORK, builtin_gallery(), config).object.joints == ()
 
 
-def test_a_leaf_that_is_drawn_open_across_its_frame_stays_and_the_report_states_why():
-    """Its name states a door; which of its edges it turns about cannot be seen from its box."""
-    ajar = leaf(y=(-0.02, 0.02), x=(0.0, 0.8), name="door")
-    turn = trimesh.transformations.rotation_matrix(-0.82, (0, 0, 1), (0.0, 0.0, 0.0))
-    mesh = ajar.mesh.vertices @ turn[:3, :3].T + (0.06, -0.02, 0.0)
-    ajar = replace(ajar, surfaces=(Surface(TriangleMesh(mesh, ajar.mesh.faces)),))
-    made = built(frame(), ajar)
+def standing_open(angle, x):
+    """A leaf that is turned out of its frame about a corner, radians, and then moved so far from the left jamb."""
+    panel = leaf(y=(-0.02, 0.02), x=(0.0, 0.794), name="door")
+    turn = trimesh.transformations.rotation_matrix(-angle, (0, 0, 1), (0.0, -0.02, 0.0))
+    mesh = panel.mesh.vertices @ turn[:3, :3].T + turn[:3, 3] + (x, -0.04, 0.0)
+    return replace(panel, surfaces=(Surface(TriangleMesh(mesh, panel.mesh.faces)),))
+
+
+@pytest.mark.parametrize("angle", [0.82, 1.3, 1.55])
+def test_a_leaf_that_is_drawn_open_across_its_frame_closes_about_the_edge_about_which_it_fits(angle):
+    made = built(frame(), standing_open(angle, 0.053))
+    (joint,) = made.object.joints
+    closed = next(v for v in made.object.link("door").visuals if v.name == "door").mesh.box
+    assert np.allclose(closed.low[:2], (0.053, -0.06), atol=0.004)
+    assert np.allclose(closed.high[:2], (0.847, -0.02), atol=0.004)
+    assert joint.limits.upper > 1.5
+    assert joint.axis.direction[2] < -0.9
+    assert joint.axis.point[0] < 0.1
+    assert not swept_collisions(made.object, joint, 12)
+
+
+def test_a_leaf_across_its_frame_that_fits_into_it_about_no_edge_stays_and_the_report_states_why():
+    made = built(frame(), standing_open(0.82, 0.3))
     assert made.object.joints == ()
     (line,) = [line for line in report_of(made).verdict.lines if line.part == "door"]
     assert "drawn open" in line.why
@@ -214,3 +231,14 @@ def test_a_casing_before_the_frame_is_part_of_it(y, towards):
     casing = replace(bars[0], surfaces=tuple(surface for bar in bars for surface in bar.surfaces))
     (joint,) = built(frame(), casing, leaf(y), knob(0.79, (y[0] - 0.04, y[0]))).object.joints
     assert joint.axis.direction[2] == pytest.approx(towards)
+
+
+@pytest.mark.parametrize(("width", "lifts"), [(2.4, True), (1.3, False)])
+@pytest.mark.parametrize("y", [(-0.06, -0.02), (0.02, 0.06)])
+def test_a_leaf_that_is_too_wide_for_side_hinges_lifts_as_that_of_a_garage(width, lifts, y):
+    made = built(frame(width=width), leaf(y, (0.053, width - 0.053)))
+    (joint,) = made.object.joints
+    assert bool(abs(joint.axis.direction[0]) > 0.9) is lifts
+    assert bool(joint.axis.point[2] > 1.9) is lifts
+    assert joint.limits.upper > 1.5
+    assert not swept_collisions(made.object, joint, 12)

@@ -13,6 +13,7 @@ from grafu.joints.building_doors import BuildingDoorConfig
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.config import BlockConfig, RealizationConfig, TimeConfig
+from grafu.joints.drawn_across import DrawnAcrossConfig
 from grafu.joints.drawn_arm_config import DrawnArmConfig
 from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.drop_leaves import DropLeafConfig
@@ -62,7 +63,7 @@ KEPT = "how much of what was worked out is kept: less costs time and changes no 
 CHOICE = "the range of what a user may choose"
 
 REASONS = {
-    "framed_leaves.py": {"_DEPTH": NUMBERING},
+    "framed_leaves.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING},
     "gaps.py": {"_POSES": SAMPLES, "_TOUCHING": TOLERANCE},
     "known.py": {"MOST_KNOWN": KEPT},
     "no_hardware.py": {"_DEPTHS": SAMPLES, "_TRAVELS": SAMPLES, "_POSES": SAMPLES, "_RAYS": SAMPLES},
@@ -76,7 +77,7 @@ REASONS = {
     },
     "clearance/behind.py": {"_KEPT": EFFORT, "_STEPS": EFFORT},
     "clearance/sunk.py": {"_SAMPLES": SAMPLES, "_STEPS": EFFORT},
-    "clearance/in_frame.py": {"GAPS": EFFORT},
+    "clearance/in_frame.py": {"GAPS": EFFORT, "WIDE_GAPS": EFFORT},
     "clearance/seam.py": {"_POSES": SAMPLES},
     "clearance/make.py": {"_FINELY": EFFORT, "_STEPS": EFFORT},
     "beside_leaf.py": {"_UP": NUMBERING, "_RAYS": SAMPLES, "_UPRIGHT": NUMBERING},
@@ -93,6 +94,7 @@ REASONS = {
     "clearance/separate.py": {"_SAMPLES": SAMPLES},
     "clearance/trim.py": {"_FIRST_STEP": SAMPLES, "_ON_BACK": TOLERANCE},
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
+    "drawn_across.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING},
     "drawn_arms.py": {"_UP": NUMBERING},
     "drawn_hinges.py": {"_ALONG": EFFORT, "_POINT": TOLERANCE, "_CORNERS": NUMBERING},
     "drop_leaves.py": {"_UP": NUMBERING},
@@ -149,7 +151,8 @@ REASONS = {
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BoxBehindConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig,
     ConcealedConfig,
-    DrawerConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig, FoldConfig,
+    DrawerConfig, DrawnAcrossConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig,
+    FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, HungPartsConfig,
     LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
     BoxFlapConfig, SeatPairConfig,

@@ -178,3 +178,21 @@ def test_where_a_leaf_is_called_a_door_it_turns_and_the_others_stay(sill, called
     made = built(three_leaves(called, sill))
     assert {joint.child for joint in made.object.joints} == turning
     assert all(joint.kind.turns and joint.limits.upper > 1.0 for joint in made.object.joints)
+
+
+@pytest.mark.parametrize("sill", [0.05, 0.0], ids=["window", "door of a building"])
+@pytest.mark.parametrize(("called", "left"), [(("middle", "east"), True), (("west", "middle"), False)])
+def test_a_leaf_without_a_handle_hangs_on_the_leaf_that_stays(sill, called, left):
+    """At its other edge stands the leaf that opens before it."""
+    asset = three_leaves(False, sill)
+    parts = {part.id: part for part in asset.parts if part.id != "pull"}
+    for name in called:
+        whole = (*parts[name].surfaces, *parts.pop(f"pane_{name}").surfaces)
+        parts[name] = replace(parts[name], surfaces=whole, label=PartLabel.DOOR, labelled_by="name")
+    x = 0.34 if left else -0.36
+    made = built(scene(*parts.values(), box("pull", (x, -0.06, 0.9), (x + 0.02, -0.03, 1.05))))
+    hung = {joint.child: joint for joint in made.object.joints}
+    assert set(hung) == set(called)
+    assert bool(hung["middle"].axis.point[0] < 0) is left
+    outer = next(name for name in called if name != "middle")
+    assert abs(float(hung[outer].axis.point[0])) > 0.8

@@ -12,7 +12,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.asset.drawn_cuts import handles_on_plates, with_drawn_fronts
-from grafu.asset.labels import is_appliance, is_bed, is_chest, is_washer, is_whole_part, sense_of
+from grafu.asset.labels import is_appliance, is_bed, is_chest, is_doorway, is_washer, is_whole_part, sense_of
 from grafu.asset.loose import faces_of_part
 from grafu.asset.lying_handles import with_lying_handles
 from grafu.asset.names import unique_ids
@@ -78,11 +78,12 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
         name: that of the model: the front of what is called an oven is a door, unless another part is named door.
         config: which parts may hide fronts.
     """
-    if not reading.parts or is_divided(reading):
+    if not reading.parts or is_divided(reading) or is_doorway(name):
         return reading
     T = turn_of(frame)
     meshes = [part.mesh.transformed(T) for part in reading.parts]
-    open_to = [_may_be_cut(part, config) and part.carried_by is None for part in reading.parts]
+    has_door = any(part.label is PartLabel.DOOR and part.labelled_by == "name" for part in reading.parts)
+    open_to = [_may_be_cut(part, has_door, config) and part.carried_by is None for part in reading.parts]
     whole = [part.label.is_movable for part in reading.parts]
     materials = [_materials(part) for part in reading.parts]
     loose = [part.label in _LYING and part.carried_by is None for part in reading.parts]
@@ -142,12 +143,12 @@ def is_divided(reading: Reading) -> bool:
     return by_hand or (reading.kind in ROBOTS and len({part.source.link for part in reading.parts}) > 1)
 
 
-def _may_be_cut(part: Part, config: CutConfig) -> bool:
+def _may_be_cut(part: Part, has_door: bool, config: CutConfig) -> bool:
     """Whether a part may hide fronts: so may the body of a piece of furniture that is named after that.
 
-    A front that was joined of objects hides none: its handles were objects, too.
+    A front that was joined of objects hides none, its handles were objects, too; nor does an appliance that has a door.
     """
-    if part.label.is_movable and part.labelled_by == "shape":
+    if (part.label.is_movable and part.labelled_by == "shape") or (has_door and is_appliance(part.source.name)):
         return False
     sides = np.sort(part.box.size)
     is_case = part.label is BODY and sense_of(part.source.name).is_container and sides[0] > config.case * sides[1]

@@ -29,6 +29,7 @@ from grafu.vocabulary import PartLabel
 
 # Sweet Home 3D numbers what opens as one: `sweethome3d_opening_on_hinge_1_door`, `sweethome3d_window_pane_on_hinge_1`.
 _OPENING = re.compile(r"^sweethome3d_(?:opening|window_pane)_on_((?:hinge|rail)_\d+)(?:_|$)", re.IGNORECASE)
+_PANE = re.compile(r"^sweethome3d_window_pane_on_", re.IGNORECASE)  # what is glazed is a leaf, also on rails: a sash
 # Where a numbered beginning may end: after `drawer_1` in `drawer_1_front`, after `Door02` in `Door02Panel`.
 _NUMBERED = re.compile(r"\d+(?=[ _.-]*[^\W\d_])")
 
@@ -154,7 +155,8 @@ def _with_openings(drafts: list[PartDraft]) -> list[PartDraft]:
             continue
         called = [i for i in leaves if label_of(drafts[i].name).is_movable]
         hung = f"sweethome3d_opening_on_{opening}_door"  # what turns, and is called by its sides: `in` and `out`
-        name = drafts[called[0]].name if called else hung if opening.startswith("hinge") else drafts[leaves[0]].name
+        is_leaf = opening.startswith("hinge") or any(_PANE.match(drafts[i].name) for i in leaves)
+        name = drafts[called[0]].name if called else hung if is_leaf else drafts[leaves[0]].name
         for i in named:
             out[i] = replace(drafts[i], group=f"opening {opening}", group_name=name)
     return out

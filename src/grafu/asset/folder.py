@@ -27,13 +27,14 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import merge_meshes
 
 CONVENTION = Convention("the names (Sweet Home 3D: centimetres, Y up, front +Z)", up="+Y", front="+Z", unit=0.01)
+_OWN = re.compile(r"^sweethome3d_(?:opening_on|window_pane|window_mirror)", re.IGNORECASE)
 _MOVING = re.compile(r"^sweethome3d_opening_on_(hinge|rail)_(\d+)", re.IGNORECASE)
 _GUIDE = re.compile(r"^sweethome3d_(hinge|rail)_(\d+)", re.IGNORECASE)
 
 
 def is_sweethome(found: MeshFile) -> bool:
-    """Whether any group is named as an opening."""
-    return any(_MOVING.match(piece.name) for piece in found.pieces)
+    """Whether any group is named as an opening or a pane: fixed windows have panes alone."""
+    return any(_OWN.match(piece.name) for piece in found.pieces)
 
 
 def read_sweethome(path: Path, found: MeshFile) -> Reading:

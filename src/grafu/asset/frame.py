@@ -159,7 +159,7 @@ def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice, whole: Box) -> _C
     if reading.convention.up is None and lies_as_a_window(reading.parts, whole, usual.value):
         return _Choice(by_habit, f"it would be a window that lies on its face, {against}")
     other = stands_on_another_side(reading.parts, usual.value, by_habit)
-    if other is not None:
+    if other is not None and not lies_as_a_window(reading.parts, whole, other):  # a round one rests on little
         return _Choice(other, f"what the piece rests on tells, {against}")
     if lies_on_its_front(reading.parts, whole, usual.value, reading.convention.up is not None):
         return _Choice(by_habit, f"it would lie on what shows the most parts, {against}")

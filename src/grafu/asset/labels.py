@@ -10,6 +10,7 @@ a rail, `door_handle` a handle, `opening_on_hinge_1_door` a door. Words that mea
 
 import re
 from functools import lru_cache
+from itertools import pairwise
 from typing import Final, final
 
 from grafu.asset.label_phrases import TABLE
@@ -50,6 +51,7 @@ _CONTAINERS = word_set(
 _OPENING: Final = re.compile(r"^sweethome3d_opening_on_(?:hinge|rail)_\d+_?", re.IGNORECASE)
 _AND = word_set("and or plus")
 _CHESTS = word_set("chest trunk coffer")
+_DOORWAYS = word_set("doorway doorframe jamb architrave")
 _BEDS = word_set("bed cot crib cradle mattress pillow duvet")
 APPLIANCES = word_set("fridge refrigerator freezer oven stove cooker microwave dishwasher washer")
 
@@ -115,6 +117,12 @@ def is_washer(name: str) -> bool:
 def is_bed(name: str) -> bool:
     """Whether the name is that of a bed or of what lies on one: a cot, a mattress, a pillow."""
     return bool({singular(w) for w in spoken(name)} & _BEDS)
+
+
+def is_doorway(name: str) -> bool:
+    """Whether the name is that of the frame around a door, or of a piece of one."""
+    said = [singular(w) for w in spoken(name)]
+    return bool(_DOORWAYS & {*said}) or ("door", "frame") in pairwise(said)
 
 
 def is_appliance(name: str) -> bool:

@@ -5,12 +5,11 @@ estimate is their weighted mean on a logarithmic scale, so scaling the input sca
 """
 
 import math
-from itertools import pairwise
 from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.names import singular, spoken
+from grafu.asset.labels import is_doorway
 from grafu.asset.part import Part
 from grafu.asset.reading import Furniture
 from grafu.dataclass import dataclass
@@ -71,7 +70,7 @@ _USUAL: Final[dict[Furniture, dict[str, UsualSize]]] = {
 UNITS: Final = {"metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "inches": 0.0254}
 _RARE: Final = ("inches",)
 _OF_FRONTS: Final = frozenset(("door width", "door height", "drawer width", "drawer height", "handle length"))
-_DOORWAYS: Final = frozenset(("doorway", "doorframe", "jamb", "architrave"))
+_FLAT: Final = frozenset(("height", "width"))
 _PANELS = (PartLabel.SIDE_PANEL, PartLabel.TOP_PANEL, PartLabel.BOTTOM_PANEL, PartLabel.SHELF, PartLabel.DIVIDER)
 
 
@@ -86,6 +85,8 @@ class ScaleConfig:
 
     spread: float = 2.5
     """Largest factor between a unit in common use and the estimate (ratio)."""
+    flat: float = 3.5
+    """The same where width and height alone tell, as of what is flat: a frame in a wall has no usual width."""
     rare: float = 1.35
     """By how much farther from the estimate a usual unit may be than a rare one, inches (ratio)."""
     smallest: float = 0.1
@@ -178,7 +179,8 @@ def likely_unit(size: float, estimate: Estimate, config: ScaleConfig = ScaleConf
     """
     best = min(UNITS, key=lambda name: config.distance(name, estimate.scale))
     unit = UNITS[best]
-    is_near = abs(math.log(unit / estimate.scale)) < math.log(config.spread)
+    most = config.flat if _FLAT.issuperset(estimate.measures) else config.spread
+    is_near = abs(math.log(unit / estimate.scale)) < math.log(most)
     return (best, unit) if is_near and config.smallest <= size * unit <= config.largest else None
 
 
@@ -214,8 +216,7 @@ def _is_doorway(parts: tuple[Part, ...], whole: Box, up: int, config: ScaleConfi
     depth, width = np.sort(np.delete(whole.size, up))
     if depth > config.doorway * width or width > whole.size[up]:
         return False
-    names = [tuple(singular(word) for word in spoken(p.source.name)) for p in parts]
-    return any(_DOORWAYS & set(name) or ("door", "frame") in pairwise(name) for name in names)
+    return any(is_doorway(part.source.name) for part in parts)
 
 
 def _longest_shell(handle: Part) -> float:

@@ -35,7 +35,7 @@ class GuessedShapeConfig:
     """Which shapes no door and no drawer has.
 
     Raises:
-        ValueError: if a fraction is not between 0 and 1, or `longest` not above 0.
+        ValueError: if a fraction is not between 0 and 1, or another number not above 0.
     """
 
     straight: float = 0.9
@@ -75,12 +75,17 @@ class GuessedShapeConfig:
     """... as much of its height (fraction): a board of it is no door."""
     longest: float = 1.2
     """No drawer is longer than this in the direction in which it slides (metres): a mattress under its blanket is."""
+    book: float = 0.09
+    """What is no wider than this (metres) ..."""
+    upright: float = 1.5
+    """... and as high as this over its width at least (ratio) is a book or a file: such pull-outs have handles."""
     board: float = 0.1
     """A drawer may be a mere board that is at most so thick (fraction of the shorter of its level sides)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "longest")
-        require_ratios(self, *(name for name in self.__dataclass_fields__ if name != "longest"))
+        lengths = ("longest", "book", "upright")
+        require_positive(self, *lengths)
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name not in lengths))
 
 
 def shape_against(
@@ -159,6 +164,9 @@ def _no_drawer(
     """Returns in words why a part that slides level is no drawer; empty where it may be one."""
     if not is_held and float(box.size[slide // 2]) > config.longest:
         return "it is longer than drawers are"
+    width = float(box.size[1 - slide // 2])
+    if not is_held and width <= config.book and float(box.size[2]) >= config.upright * width:
+        return "it is as narrow and high as a book"
     if not is_held and is_without_case(box, slide, rest, whole):
         return "nothing that could hold it is beside it, or above and below"
     if is_front_only(box, slide // 2):

@@ -134,15 +134,24 @@ def _cleared(search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]]:
     """Returns the search in the scene with clearance made for the door, if it opens wider there; else as it was."""
     if search.config.trim and (fitted := _fitted(search)):
         return fitted
-    path = _path(search.request, search.scene, search.to_clear().axis, search.wanted)
-    cleared = make_clearance(search.scene, path, search.config)
-    again = door_search(search.request, cleared.scene, search.config) if cleared.clearances else search
+    axis = search.to_clear().axis
+    again, clearances = _cleared_about(axis, search)
+    is_behind = search.request.axis.distance_to(axis.point) > search.frame.thickness / 2
+    if is_behind and again.free_ratio() < search.config.least_opening:
+        again, clearances = _cleared_about(search.request.axis, search)
     is_wider = again.best().free > search.best().free or again.free_ratio() > search.free_ratio()
     if search.config.trim and (again if is_wider else search).met_at_rest():
         found = _fitted(search, sides=1)
         if found is not None:
             return found
-    return (again, cleared.clearances) if is_wider else (search, ())
+    return (again, clearances) if is_wider else (search, ())
+
+
+def _cleared_about(axis: Axis, search: DoorSearch) -> tuple[DoorSearch, tuple[Clearance, ...]]:
+    """Returns the search in the scene in which a door has the clearance that it needs to turn about an axis."""
+    cleared = make_clearance(search.scene, _path(search.request, search.scene, axis, search.wanted), search.config)
+    again = door_search(search.request, cleared.scene, search.config) if cleared.clearances else search
+    return again, cleared.clearances
 
 
 def _fitted(search: DoorSearch, sides: int = 2) -> tuple[DoorSearch, tuple[Clearance, ...]] | None:

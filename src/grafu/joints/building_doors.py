@@ -38,7 +38,7 @@ class BuildingDoorConfig:
 
     tall: float = 1.6
     """Least height of the whole (m, by the unit of the input): doors are made for people."""
-    slim: float = 0.35
+    slim: float = 0.5
     """Greatest depth of the whole, a leaf drawn ajar with it (fraction of its height)."""
     shallow: float = 0.15
     """Greatest depth of the frame (fraction of the height of the whole)."""
@@ -70,6 +70,12 @@ class BuildingDoorConfig:
     """Greatest side of a handle or lock (fraction of its leaf's height)."""
     aside: float = 0.2
     """A handle or lock is this far to one side of its leaf's middle at least (fraction of the leaf's width)."""
+    garage: float = 1.7
+    """A single leaf that is so wide hangs from its upper edge, as of a garage (m): no side hinges would carry it."""
+    near: float = 0.15
+    """What stands beside a leaf is no farther from it than this (fraction of the leaf's width) ..."""
+    level: float = 0.8
+    """... along this much of its height (fraction): a leaf hangs on nothing that turns itself."""
     hand: tuple[float, float] = (0.3, 0.65)
     """A handle of a leaf without a frame is between these heights (fractions of the leaf's height) ..."""
     out: float = 0.01
@@ -78,8 +84,8 @@ class BuildingDoorConfig:
     """A leaf is nearer to one face of the frame if the two gaps differ by this much (fraction of the frame's depth)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "tall")
-        require_ratios(self, *(name for name in self.__dataclass_fields__ if name not in ("tall", "hand")))
+        require_positive(self, "tall", "garage")
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name not in ("tall", "garage", "hand")))
         if not 0 <= self.hand[0] <= self.hand[1] <= 1:
             raise ValueError(f"`BuildingDoorConfig.hand` must be two rising fractions: got {self.hand}")
 
@@ -235,12 +241,20 @@ def _request(
         axis = Axis(leaf.box.center, vec3(np.copysign(1.0, shift), 0.0, 0.0))
         wide = float(leaf.box.size[_WIDTH])
         return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, wide, (), attached, abs(shift))
+    if len(leaves) == 1 and leaf.box.size[_WIDTH] >= config.garage:
+        return turning_leaf(leaf, on_it, asset, Side.TOP, bool(nearer_to_back(leaf, frame.box, config.flush)))
     above = [
         k for k, other in enumerate(leaves) if abs(other.box.center[_WIDTH] - leaf.box.center[_WIDTH]) <= config.touch
     ]
-    side = hinged_side(leaf, leaves, [part for k in above for part in door.on_leaf[k]], config)
+    side = _hinge_side(leaf, door, [part for k in above for part in door.on_leaf[k]], config)
     whole = Box.enclosing(part.box for part in (frame, *door.inner_frames))  # the casing before it is part of it
     return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, whole, on_it, config))
+
+
+def _hinge_side(leaf: Part, door: FramedLeaves, on_it: Sequence[Part], config: BuildingDoorConfig) -> Side:
+    """Returns the edge about which a leaf turns: away from its handle; without one that which can hang on something."""
+    held = None if _grasped(leaf, on_it, config) else door.held_side(leaf, config.near, config.level)
+    return held or hinged_side(leaf, door.leaves, on_it, config)
 
 
 def _opens_backwards(leaf: Part, frame: Box, on_it: Sequence[Part], config: BuildingDoorConfig) -> bool:
@@ -270,14 +284,16 @@ def is_on_leaf(part: Part, leaf: Part, config: BuildingDoorConfig) -> bool:
 
 def hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], config: BuildingDoorConfig) -> Side:
     """Returns the edge away from handles and locks; without these the outer edge of several leaves, else the left."""
-    box = leaf.box
-    small = [part.box for part in on_it if part.box.size.max() <= config.small * box.size[_UP]]
-    aside = sum(
-        float(np.sign(offset))
-        for offset in (float(one.center[_WIDTH] - box.center[_WIDTH]) for one in small)
-        if abs(offset) >= config.aside * box.size[_WIDTH]
-    )
+    aside = _grasped(leaf, on_it, config)
     if not aside:
         middle = float(np.mean([one.box.center[_WIDTH] for one in leaves]))
-        aside = middle - float(box.center[_WIDTH])
+        aside = middle - float(leaf.box.center[_WIDTH])
     return Side.RIGHT if aside < 0 else Side.LEFT
+
+
+def _grasped(leaf: Part, on_it: Sequence[Part], config: BuildingDoorConfig) -> float:
+    """Returns on which side of a leaf's middle its handles and locks are: below 0 at its left; 0 where none tells."""
+    box = leaf.box
+    small = [part.box for part in on_it if part.box.size.max() <= config.small * box.size[_UP]]
+    offsets = (float(one.center[_WIDTH] - box.center[_WIDTH]) for one in small)
+    return float(sum(np.sign(offset) for offset in offsets if abs(offset) >= config.aside * box.size[_WIDTH]))

@@ -11,6 +11,7 @@ from grafu.dataclass import dataclass
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.graph.edges import Hinge
+from grafu.joints.drawn_across import closes_about, is_along
 from grafu.joints.motion_choice import DIRECTIONS, MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.refusal import Reason, Refusal
@@ -18,7 +19,7 @@ from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"
 """`JointRequest.source` of a leaf in a frame: its shape tells."""
-_DEPTH = 1
+_WIDTH, _DEPTH, _UP = 0, 1, 2
 _ACROSS = "it is drawn open, across its frame: close it in the model"
 
 LeafRequest = Callable[[Part, Sequence[Part]], JointRequest | None]
@@ -39,16 +40,45 @@ class FramedLeaves:
         """Whether a leaf is fixed in the frame: others are called doors, and it is not."""
         return not is_called_door(leaf) and any(is_called_door(other) for other in self.leaves)
 
+    def held_side(self, leaf: Part, near: float, level: float) -> Side | None:
+        """Returns the upright edge of a leaf that can hang on something; None where both can, or none.
+
+        At the other edge stands a leaf that turns itself: no farther away than the fraction `near` of the width of the
+        leaf, and along the fraction `level` of its height at least.
+        """
+        turning = [other.box for other in self.leaves if other is not leaf and not self.is_fixed(other)]
+        sides = (Side.LEFT, Side.RIGHT)
+        free = [side for side in sides if not any(_meets(leaf, side, box, near, level) for box in turning)]
+        return free[0] if len(free) == 1 else None
+
     def with_joints(self, plan: RealizationPlan, asset: Asset, request: LeafRequest) -> RealizationPlan:
         """Returns the plan whose joints are those of the leaves alone.
 
-        A leaf that is drawn open, across its frame, is refused: which of its edges it turns about is not known.
+        A leaf that is drawn open, across its frame, closes about the edge about which it fits there; it is refused
+        where it fits about none.
         """
-        pairs = [(a, b) for a, b in zip(self.leaves, self.on_leaf, strict=True) if a.box.thin_axis == _DEPTH]
-        joints = tuple(made for leaf, on_it in pairs if (made := request(leaf, on_it)) is not None)
+        joints, across = list[JointRequest](), list[Refusal]()
+        for leaf, on_it in zip(self.leaves, self.on_leaf, strict=True):
+            opened = None if is_along(leaf) else closes_about(leaf, self.frame.box)
+            if opened is not None:
+                attached = tuple(part.id for part in on_it)
+                made = JointRequest(leaf.id, Hinge.joint_type, opened.axis, SOURCE, attached=attached)
+                joints.append(replace(made, drawn_at=opened.angle))
+            elif not is_along(leaf):
+                across.append(Refusal(leaf.id, Reason.NO_MOTION, _ACROSS))
+            elif (found := request(leaf, on_it)) is not None:
+                joints.append(found)
         parts = {part.id for part in asset.parts}
-        across = tuple(Refusal(a.id, Reason.NO_MOTION, _ACROSS) for a in self.leaves if a.box.thin_axis != _DEPTH)
-        return replace(plan, joints=joints, refused=(*(r for r in plan.refused if r.part not in parts), *across))
+        refused = (*(r for r in plan.refused if r.part not in parts), *across)
+        return replace(plan, joints=tuple(joints), refused=refused)
+
+
+def _meets(leaf: Part, side: Side, other: Box, near: float, level: float) -> bool:
+    """Whether a box stands right at one side of a leaf, along most of its height."""
+    box, along = leaf.box, DIRECTIONS[side]
+    gap = float(along @ (other.center - box.center) - abs(along) @ (other.half + box.half))
+    shared = min(box.high[_UP], other.high[_UP]) - max(box.low[_UP], other.low[_UP])
+    return bool(abs(gap) <= near * box.size[_WIDTH] and shared >= level * box.size[_UP])
 
 
 def is_called_door(part: Part) -> bool:

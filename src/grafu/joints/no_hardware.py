@@ -41,8 +41,12 @@ _Search = DoorSearch | DrawerSearch
 
 
 def door_on_drawn_hinges(axis: Axis, search: DoorSearch) -> Placement | None:
-    """Returns the joint about the pin of drawn hinges, which carry it; None where the door is not free about it."""
-    placement = _about(axis, search)
+    """Returns the joint about the pin of drawn hinges, which carry it; None where the door is not free about it.
+
+    Doors that turn may be in its way where they are closed: of two leaves with a rebate, one opens first.
+    """
+    motions = search.scene.joint_motions
+    placement = _about(axis, search, frozenset(name for name, motion in motions.items() if motion.kind.turns))
     return None if placement is None else replace(placement, template=DRAWN, notes=())
 
 
@@ -58,11 +62,12 @@ def door_without_hardware(search: DoorSearch) -> Placement | None:
     return next((placement for placement in placements if placement is not None), None)
 
 
-def _about(axis: Axis, search: DoorSearch) -> Placement | None:
+def _about(axis: Axis, search: DoorSearch, opening_first: frozenset[str] = frozenset()) -> Placement | None:
     upper = search.widest(axis, search.most)
     in_way = search.bodies_in_the_way(axis, upper)
     waits = search.request.source == BY_SHAPE  # what shape tells to move waits for what lies over it
-    if (in_way and not waits) or upper < search.config.restricted * search.wanted:
+    may_wait = waits or opening_first.issuperset(in_way)
+    if not may_wait or upper < search.config.restricted * search.wanted:
         return None
     return _joint(search, axis, axis.rotation, upper, in_way)
 

@@ -177,7 +177,7 @@ def _request(
         if _stays(leaf, found.leaves, config):
             return None
         return JointRequest(leaf.id, Slide.joint_type, axis, SOURCE, reach, attached=attached)
-    side = _hinged_side(leaf, found.leaves, on_it, config)
+    side = _hinged_side(leaf, found, on_it, config)
     return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, found.frame, on_it, config))
 
 
@@ -209,12 +209,13 @@ def _sliding_side(leaf: Part, past: Part) -> Side:
     return Side.RIGHT if shift[_WIDTH] > 0 else Side.LEFT
 
 
-def _hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], config: WindowConfig) -> Side:
+def _hinged_side(leaf: Part, found: FramedLeaves, on_it: Sequence[Part], config: WindowConfig) -> Side:
     """Returns the edge away from the handle; without one the outer edge of several leaves, the upper one of a low one.
 
-    A handle near a corner lies at the side: the leaf turns about an upright edge.
+    A handle near a corner lies at the side: the leaf turns about an upright edge. A leaf between one that turns and one
+    that is fixed hangs on the latter.
     """
-    box = leaf.box
+    box, leaves = leaf.box, found.leaves
     small = [part.box for part in on_it if part.box.size.max() <= config.small * box.size[_PLANE].max()]
     for axis, sides in ((_WIDTH, (Side.LEFT, Side.RIGHT)), (_UP, (Side.BOTTOM, Side.TOP))):
         offsets = [float(one.center[axis] - box.center[axis]) for one in small]
@@ -223,6 +224,9 @@ def _hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], conf
             return sides[0] if aside > 0 else sides[1]
     if box.size[_UP] < config.wide * box.size[_WIDTH] or _is_fanlight(leaf, leaves, config):
         return Side.TOP
+    held = found.held_side(leaf, config.beside, config.level)
+    if held is not None:
+        return held
     middle = float(np.mean([one.box.center[_WIDTH] for one in leaves]))
     return Side.RIGHT if box.center[_WIDTH] > middle + config.rim * box.size[_WIDTH] else Side.LEFT
 

@@ -4,8 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapely.geometry import Polygon
 from topless import (
     D,
     H,
@@ -305,3 +307,32 @@ def test_a_case_in_which_something_tall_stands_is_no_basin() -> None:
 def test_what_is_nothing_but_a_basin_is_judged_like_any_other_piece() -> None:
     lone = replace(basin(), label=PartLabel.MISC)
     assert missing_top([lone]).coverage is not None
+
+
+def vessel(around: list[tuple[float, float]]) -> Part:
+    """A shell of 1 cm with a bottom, and with a plan of these corners (metres)."""
+    outer = trimesh.creation.extrude_polygon(Polygon(around), 0.6)
+    inner = trimesh.creation.extrude_polygon(Polygon(around).buffer(-0.01), 0.6)
+    inner.apply_translation((0.0, 0.0, 0.1))
+    part = board("vessel", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+    hollow = trimesh.boolean.difference([outer, inner], engine="manifold")
+    return replace(part, surfaces=(Surface(TriangleMesh.from_trimesh(hollow)),))
+
+
+OVAL = [(0.85 * np.cos(t), 0.4 * np.sin(t)) for t in np.linspace(0.0, 2 * np.pi, 48, endpoint=False)]
+SQUARE = [(-0.85, -0.4), (0.85, -0.4), (0.85, 0.4), (-0.85, 0.4)]
+CORNER = [(-0.85, -0.4), (0.85, -0.4), (0.85, -0.1), (-0.35, -0.1), (-0.35, 0.4), (-0.85, 0.4)]
+
+
+@pytest.mark.parametrize(("plan", "is_tub"), [(OVAL, True), (SQUARE, False), (CORNER, False)])
+def test_a_tub_lacks_no_top_and_a_case_does(plan, is_tub):
+    tub = vessel(plan)
+    assert missing_top([tub]).missing is not is_tub
+    door = board("door", (-0.2, -0.43, 0.1), (0.2, -0.41, 0.5), PartLabel.DOOR)
+    assert missing_top([tub, door], (swing(),)).missing, "a round case with a door"
+
+
+def test_a_round_frame_without_a_bottom_lacks_its_top():
+    ring = vessel(OVAL)
+    upper = ring.mesh.with_faces(np.flatnonzero(ring.mesh.triangles[:, :, 2].max(axis=1) > 0.3))
+    assert missing_top([replace(ring, surfaces=(Surface(upper),))]).why.count("vessel") == 0

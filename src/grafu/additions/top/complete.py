@@ -24,6 +24,7 @@ from grafu.additions.top.evidence import (
     named_cells,
     plate_in,
     speaks_for_bars,
+    vessel_in,
 )
 from grafu.additions.top.outline import (
     inset_regions,
@@ -194,6 +195,9 @@ def _judged(
     basin = basin_with_tap(roles, coverage, config.evidence, metre)
     if basin is not None:
         return TopVerdict(True, coverage.ratio, f"`{basin[0].id}` is a basin: `{basin[1].id}` stands over it", coverage)
+    vessel = vessel_in(roles, coverage, config.evidence, metre)
+    if vessel is not None:
+        return TopVerdict(True, coverage.ratio, f"`{vessel.id}` is a vessel: its plan is round", coverage)
     named = named_cells(roles, views, coverage, config.evidence, metre)
     near_top = coverage.near_top | (named & coverage.everything)
     coverage = replace(coverage, near_top=near_top)

@@ -6,6 +6,7 @@ The maps alone cannot tell a worktop with a hole for a sink from a frame of bars
 from collections.abc import Iterable
 
 import numpy as np
+from shapely import MultiPoint
 
 from grafu.additions.top.config import EvidenceConfig, TopConfig
 from grafu.additions.top.coverage import Coverage
@@ -15,6 +16,7 @@ from grafu.additions.top.tap_config import TapConfig
 from grafu.additions.top.views import Views
 from grafu.asset.part import Part
 from grafu.geometry.box import Box
+from grafu.shapes import Float
 from grafu.vocabulary import PartLabel
 
 NAMELESS_LABELS = (PartLabel.MISC, PartLabel.UNKNOWN)
@@ -94,6 +96,33 @@ def basin_with_tap(
         if over is not None:
             return part, over
     return None
+
+
+def vessel_in(
+    roles: Roles, coverage: Coverage, config: EvidenceConfig, metre: float, tap: TapConfig = TapConfig()
+) -> Part | None:
+    """Returns the still part of round plan with a bottom of its own that one looks into: a tub, a pot; else None.
+
+    Doors and drawers state that it is a case, whose top is missing.
+    """
+    if roles.moving or coverage.level is None:
+        return None
+    for part in roles.still:
+        if abs(float(part.box.high[2]) - coverage.level) > config.basin_below * metre:
+            continue
+        own = heights_of(part.mesh.triangles, coverage.grid)
+        bottom = own[coverage.opened] <= coverage.level - tap.shallowest * metre
+        if bottom.mean() >= tap.bottom and _is_round(coverage.grid.centers(np.isfinite(own)), coverage, tap):
+            return part
+    return None
+
+
+def _is_round(at: Float[np.ndarray, "n 2"], coverage: Coverage, tap: TapConfig) -> bool:
+    """Whether the plan of the cells at some points fills its hull, and leaves the corners of its rectangle free."""
+    hull = MultiPoint(at).convex_hull
+    area = len(at) * coverage.grid.cell**2
+    rectangle = float(np.prod(np.ptp(at, axis=0) + coverage.grid.cell))
+    return bool(area <= tap.round * rectangle and area >= tap.convex * hull.area)
 
 
 def _is_tap(part: Part, basin: Box, coverage: Coverage, config: TapConfig, metre: float) -> bool:

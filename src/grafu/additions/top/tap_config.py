@@ -1,4 +1,4 @@
-"""The thresholds by which a wash basin with a tap is known, each with its unit. It decides nothing."""
+"""The thresholds by which wash basins with taps and vessels are known, each with its unit. It decides nothing."""
 
 from typing import final
 
@@ -9,7 +9,7 @@ from grafu.geometry.config_checks import require_positive, require_ratios
 @final
 @dataclass(frozen=True, slots=True)
 class TapConfig:
-    """When what is open above is a basin that a tap stands over.
+    """When what is open above is a basin that a tap stands over, or a vessel such as a tub.
 
     Raises:
         ValueError: if a number is not above 0, or a fraction above 1.
@@ -23,7 +23,11 @@ class TapConfig:
     """Distance that a tap rises above the rim at least, metres on furniture of usual size."""
     size: float = 0.5
     """How long a tap is at most (fraction of the basin's shorter side)."""
+    round: float = 0.82
+    """A vessel takes less of the rectangle around its plan (fraction): an ellipse takes 0.79, a case all of it ..."""
+    convex: float = 0.95
+    """... and this much of its hull at least (fraction): an L takes less."""
 
     def __post_init__(self) -> None:
         require_positive(self, "shallowest", "rises")
-        require_ratios(self, "bottom", "size")
+        require_ratios(self, "bottom", "size", "round", "convex")

@@ -24,6 +24,8 @@ from grafu.scene.scene import Scene
 
 GAPS = (2.5, 4.0, 6.0)
 """On each side, in tolerated penetrations: what a leaf that fills its opening is made smaller by."""
+WIDE_GAPS = (8.0, 10.0, 14.0)
+"""The same of a leaf that is not narrowed along a cut, and is free in none of these."""
 
 
 @final

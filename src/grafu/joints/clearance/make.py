@@ -15,11 +15,12 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, Vec3
+from grafu.geometry.box import Box
 from grafu.geometry.transform import from_rotation
 from grafu.joints.clearance.adopt import adopt, adopt_fittings, adopt_pins
 from grafu.joints.clearance.behind import narrow_behind
 from grafu.joints.clearance.carve import Carving, Change, ClearanceStep, Path, box_in, carve, obstruction
-from grafu.joints.clearance.in_frame import GAPS
+from grafu.joints.clearance.in_frame import GAPS, WIDE_GAPS
 from grafu.joints.clearance.separate import separate
 from grafu.joints.clearance.sunk import narrow_sunk
 from grafu.joints.clearance.trim import trim
@@ -76,12 +77,18 @@ def _is_better(after: SweepVerdict, before: SweepVerdict) -> bool:
 def shrink(
     plays: float, scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig
 ) -> tuple[Scene, list[Clearance]]:
-    """Shrinks static parts that fit without clearance on all sides by `plays` times the tolerated penetration."""
+    """Shrinks static parts that fit without clearance on all sides by `plays` times the tolerated penetration.
+
+    A frame or a case around the moving part stays: its opening would become smaller.
+    """
     play = plays * config.depth * scene.extent
     shrunk: list[Part] = []
     done: list[Clearance] = []
+    moving = scene.parts[path.moving].box
     for name in ids:
         part = scene.parts[name]
+        if _is_around(part.box, moving):
+            continue
         size = np.maximum(part.box.size, 1e-12)
         lost = float(1.0 - np.prod(np.maximum(size - 2 * play, 0.0) / size))
         if lost < config.max_carve:
@@ -89,6 +96,11 @@ def shrink(
             why = f"{path.moving} ran in it without clearance"
             done.append(Clearance(name, "eased", play, lost, why, volume_share=lost))
     return scene.replaced(shrunk), done
+
+
+def _is_around(box: Box, inner: Box) -> bool:
+    """Whether a box reaches beyond both ends of another along two axes at least."""
+    return int(np.count_nonzero((box.low < inner.low) & (box.high > inner.high))) > 1
 
 
 def _shrunk(part: Part, play: float) -> Part:
@@ -99,12 +111,13 @@ def _shrunk(part: Part, play: float) -> Part:
 def narrow(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Makes a moving part that fills its opening smaller on the sides along which it meets a frame around it.
 
-    It gets the least of a few gaps that takes a static part out of its way, or none.
+    It gets the least of a few gaps that takes a static part out of its way, or none. A thick leaf needs a wide one: the
+    far edge of its back is farther from the pin than the edge of its front.
     """
     part = scene.parts[path.moving]
     size = box_in(path.axes, part.mesh).size
     across = size > size.min() if path.is_turn else np.abs(path.shift) < 1e-9
-    for gap in (plays * config.depth * scene.extent for plays in GAPS):
+    for gap in (plays * config.depth * scene.extent for plays in (*GAPS, *WIDE_GAPS)):
         if not (gap <= config.max_trim * size[across]).all():
             break
         narrowed = scene.replaced([_inset(part, path.axes, np.where(across, gap, 0.0))])

@@ -237,7 +237,7 @@ class DoorSearch:
         return widest_free(self.body, motion, reach, near, self.config.fine_poses, self.config.short)
 
     def _above_floor(self, axis: Axis, reach: float) -> float:
-        """Returns the widest opening at which nothing of the door is below the floor.
+        """Returns the widest opening at which nothing of the door is below the floor, deeper than what is tolerated.
 
         Upright axes keep its height, and what follows the leaf that carries it is raised by that.
         """
@@ -245,7 +245,7 @@ class DoorSearch:
         if is_carried or abs(float(axis.direction[2])) > self.config.level_axis:
             return reach
         mesh = self.scene.moving_mesh(self.request.moving)
-        return widest_above(mesh, axis, reach, self.scene.floor, self.config.coarse_poses)
+        return widest_above(mesh, axis, reach, self.scene.floor - self.depth, self.config.coarse_poses)
 
     def sinks(self, axis: Axis) -> bool:
         """Whether the door, open about an axis as far as wanted, lies lower than what is to carry it there."""
