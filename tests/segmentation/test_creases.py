@@ -203,6 +203,15 @@ def test_what_lies_behind_drawers_of_their_own_is_their_case():
     assert cut(case, *plates) == {}
 
 
+def test_where_an_object_is_a_front_none_is_drawn_on_the_other_sides():
+    T = np.array([[0.0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+    case = cabinet("raised").transformed(T)
+    low, high = case.box.low, case.box.high
+    door = as_mesh(solid((low[0] + 0.01, low[1] - 0.02, 0.01), (high[0] - 0.03, low[1], 0.79)))
+    assert [piece.role for piece in cut(case)[0]].count("front") == 3
+    assert cut(case, door) == {}
+
+
 @pytest.mark.parametrize("is_held", [True, False])
 def test_beside_a_door_of_its_own_only_drawn_fronts_with_handles_count(is_held):
     case, door = cabinet("raised"), as_mesh(solid((0.61, -0.02, 0.02), (1.18, 0.0, 0.78)))

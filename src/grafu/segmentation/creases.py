@@ -62,39 +62,41 @@ def drawn_fronts(
         view = parted.seen(axes)
         may = np.asarray(open_to)[parted.owner] & ~_is_in_edge(view, whole, config)
         found = fronts_by_object(view, may, [False] * len(meshes), config)
-        clear = _unless_others_are_fronts(found.clear(config.division), view, config)
+        clear = found.clear(config.division)
+        others = _fronts_themselves(view, clear, config)
+        clear = _besides(others, clear, view, config)
         area = sum(outline(view, front) for fronts in clear.values() for front in fronts)
         if area > most:
             most = area
             pieces = FoundFronts(_trimmed(clear, view, config.creases), {}, turn=turn).pieces(parted)
-        if pieces:
+        if pieces or len(others):
             break  # the front is most likely at -Y: other sides count only where it shows none
     return {k: [replace(p, is_sheet=p.role == "front") for p in found] for k, found in sorted(pieces.items())}
 
 
-def _unless_others_are_fronts(clear: FrontsOfObjects, view: ShellsView, config: SegmentationConfig) -> FrontsOfObjects:
-    """Returns the clear fronts of objects; where other objects are fronts themselves, only what cannot be their case.
-
-    A maker who made some drawers objects of their own may have drawn on the case what lies behind or beside these.
-    Fronts on it count if each is held and has none of the others before it.
-    """
+def _fronts_themselves(view: ShellsView, clear: FrontsOfObjects, config: SegmentationConfig) -> Indices:
+    """Returns the plates of the objects without clear fronts that are a front, but for what is drawn on it."""
     left = ~np.isin(view.owner, [*clear])
-    if not clear or not left.any():
-        return clear
     low, high = np.full((int(view.owner.max()) + 1, 2), np.inf), np.full((int(view.owner.max()) + 1, 2), -np.inf)
     np.minimum.at(low, view.owner, view.low[:, :2])
     np.maximum.at(high, view.owner, view.high[:, :2])
     whole = (high - low).prod(axis=1)[view.owner]
     left &= view.size[:, :2].prod(axis=1) >= config.creases.main * whole
-    fronts = candidates(view, left, config.candidates)
-    if not len(fronts):
-        return clear
+    return candidates(view, left, config.candidates) if len(low) > 1 else np.zeros(0, np.int64)
+
+
+def _besides(others: Indices, clear: FrontsOfObjects, view: ShellsView, config: SegmentationConfig) -> FrontsOfObjects:
+    """Returns the clear fronts of objects; where other objects are fronts themselves, only what cannot be their case.
+
+    A maker who made some drawers objects of their own may have drawn on the case what lies behind or beside these.
+    Fronts on it count if each is held and has none of the others before it.
+    """
 
     def is_one(front: FrontShells) -> bool:
         plate, nested = front.shells[0], config.members.nested
-        return front.is_held and not any(overlaps(view, other)[plate] >= nested for other in fronts.tolist())
+        return front.is_held and not any(overlaps(view, other)[plate] >= nested for other in others.tolist())
 
-    return {owner: found for owner, found in clear.items() if all(is_one(front) for front in found)}
+    return {k: found for k, found in clear.items() if not len(others) or all(is_one(front) for front in found)}
 
 
 def _is_in_edge(view: ShellsView, whole: MeshShells, config: SegmentationConfig) -> Bool[np.ndarray, " shells"]:
