@@ -73,6 +73,16 @@ def test_stiles_rails_and_panes_are_one_door_also_with_a_muntin_across():
     assert groups(*stiles, *rails, *panes) == [(0, 1, 2, 3, 4, 5, 6)]
 
 
+@pytest.mark.parametrize(("reach", "is_panel"), [(0.015, True), (-0.002, False)])
+def test_a_raised_panel_that_is_flush_with_its_frame_reaches_into_it(reach, is_panel):
+    """An inset front, as thick as the frame, lies in it with gaps."""
+    stiles = [((x, -0.2, 0.0), (x + 0.08, -0.18, 0.98)) for x in (-0.38, 0.3)]
+    rails = [((-0.3, -0.2, z), (0.3, -0.18, z + 0.08)) for z in (0.0, 0.9)]
+    panel = ((-0.3 - reach, -0.2, 0.08 - reach), (0.3 + reach, -0.18, 0.9 + reach))
+
+    assert groups(*stiles, *rails, panel) == ([(0, 1, 2, 3, 4)] if is_panel else [])
+
+
 @pytest.mark.parametrize(
     "still",
     [

@@ -167,6 +167,7 @@ def _filled(view: ShellsView, pair: tuple[int, int], along: int, extent: float, 
     """Returns the pair with the bars across and the panels between, empty where they are no filled frame.
 
     The view shows the shells that are level with the pair. Panes of another object fill a frame, too, and are left out.
+    Panels are set back behind the face of the frame, or reach into it on all sides: inset fronts do neither.
     """
     first, second = pair
     across: Final = 1 - along
@@ -186,7 +187,9 @@ def _filled(view: ShellsView, pair: tuple[int, int], along: int, extent: float, 
     filling[[first, second]] = False
     muntins = filling & ~_is_set_back(view, first, config) & (view.size[:, :2].min(axis=1) <= config.muntin * bar)
     panels = filling & ~muntins
-    if not panels.any() or not _is_set_back(view, first, config)[panels].all():
+    in_grooves = (low[:, across] < left - same) & (high[:, across] > right + same)
+    in_grooves &= (low[:, along] < opening[0] - same) & (high[:, along] > opening[1] + same)
+    if not panels.any() or not (_is_set_back(view, first, config) | in_grooves)[panels].all():
         return ()
     if not _fits(view, filling, pair, along, opening, config.gap * extent, config.filled):
         return ()
