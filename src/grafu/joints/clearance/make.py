@@ -111,13 +111,14 @@ def _shrunk(part: Part, play: float) -> Part:
 def narrow(scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig) -> tuple[Scene, list[Clearance]]:
     """Makes a moving part that fills its opening smaller on the sides along which it meets a frame around it.
 
-    It gets the least of a few gaps that takes a static part out of its way, or none. A thick leaf needs a wide one: the
-    far edge of its back is farther from the pin than the edge of its front.
+    It gets the least of a few gaps that takes a static part out of its way, or none. A thick leaf that turns needs a
+    wide one: the far edge of its back is farther from the pin than the edge of its front.
     """
     part = scene.parts[path.moving]
     size = box_in(path.axes, part.mesh).size
     across = size > size.min() if path.is_turn else np.abs(path.shift) < 1e-9
-    for gap in (plays * config.depth * scene.extent for plays in (*GAPS, *WIDE_GAPS)):
+    gaps = (*GAPS, *WIDE_GAPS) if path.is_turn else GAPS
+    for gap in (plays * config.depth * scene.extent for plays in gaps):
         if not (gap <= config.max_trim * size[across]).all():
             break
         narrowed = scene.replaced([_inset(part, path.axes, np.where(across, gap, 0.0))])
