@@ -65,6 +65,12 @@ def test_a_seat_and_its_lid_are_hinged_at_their_rear(raised):
     assert np.allclose(found.pin.point[1:], (0.22, HEIGHT), atol=0.025)
 
 
+def test_a_sheet_seen_from_its_edge_is_no_lid():
+    corners = np.array([[0.0, -0.22, HEIGHT], [0.0, 0.22, HEIGHT], [0.0, 0.22, HEIGHT + 0.05]])
+    sheet = replace(LID, id="sheet", surfaces=(Surface(TriangleMesh(corners, np.array([[0, 1, 2]]))),))
+    assert pair(bowl(), SEAT, sheet) is None
+
+
 def test_both_may_be_raised_where_they_are_named():
     doors = [
         replace(plate(n, HEIGHT + z, hole, 90.0), label=PartLabel.DOOR)

@@ -20,8 +20,10 @@ from grafu.graph.edges import Hinge
 from grafu.joints.framed_leaves import SOURCE, relabelled
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.plate_edges import edges_of
+from grafu.shapes import Bool, Float
 from grafu.vocabulary import PartLabel
 
+BoxEnds = Float[np.ndarray, "n 3"]
 _UP: Final = 2
 _RAYS: Final = 16  # along each side of a body
 
@@ -68,12 +70,16 @@ def box_flaps(asset: Asset, config: BoxFlapConfig = BoxFlapConfig()) -> BoxFlaps
 
     Flaps are doors, or nameless where all else is small: boards on a case may stand as they do.
     """
+    leaves = [part for part in asset.parts if part.label in (PartLabel.DOOR, PartLabel.UNKNOWN)]
+    low, high = (np.array([getattr(part.box, end) for part in leaves]).reshape(-1, 3) for end in ("low", "high"))
     for body in asset.parts:
+        box = body.box
         is_body = not body.label.is_movable and body.label is not PartLabel.HANDLE and body.carried_by is None
-        if not is_body or body.box.size[_UP] < config.high * body.box.size.max():
+        if not is_body or not box.size.all() or box.size[_UP] < config.high * box.size.max():
             continue
-        others = (p for p in asset.parts if p is not body and p.label in (PartLabel.DOOR, PartLabel.UNKNOWN))
-        lines = [(part, *line) for part in others for line in _wall_of(part, body.box, config)]
+        near = _at_rim(low, high, box, config)
+        others = (part for part, is_near in zip(leaves, near.tolist(), strict=True) if is_near and part is not body)
+        lines = [(part, *line) for part in others for line in _wall_of(part, box, config)]
         opposite = any((axis, -side) in {(a, s) for _, a, s, _ in lines} for _, axis, side, _ in lines)
         flaps = tuple((part, _pin(axis, side, place)) for part, axis, side, place in lines)
         if opposite and _is_told([part for part, _ in flaps], body, asset, config) and _is_open(body, config):
@@ -114,6 +120,18 @@ def with_box_flaps(
             )
     refused = tuple(r for r in plan.refused if r.part not in own)
     return replace(plan, joints=tuple(made.values()), refused=refused)
+
+
+def _at_rim(low: BoxEnds, high: BoxEnds, box: Box, config: BoxFlapConfig) -> Bool[np.ndarray, " n"]:
+    """Returns which boxes, given by their ends, come near the upper rim of a box and are long beside one of its walls.
+
+    Few do, and edges are looked for on these alone.
+    """
+    near = config.near * float(box.size.max())
+    is_beside = ((low <= box.high + near) & (high >= box.low - near)).all(axis=1)
+    is_level = (low[:, _UP] <= box.high[_UP] + near) & (high[:, _UP] >= box.high[_UP] - near)
+    is_long = ((high - low)[:, :_UP] >= config.long * box.size[:_UP]).any(axis=1)
+    return np.asarray(is_beside & is_level & is_long)
 
 
 def _is_told(flaps: list[Part], body: Part, asset: Asset, config: BoxFlapConfig) -> bool:

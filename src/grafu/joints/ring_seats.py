@@ -71,10 +71,12 @@ def seat_pair(asset: Asset, config: SeatPairConfig = SeatPairConfig()) -> SeatPa
     """Returns the seat of an asset with its lid, both pinned at the back (+Y); None where it has none."""
     leaves = [part for part in asset.parts if part.label in _LEAVES and part.carried_by is None]
     plates = [(part, edges) for part in leaves if len(edges := list(edges_of(part.mesh, _WIDTH, config.thin))) > 1]
-    rings = [(part, edges) for part, edges in plates if is_ring(part)]
+    are_rings = [is_ring(part) for part, _ in plates]
+    rings = [plate for plate, has_opening in zip(plates, are_rings, strict=True) if has_opening]
+    closed = [plate for plate, has_opening in zip(plates, are_rings, strict=True) if not has_opening]
     for seat, below in rings:
-        for lid, above in plates:
-            pin = None if lid is seat or is_ring(lid) else _pin(seat, lid, below, above, config)
+        for lid, above in closed:
+            pin = _pin(seat, lid, below, above, config)
             are_named = seat.label is PartLabel.DOOR and lid.label is PartLabel.DOOR
             if pin is not None and (are_named or _is_on_bowl(seat, lid, asset, config)):
                 return SeatPair(seat, lid, pin)
@@ -116,7 +118,7 @@ def _pin(seat: Part, lid: Part, below: list[PlateEdge], above: list[PlateEdge], 
     """Returns the pin at the lowest common edge of two plates of one outline, the rear one of two that are level."""
     width, other = float(seat.box.size[_WIDTH]), float(lid.box.size[_WIDTH])
     length, deep = below[0].across, above[0].across
-    if max(abs(width - other) / other, abs(length - deep) / deep) > config.alike:
+    if abs(width - other) > config.alike * other or abs(length - deep) > config.alike * deep:
         return None
     if abs(float(seat.box.center[_WIDTH] - lid.box.center[_WIDTH])) > config.aside * other:
         return None
