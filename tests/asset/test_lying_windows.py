@@ -58,7 +58,7 @@ def disc(name, radius, inner, depth):
     made = trimesh.creation.annulus(inner, radius, depth) if inner else trimesh.creation.cylinder(radius, depth)
     made.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0)))
     made.apply_translation((0.0, 0.0, radius))
-    return replace(box(name, (0, 0, 0), (1, 1, 1)), surfaces=(Surface(TriangleMesh.from_trimesh(made)),))
+    return replace(box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=(Surface(TriangleMesh.from_trimesh(made)),))
 
 
 def test_a_round_window_rests_on_little_and_stands_all_the_same():
