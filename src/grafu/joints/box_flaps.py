@@ -4,7 +4,6 @@ They stand at any angle, from closed to hanging down outside. Each turns about t
 """
 
 from collections.abc import Collection, Iterator
-from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
@@ -18,7 +17,7 @@ from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.raycast import RayCaster, depths_below
 from grafu.graph.edges import Hinge
 from grafu.joints.framed_leaves import SOURCE, relabelled
-from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.plan import JointRequest, RealizationPlan, moved_instead
 from grafu.joints.plate_edges import edges_of
 from grafu.shapes import Bool, Float
 from grafu.vocabulary import PartLabel
@@ -111,15 +110,13 @@ def with_box_flaps(
     if found is None:
         return plan
     own = {found.body.id, *(part.id for part, _ in found.flaps)} - set(settled)
-    riding = {r.moving: tuple(name for name in r.attached if name not in own) for r in plan.joints}
-    made = {r.moving: replace(r, attached=riding[r.moving]) for r in plan.joints if r.moving not in own}
-    for part, axis in found.flaps:
-        if part.id in own:
-            made[part.id] = JointRequest(
-                part.id, Hinge.joint_type, axis, SOURCE, mounts=(found.body.id,), attached=riding.get(part.id, ())
-            )
-    refused = tuple(r for r in plan.refused if r.part not in own)
-    return replace(plan, joints=tuple(made.values()), refused=refused)
+    body = (found.body.id,)
+    turning = [
+        JointRequest(part.id, Hinge.joint_type, axis, SOURCE, mounts=body)
+        for part, axis in found.flaps
+        if part.id in own
+    ]
+    return moved_instead(plan, own, turning)
 
 
 def _at_rim(low: BoxEnds, high: BoxEnds, box: Box, config: BoxFlapConfig) -> Bool[np.ndarray, " n"]:

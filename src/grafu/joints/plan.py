@@ -1,6 +1,6 @@
 """What is asked for: joints to build, with initial axes, and choices about them. The requester makes no difference."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence, Set
 from dataclasses import replace
 from enum import StrEnum
 from math import isfinite, radians
@@ -236,3 +236,15 @@ class RealizationPlan:
             riding.setdefault(moving, []).append(part_id)
         joints = tuple(replace(r, attached=(*r.attached, *riding.get(r.moving, ()))) for r in self.joints)
         return replace(self, joints=joints)
+
+
+def moved_instead(plan: RealizationPlan, own: Set[str], requests: Sequence[JointRequest]) -> RealizationPlan:
+    """Returns the plan in which the parts `own` move as requested, and in no other way; none of them rides on others.
+
+    What rode on them still does, and what was refused of them is not any more.
+    """
+    riding = {r.moving: tuple(name for name in r.attached if name not in own) for r in plan.joints}
+    others = (replace(r, attached=riding[r.moving]) for r in plan.joints if r.moving not in own)
+    made = (replace(r, attached=riding.get(r.moving, ())) for r in requests)
+    refused = tuple(r for r in plan.refused if r.part not in own)
+    return replace(plan, joints=(*others, *made), refused=refused)

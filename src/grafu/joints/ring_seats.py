@@ -5,7 +5,6 @@ a table has no bowl.
 """
 
 from collections.abc import Collection
-from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
@@ -20,7 +19,7 @@ from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster, depths_below
 from grafu.graph.edges import Hinge
 from grafu.joints.framed_leaves import SOURCE, relabelled
-from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.plan import JointRequest, RealizationPlan, moved_instead
 from grafu.joints.plate_edges import PlateEdge, edges_of
 from grafu.vocabulary import PartLabel
 
@@ -104,14 +103,8 @@ def with_seat_pair(
     if pair is None or {pair.seat.id, pair.lid.id} & set(settled):
         return plan
     own = {pair.seat.id, pair.lid.id}
-    riding = {r.moving: tuple(name for name in r.attached if name not in own) for r in plan.joints}
-    others = [replace(r, attached=riding[r.moving]) for r in plan.joints if r.moving not in own]
-    turning = [
-        JointRequest(part.id, Hinge.joint_type, pair.pin, SOURCE, attached=riding.get(part.id, ()))
-        for part in (pair.lid, pair.seat)
-    ]
-    refused = tuple(r for r in plan.refused if r.part not in own)
-    return replace(plan, joints=(*others, *turning), refused=refused)
+    turning = [JointRequest(part.id, Hinge.joint_type, pair.pin, SOURCE) for part in (pair.lid, pair.seat)]
+    return moved_instead(plan, own, turning)
 
 
 def _pin(seat: Part, lid: Part, below: list[PlateEdge], above: list[PlateEdge], config: SeatPairConfig) -> Axis | None:
