@@ -17,8 +17,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[bool, bytes]:
 
     from grafu.network.export import with_half_weights
 
-    folder = tmp_path_factory.getbasetemp()
-    path = (folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder) / "tiny_network.onnx"
+    path = tiny_path(tmp_path_factory)
     with FileLock(f"{path}.lock"):
         if not path.is_file():
             export_tiny(path)
@@ -26,15 +25,30 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[bool, bytes]:
     return {False: file, True: with_half_weights(file)}
 
 
+@pytest.fixture(scope="session")
+def new_file(files: dict[bool, bytes], tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """The ONNX file of a network as it starts, many of whose weights are alike."""
+    return (tiny_path(tmp_path_factory).with_name("new_network.onnx")).read_bytes()
+
+
+def tiny_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.getbasetemp()
+    return (folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder) / "tiny_network.onnx"
+
+
 def export_tiny(path: Path) -> None:
     import torch
 
     from grafu.network.export import onnx_bytes
-    from random_graphs import ANCHORS, NEIGHBOURS, POINTS, tiny_network
+    from grafu.network.grafu import GraFu
+    from random_graphs import ANCHORS, NEIGHBOURS, POINTS, TINY, tiny_network
+
+    sizes = {"points": POINTS, "anchors": ANCHORS, "neighbours": NEIGHBOURS}
 
     network = tiny_network().train()  # the file is of the network at work, whatever it does now
     before = torch.get_rng_state()
-    file = onnx_bytes(network, points=POINTS, anchors=ANCHORS, neighbours=NEIGHBOURS, half_weights=False)
+    file = onnx_bytes(network, **sizes, half_weights=False)
     assert network.training
     assert torch.equal(torch.get_rng_state(), before)
+    path.with_name("new_network.onnx").write_bytes(onnx_bytes(GraFu(TINY), **sizes, half_weights=False))
     path.write_bytes(file)

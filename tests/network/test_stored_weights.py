@@ -22,6 +22,13 @@ def test_every_weight_is_found_by_its_name(files: dict[bool, bytes], half: bool,
     assert all(torch.allclose(stored[name], value, atol=precision) for name, value in own.items())
 
 
+def test_every_weight_of_a_new_network_is_there_though_many_are_alike(new_file: bytes) -> None:
+    own = GraFu(TINY).state_dict()
+    zeros = [name for name, value in own.items() if value.ndim == 1 and not value.any()]
+    assert len(zeros) > 2
+    assert own.keys() <= stored_weights(new_file).keys()
+
+
 def test_a_network_that_starts_from_a_file_answers_as_it_does(files: dict[bool, bytes]) -> None:
     network = GraFu(TINY).eval()
     assert start_from(network, stored_weights(files[False])) == ()

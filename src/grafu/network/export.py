@@ -7,8 +7,8 @@ fields of `Predictions` but `mask` and `padding`, without a batch and without pa
 
 import json
 import warnings
-from copy import deepcopy
 from dataclasses import asdict, fields, replace
+from functools import lru_cache
 from typing import final
 
 import numpy as np
@@ -19,10 +19,10 @@ from torch.nn.functional import pad
 
 from grafu.graph.arrays import LABELS, KindSet
 from grafu.network.batch import Predictions, one_graph
-from grafu.network.config import LABEL_COUNT
+from grafu.network.config import LABEL_COUNT, GraFuConfig
 from grafu.network.encoder import NAME_CODES, VISIBILITY_NUMBERS
 from grafu.network.grafu import GraFu
-from grafu.network.stored import HALF, name_weights
+from grafu.network.stored import HALF, name_weights, put_weights
 from grafu.shapes import Float32, Int64
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
@@ -50,9 +50,8 @@ def onnx_bytes(
     (`grafu.network.stored`). With `half_weights` they are stored in 16 bits and widened when they are used: half the
     size, and all is computed in 32 bits as before.
     """
-    proto = _exported(deepcopy(model).cpu(), anchors, neighbours)
-    _without_traces(proto)
-    name_weights(proto, model)
+    proto = onnx.load_from_string(_structure(model.config, anchors, neighbours))
+    put_weights(proto, model)
     facts = {
         "config": asdict(model.config),
         "features": {
@@ -130,6 +129,23 @@ def _without(score: Tensor, kept: Int64[Tensor, " s"], *, pairs: bool) -> Tensor
     if score.ndim == 0:
         return score * 1.0  # an output of its own, not the weight itself
     return score[0, kept][:, kept] if pairs else score[0, kept]
+
+
+@lru_cache(maxsize=4)
+def _structure(config: GraFuConfig, anchors: int, neighbours: int) -> bytes:
+    """Returns the ONNX file of a network of random weights: tracing takes seconds, and only weights differ later.
+
+    No two of its weights are alike: the exporter makes one of those that are, as all biases of a new network are.
+    """
+    with torch.random.fork_rng():
+        model = GraFu(config)
+        for weight in model.parameters():
+            nn.init.normal_(weight.data)
+    proto = _exported(model, anchors, neighbours)
+    _without_traces(proto)
+    name_weights(proto, model)
+    file: bytes = proto.SerializeToString()
+    return file
 
 
 def _exported(model: GraFu, anchors: int, neighbours: int) -> onnx.ModelProto:

@@ -42,6 +42,32 @@ def name_weights(proto: onnx.ModelProto, network: nn.Module) -> None:
                 node.input[k] = renamed[used]
 
 
+def put_weights(proto: onnx.ModelProto, network: nn.Module) -> None:
+    """Puts a network's weights into the exported file of another with the same config, by their names, in place.
+
+    Raises:
+        WeightsError: if the file lacks one of them.
+    """
+    state = {name: value.detach().cpu().numpy() for name, value in network.state_dict().items()}
+    outputs = {output.name for output in proto.graph.output}
+    put = set()
+    for weight in proto.graph.initializer:
+        name = _name_in_network(weight.name, is_output=weight.name in outputs)
+        value = state.get(name.removesuffix(TRANSPOSED))
+        if value is not None:
+            put.add(name.removesuffix(TRANSPOSED))
+            values = value.T if name.endswith(TRANSPOSED) else value
+            weight.CopyFrom(onnx.numpy_helper.from_array(values, weight.name))
+    if missing := sorted(set(state) - put):
+        raise WeightsError(f"the exported file has no place for the weight `{missing[0]}` of this network")
+
+
+def _name_in_network(stored: str, *, is_output: bool) -> str:
+    """Returns the name of a stored weight in the network, with `TRANSPOSED` behind where it is stored so."""
+    name = stored.removesuffix(HALF).removeprefix(_PREFIX)
+    return _HEADS + name if is_output else name
+
+
 def stored_weights(file: bytes) -> dict[str, Tensor]:
     """Returns the weights of an exported file by name, as 32-bit floats.
 
@@ -57,11 +83,11 @@ def stored_weights(file: bytes) -> dict[str, Tensor]:
     found: dict[str, Tensor] = {}
     outputs = {output.name for output in proto.graph.output}
     for weight in proto.graph.initializer:
-        name, values = weight.name.removesuffix(HALF).removeprefix(_PREFIX), onnx.numpy_helper.to_array(weight)
+        name = _name_in_network(weight.name, is_output=weight.name in outputs)
+        values = onnx.numpy_helper.to_array(weight)
         if not np.issubdtype(values.dtype, np.floating):
             continue
         values = values.astype(np.float32)
-        name = _HEADS + name if weight.name in outputs else name
         found[name.removesuffix(TRANSPOSED)] = torch.tensor(values.T.copy() if name.endswith(TRANSPOSED) else values)
     return found
 
