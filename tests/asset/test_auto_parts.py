@@ -87,8 +87,17 @@ def test_what_is_divided_already_is_read_as_it_is(tmp_path, write):
 
 def test_segmented_inputs_and_named_panels_are_left_alone():
     assert cut(welded(), kind="partnet-mobility").parts == (welded(),)
-    panel = welded(label=PartLabel.SIDE_PANEL, name="side_panel")
-    assert cut(panel).parts == (panel,)
+    panel, other = welded(label=PartLabel.SIDE_PANEL, name="side_panel"), welded((CASE[0],), name="other")
+    assert cut(panel, other).parts == (panel, other)
+
+
+@pytest.mark.parametrize("label", [PartLabel.SIDE_PANEL, PartLabel.LEG, PartLabel.SHELF])
+def test_what_is_all_of_a_piece_is_cut_whatever_board_its_name_means(label):
+    alone = replace(welded(label=label, name="Cabinet_leg"), labelled_by="name")
+    found = cut(alone)
+    assert sum(part.id.startswith("Cabinet_leg_front") for part in found.parts) == 2
+    assert label not in {part.label for part in found.parts}
+    assert len(cut(replace(alone, labelled_by="annotation")).parts) == (1 if label is not PartLabel.SHELF else 5)
 
 
 def test_shelves_that_are_a_whole_case_are_cut_and_a_board_called_shelf_is_not():

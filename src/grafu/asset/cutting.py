@@ -81,6 +81,7 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     if not reading.parts or is_divided(reading) or is_doorway(name):
         return reading
     T = turn_of(frame)
+    reading = _with_nameless_whole(reading)
     meshes = [part.mesh.transformed(T) for part in reading.parts]
     has_door = any(part.label is PartLabel.DOOR and part.labelled_by == "name" for part in reading.parts)
     open_to = [_may_be_cut(part, has_door, config) and part.carried_by is None for part in reading.parts]
@@ -113,6 +114,14 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     parts = with_lying_handles(parts, [piece is not None and piece.role == "on front" for _, piece in pieces])
     notes = (_note(reading.parts[k], found) for k, found in cuts.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes), fronts_face=_side_of_fronts(cuts, T))
+
+
+def _with_nameless_whole(reading: Reading) -> Reading:
+    """Returns the reading in which a board is no board where it is all that there is: it has the name of one piece."""
+    only = reading.parts[0] if len(reading.parts) == 1 else None
+    if only is None or only.labelled_by != "name" or only.label.is_movable or sense_of(only.source.name).is_container:
+        return reading
+    return replace(reading, parts=(_without_label(only),))
 
 
 def _extent_of(meshes: list[TriangleMesh]) -> Vec3:
