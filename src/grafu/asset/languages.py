@@ -2,7 +2,7 @@
 
 A row is an English word (or a phrase, `top panel`) and the words that mean it; `;` parts rows. Latin words stand
 without accents, as `grafu.asset.names.plain` writes them; umlauts also as `ue`. Words that mean several things are left
-out unless one is meant nearly always.
+out unless one is meant nearly always: `Deckel`, `крышка` and `盖板` name lids and the tops of cases alike.
 """
 
 import re
@@ -21,8 +21,7 @@ GERMAN: Final = """
     door: tur tuer turblatt tuerblatt
     doors: turen tueren
     sliding door: schiebetur schiebetuer schiebeturen
-    flap: klappe klappen
-    lid: deckel
+    flap: klappe klappen klappdeckel truhendeckel
     drawer: schublade schubkasten auszug schub
     drawers: schubladen schubkaesten
     handle: griff griffe griffleiste bugelgriff stangengriff
@@ -215,7 +214,7 @@ CHINESE: Final = """
     door: 门 門 柜门 櫃門 门板 門板 门扇
     sliding door: 移门 推拉门 趟门
     flap: 翻门 上翻门
-    lid: 盖 盖子 盖板 蓋
+    lid: 盖 盖子 蓋
     drawer: 抽屉 抽屜 抽
     handle: 把手 拉手 手柄
     top panel: 顶板 頂板 台面 檯面
@@ -241,7 +240,7 @@ CHINESE: Final = """
     sink: 水槽 洗手盆
     mirror: 镜子 镜 鏡
     glass: 玻璃
-    screw: 螺丝 螺钉
+    screw: 螺丝 螺钉; plate: 盖板
     wheel: 轮 轮子 滚轮
     lock: 锁
     front: 面板 前板 前脸; left: 左; right: 右; upper: 上; lower: 下; middle: 中; front: 前; back: 后 後; of: 的

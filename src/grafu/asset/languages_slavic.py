@@ -35,7 +35,6 @@ POLISH: Final = """
 
 RUSSIAN: Final = """
     door: dver dveri dvertsa dverca stvorka dvertsy dvercy stvorki
-    lid: kryshka
     drawer: yaschik yashchik yashik yaschika yashchika yaschiki yashchiki
     handle: ruchka ruchki
     tabletop: stoleshnitsa stoleshnica
