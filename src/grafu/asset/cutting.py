@@ -4,32 +4,27 @@ Inputs whose makers divided them by what moves are left alone: parts segmented b
 What the input states about its motions is not asked: the parts are the same with joints and without.
 """
 
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
 
+from grafu.asset.cut_pieces import freed, ids_of_pieces, note_on_cut, part_of_piece
 from grafu.asset.drawn_cuts import handles_on_plates, with_drawn_fronts
 from grafu.asset.labels import is_appliance, is_bed, is_chest, is_doorway, is_washer, is_whole_part, sense_of
-from grafu.asset.loose import faces_of_part
 from grafu.asset.lying_handles import with_lying_handles
-from grafu.asset.names import unique_ids
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
 from grafu.asset.standing import spelled
 from grafu.dataclass import dataclass
-from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices, Mat4, Vec3
 from grafu.geometry.config_checks import require_ratios
-from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.segmentation.backs import back_of
+from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.division import FacePiece, divided
 from grafu.segmentation.lids import count_held_fronts, lid_of_chest, lid_of_washer
 from grafu.segmentation.mesh_shells import MeshShells
-from grafu.segmentation.surface_config import CreaseConfig
 from grafu.vocabulary import PartLabel
 
 # What may hide fronts: what no name tells, and what is called by what it holds.
@@ -108,11 +103,11 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     of_one = {reading.parts[k].id for k in _named_after_one(reading, meshes, cuts, config)}
     bare = ((_without_label(part) if part.id in of_one else part, piece) for part, piece in pieces)
     parts = tuple(
-        _freed(_named(_part(part, piece, new, T, part.id in cases), piece, model, T, config), cut)
-        for (part, piece), new in zip(bare, _ids(pieces), strict=True)
+        freed(_named(part_of_piece(part, piece, new, T, part.id in cases), piece, model, T, config), cut)
+        for (part, piece), new in zip(bare, ids_of_pieces(pieces), strict=True)
     )
     parts = with_lying_handles(parts, [piece is not None and piece.role == "on front" for _, piece in pieces])
-    notes = (_note(reading.parts[k], found) for k, found in cuts.items())
+    notes = (note_on_cut(reading.parts[k], found) for k, found in cuts.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes), fronts_face=_side_of_fronts(cuts, T))
 
 
@@ -229,58 +224,6 @@ def turn_of(frame: Frame) -> Mat4:
     return T
 
 
-def _ids(pieces: list[tuple[Part, FacePiece | None]]) -> list[str]:
-    """Returns an id for each piece; parts that are not cut, and what is left of those that are, keep theirs."""
-    order = sorted(range(len(pieces)), key=lambda k: _is_new(pieces[k][1]))
-    found = unique_ids((_stem(*pieces[k]), _is_handle(*pieces[k])) for k in order)
-    named = dict(zip(order, found, strict=True))
-    return [named[k] for k in range(len(pieces))]
-
-
-def _is_new(piece: FacePiece | None) -> bool:
-    return piece is not None and piece.role in ("front", "handle", "lid")
-
-
-def _freed(part: Part, cut: set[str]) -> Part:
-    """Returns the part attached to nothing where its carrier was cut: contact then decides on what."""
-    return replace(part, carried_by=None) if part.carried_by in cut else part
-
-
-def _stem(part: Part, piece: FacePiece | None) -> str:
-    return part.id if piece is None or not _is_new(piece) else f"{part.id}_{piece.role}"
-
-
-def _is_handle(part: Part, piece: FacePiece | None) -> bool:
-    return piece is None and part.label is PartLabel.HANDLE
-
-
-def _part(part: Part, piece: FacePiece | None, name: str, T: Mat4, is_case: bool) -> Part:
-    if piece is None:
-        return replace(part, id=name)
-    keeps = piece.role in ("body", "on front") or (
-        part.label.is_movable == (piece.role == "front") and piece.role != "handle"
-    )
-    label, by = (part.label, part.labelled_by) if keeps else (PartLabel.UNKNOWN, "none")
-    if piece.role == "on front" and label is PartLabel.UNKNOWN:
-        label = PartLabel.MISC  # whatever it is, it is no front
-    if piece.role == "rest" and label is PartLabel.UNKNOWN and is_case:
-        label, by = BODY, "shape"
-    if piece.role == "lid":
-        label, by = PartLabel.DOOR, "name"
-    surfaces = faces_of_part(part, piece.faces)
-    if piece.is_sheet and piece.towards is not None:
-        surfaces = (*surfaces, _back(part, surfaces, piece.towards, T))
-    return replace(part, id=name, surfaces=surfaces, label=label, labelled_by=by)
-
-
-def _back(part: Part, surfaces: tuple[Surface, ...], towards: Vec3, T: Mat4) -> Surface:
-    """Returns back and rim of a front that was drawn on a part, in the material of most of it; `T` turns it upright."""
-    main = max(surfaces, key=lambda surface: surface.mesh.area)
-    front = merge_meshes([surface.mesh for surface in surfaces])
-    thickness = CreaseConfig().thick * float(part.box.size.max())
-    return Surface(back_of(front, T[:3, :3].T @ towards, thickness), main.material)
-
-
 def _named(part: Part, piece: FacePiece | None, model: str, T: Mat4, config: CutConfig) -> Part:
     """Returns a new front as a door where object or model are called an oven, a refrigerator or the like.
 
@@ -293,17 +236,3 @@ def _named(part: Part, piece: FacePiece | None, model: str, T: Mat4, config: Cut
     if is_high and (is_appliance(part.source.name) or is_appliance(model)):
         return replace(part, label=PartLabel.DOOR, labelled_by="name")
     return part
-
-
-def _note(part: Part, pieces: list[FacePiece]) -> str:
-    counts = Counter(piece.role for piece in pieces)
-    if counts["on front"]:
-        rest = " and elsewhere" if counts["rest"] else ""
-        return f"{part.source.name} lies on fronts ({counts['on front']}){rest}: a part on each (--parts auto)"
-    found = [
-        f"{counts[role]} {role}{'s' if counts[role] > 1 else ''}" for role in ("front", "handle", "lid") if counts[role]
-    ]
-    if counts["body"]:
-        return f"{part.source.name} holds {found[0]} drawn in it: parts of their own (--parts auto)"
-    rest = " and the rest" if counts["rest"] else ""
-    return f"{part.source.name} was cut into {', '.join(found)}{rest} (--parts auto)"
