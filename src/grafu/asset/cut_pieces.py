@@ -5,8 +5,9 @@ from dataclasses import replace
 
 from grafu.asset.loose import faces_of_part
 from grafu.asset.names import unique_ids
-from grafu.asset.part import Part, Surface
+from grafu.asset.part import Part
 from grafu.asset.plausibility import BODY
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4, Vec3
 from grafu.geometry.mesh import merge_meshes
 from grafu.segmentation.backs import back_of
