@@ -11,6 +11,7 @@ from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import line_crossings
+from grafu.geometry.unions import united
 
 MOST_FACES = 4000
 """Faces of a board that is looked at: finer ones take long."""
@@ -76,7 +77,7 @@ def holes_through(mesh: TriangleMesh, least: float, widest: float, thickest: flo
     if len(mesh.faces) > _FEW and _is_covered(mesh, across, least):
         return ()
     flat = shapely.polygons(mesh.triangles[:, :, across])
-    covered = shapely.union_all(flat[shapely.area(flat) > 0])
+    covered = united(flat[shapely.area(flat) > 0])
     rings = [ring for part in shapely.get_parts(covered) for ring in shapely.Polygon(part).interiors]
     found = []
     for ring in rings:

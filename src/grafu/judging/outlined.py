@@ -11,6 +11,7 @@ import trimesh
 
 from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.unions import united
 from grafu.shapes import Float
 
 ALIKE = 0.999  # cosine between normals of one face
@@ -34,7 +35,7 @@ class PrismPanel:
         u /= np.linalg.norm(u)
         self.axes = np.stack([u, np.cross(self.normal, u)])
         cap = shape.triangles[normals @ self.normal > ALIKE] @ self.axes.T
-        self.outline = shapely.union_all(shapely.polygons(cap)).buffer(0)
+        self.outline = united(shapely.polygons(cap)).buffer(0)
         across = mesh.vertices @ self.normal
         self.low, self.high = float(across.min()), float(across.max())
 

@@ -21,6 +21,7 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3
 from grafu.geometry.free_space import Grid, cell_boxes
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.unions import united
 from grafu.refusal import Reason, Refusal
 from grafu.scene.scene import Scene
 from grafu.shapes import Bool, Float
@@ -209,10 +210,10 @@ class FreeSpace:
         room = _around(free, middle)
         if room is None:
             return None
-        ends = shapely.union_all([walls, doors]).buffer(AT_WALL * slit)
+        ends = united([walls, doors]).buffer(AT_WALL * slit)
         edges = shapely.get_parts(shapely.line_merge(shapely.get_parts(room.boundary.difference(ends))))
         opened = [edge for edge in edges if edge.length > OPEN * slit]
-        back = shapely.union_all(opened).buffer(REGION_CELLS * cell + place.inset, cap_style="flat", join_style="mitre")
+        back = united(opened).buffer(REGION_CELLS * cell + place.inset, cap_style="flat", join_style="mitre")
         room = _around(
             without_slivers(room.difference(back), slit).intersection(shapely.convex_hull(walls.union(doors))), middle
         )
@@ -255,7 +256,7 @@ class FreeSpace:
     def _squares(self, cells: Level, plane: _Plane) -> BaseGeometry:
         taken, _ = inside_cells(self._scene, self._config)
         boxes = cell_boxes(cells[:, :, None])[:, :, :2] * taken.cell + taken.origin[list(plane.axes)]
-        return shapely.union_all(shapely.box(*boxes.reshape(-1, 4).T))
+        return united(shapely.box(*boxes.reshape(-1, 4).T))
 
     def _is_carried(self, outline: Polygon, walls: BaseGeometry) -> bool:
         """Whether enough of an outline rests on walls, on all sides of its middle."""

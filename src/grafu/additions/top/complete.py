@@ -53,6 +53,7 @@ from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.unions import united
 from grafu.joints.plan import JointRequest
 from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
@@ -254,7 +255,7 @@ def _cut_outs(basins: tuple[Part, ...], config: TopConfig, metre: float) -> Base
     below, line = config.evidence.flange * metre, config.outline.line * metre
     walls = (section(p.mesh.triangles, [float(p.box.high[2]) - below], line, metre) for p in basins)
     cut = [closed_up(wall, config.outline.crevice * metre) for wall in walls]
-    return shapely.union_all(cut) if cut else EMPTY
+    return united(cut) if cut else EMPTY
 
 
 def _is_rectangle(outline: Polygon) -> bool:

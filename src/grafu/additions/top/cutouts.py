@@ -15,6 +15,7 @@ from grafu.additions.top.section import EMPTY, offset, polygons_in, section_line
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Vec2
 from grafu.geometry.transform import transform_points
+from grafu.geometry.unions import united
 
 SWEEP_POSES = 12
 """Poses of a turning body between which its sweep is joined."""
@@ -57,7 +58,7 @@ def cutouts_of(
             cuts.append(path)
         else:
             grooves.append((path, top + gap))
-    return Cutouts(shapely.union_all(cuts) if cuts else EMPTY, tuple(grooves))
+    return Cutouts(united(cuts) if cuts else EMPTY, tuple(grooves))
 
 
 def thick_enough(
@@ -110,7 +111,7 @@ def _beyond(moving: Closed, outline: BaseGeometry, config: CutoutConfig, metre: 
     pieces = polygons_in(outline.intersection(_box(across, everything, all_along)))
     spans = np.array([[p.bounds[across], p.bounds[across + 2]] for p in pieces]).reshape(-1, 2)
     narrow = [p for p, span in zip(pieces, spans, strict=True) if np.ptp(span) <= config.before * metre]
-    return shapely.union_all([strip, *(p for p in narrow if p.intersects(strip))])
+    return united([strip, *(p for p in narrow if p.intersects(strip))])
 
 
 def _box(across: int, ends: Vec2, along: Vec2) -> BaseGeometry:
@@ -135,4 +136,4 @@ def _swept(moving: Closed, height: float, opening: float) -> BaseGeometry:
         reach = opening if turns else float(moving.mesh.box.size[:2].max())
         poses = [transform_points(motion(v), points) for v in np.linspace(0.0, reach, SWEEP_POSES if turns else 2)]
     steps = [np.concatenate([a, b])[:, :2] for a, b in zip(poses, poses[1:] or poses, strict=False)]
-    return shapely.union_all([shapely.convex_hull(shapely.multipoints(step)) for step in steps])
+    return united([shapely.convex_hull(shapely.multipoints(step)) for step in steps])

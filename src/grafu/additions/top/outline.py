@@ -31,6 +31,7 @@ from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.unions import united
 from grafu.shapes import Float
 
 ALONG_AXES = 1.02
@@ -58,8 +59,8 @@ def rim_of(roles: Roles, views: Views, coverage: Coverage, config: OutlineConfig
     triangles = _near(triangles_of(p.mesh for p in roles.still), coverage, config.front * metre)
     heights = [seat - skin * metre for skin in (config.skin, config.deep_skin)]
     walls = section(triangles, heights, line, metre)
-    hollow = shapely.union_all(shapely.box(*coverage.grid.boxes(coverage.opened).T))
-    held = shapely.union_all([walls, hollow, *(_plan_box(p.box) for p in _standing_on(roles, seat, config, metre))])
+    hollow = united(shapely.box(*coverage.grid.boxes(coverage.opened).T))
+    held = united([walls, hollow, *(_plan_box(p.box) for p in _standing_on(roles, seat, config, metre))])
     held = held.intersection(shapely.convex_hull(walls.union(hollow)))
     body = offset(closed_up(held, config.span * metre), -line)
     body = _joined(body, coverage, config.kneehole * metre)
@@ -80,7 +81,7 @@ def with_fronts(rim: Rim, moving_bodies: tuple[Closed, ...], config: OutlineConf
         found.append(front.intersection(near))
     if len(found) == 1:
         return rim.outline
-    return _squared(closed_up(shapely.union_all(found), 2 * config.front * metre), config, metre)
+    return _squared(closed_up(united(found), 2 * config.front * metre), config, metre)
 
 
 def over_the_base(
@@ -117,7 +118,7 @@ def overhanging(outline: BaseGeometry, front: float, side: float, back: float) -
         corners = np.asarray(polygon.exterior.coords)[:, :2]
         ends = np.concatenate([corners[:-1, None] + around, corners[1:, None] + around], axis=1)
         swept += [shapely.convex_hull(shapely.multipoints(points)) for points in ends]
-    return filled(shapely.union_all([outline, *swept]))
+    return filled(united([outline, *swept]))
 
 
 def under_what_stands(roles: Roles, rim: Rim, thickness: float, config: TopConfig, metre: float) -> float:
@@ -248,7 +249,7 @@ def _squared(shape: BaseGeometry, config: OutlineConfig, metre: float) -> BaseGe
         is_meant = float(shapely.distance(polygon, corners).max()) <= tolerance
         is_full = rectangle.difference(offset(polygon, 2 * tolerance)).area <= config.empty * rectangle.area
         made.append(rectangle if is_meant and is_full else polygon)
-    return shapely.union_all(made) if made else EMPTY
+    return united(made) if made else EMPTY
 
 
 def _joined(body: BaseGeometry, coverage: Coverage, kneehole: float) -> BaseGeometry:
@@ -261,7 +262,7 @@ def _of_openings(shape: BaseGeometry, coverage: Coverage) -> BaseGeometry:
     """Returns the polygons of a shape that hold some of the openings, as one."""
     x, y = coverage.grid.centers(coverage.opened).T
     held = [p for p in polygons_in(shape) if shapely.contains_xy(p, x, y).sum() > SPECK * len(x)]
-    return shapely.union_all(held) if held else EMPTY
+    return united(held) if held else EMPTY
 
 
 def _plan_box(body: Box) -> Polygon:

@@ -17,6 +17,7 @@ from shapely.geometry.polygon import orient
 
 from grafu.additions.top.config import TopShape
 from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.unions import united
 from grafu.shapes import Float
 
 Segments = Float[np.ndarray, "k 2 2"]
@@ -64,7 +65,7 @@ def section(triangles: Float[np.ndarray, "n 3 3"], heights: Iterable[float], lin
     lines = np.concatenate([section_lines(triangles, z) for z in heights])
     if not len(lines):
         return EMPTY
-    return shapely.union_all(shapely.polygons(_widened(_few(lines, metre), line)))
+    return united(shapely.polygons(_widened(_few(lines, metre), line)))
 
 
 def _widened(lines: Fewer, half: float) -> Float[np.ndarray, "f 4 2"]:
@@ -92,12 +93,12 @@ def _few(lines: Segments, metre: float) -> Fewer:
 
 def filled(shape: BaseGeometry) -> BaseGeometry:
     """Returns a shape without its holes."""
-    return shapely.union_all([Polygon(p.exterior) for p in polygons_in(shape)]) if not shape.is_empty else EMPTY
+    return united([Polygon(p.exterior) for p in polygons_in(shape)]) if not shape.is_empty else EMPTY
 
 
 def closed_up(shape: BaseGeometry, width: float) -> BaseGeometry:
     """Returns a shape without holes, and without bays and gaps up to `width` metres wide; corners stay sharp."""
-    plain = shapely.union_all([_plain(p, SMALL * width) for p in polygons_in(shape)])
+    plain = united([_plain(p, SMALL * width) for p in polygons_in(shape)])
     closed = offset(filled(offset(plain, 0.5 * width)), -0.5 * width)
     return filled(closed.intersection(shapely.convex_hull(plain)))  # slips of a hair beget spikes beyond it
 
@@ -106,7 +107,7 @@ def offset(shape: BaseGeometry, distance: float) -> BaseGeometry:
     """Returns a shape with its edges moved outwards by a distance, corners of 60 degrees on sharp."""
     with np.errstate(invalid="ignore", divide="ignore"):  # of edges that meet at no angle, which come out right
         moved = shape.buffer(distance, join_style="mitre", mitre_limit=MITRE_LIMIT)
-    return moved if moved.is_valid else shapely.union_all(polygons_in(shapely.make_valid(moved)))
+    return moved if moved.is_valid else united(polygons_in(shapely.make_valid(moved)))
 
 
 def _plain(polygon: Polygon, small: float) -> BaseGeometry:
