@@ -85,6 +85,7 @@ from grafu.segmentation.config import (
     MemberConfig,
     SegmentationConfig,
 )
+from grafu.segmentation.drawer_boxes import TubConfig
 from grafu.segmentation.furniture_pieces import FurnitureConfig
 from grafu.segmentation.surface_config import CreaseConfig, JoiningConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
@@ -270,7 +271,7 @@ CONFIGS = (
     ScaleConfig, SeenSideConfig, SegmentationConfig, ShownLidConfig,
     StandingConfig, StandingOutConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DrawerAboveConfig, DroppingDoorConfig, JoiningConfig,
-    TallDoorConfig, ThickDoorConfig, UpEvidenceConfig, VerdictConfig,
+    TallDoorConfig, ThickDoorConfig, TubConfig, UpEvidenceConfig, VerdictConfig,
     WallPanelConfig, WayOutConfig, WindowDoorConfig,
 )  # fmt: skip
 NUMBERS = [

@@ -81,6 +81,63 @@ def test_a_box_that_stands_close_above_the_bottom_of_the_case_is_told_from_it(tm
     assert len(parts["carcass"].mesh.faces) == 12 * len(CASE)
 
 
+INSET = [((-0.375, -0.24, low), (0.375, -0.22, low + 0.255)) for low in LOWS]
+
+
+def as_large_as(front, far=0.18):
+    """The boards of a box as wide and as high as its front."""
+    (left, _, low), (right, back, high) = front
+    return [
+        ((left, back, low), (left + 0.012, far, high)),
+        ((right - 0.012, back, low), (right, far, high)),
+        ((left + 0.012, back, low), (right - 0.012, far, low + 0.01)),
+        ((left + 0.012, far - 0.012, low + 0.01), (right - 0.012, far, high)),
+    ]
+
+
+def test_a_box_as_wide_and_high_as_its_low_front_goes_with_it(tmp_path):
+    held = [board for front in INSET for board in as_large_as(front)]
+    parts = read(tmp_path, carcass=[*CASE, *held], fronts=INSET)
+
+    assert deep_drawers(parts) == 3
+    assert len(parts["carcass"].mesh.faces) == 12 * len(CASE)
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_what_a_high_front_or_a_lid_closes_is_no_box_though_it_is_as_large(tmp_path, closed):
+    """The compartment behind a door that is higher than most drawers, and one that a board closes from above."""
+    front = ((-0.375, -0.24, 0.01), (0.375, -0.22, 0.26 if closed else 0.60))
+    lid = [((-0.363, -0.22, 0.25), (0.363, 0.168, 0.26))] if closed else []
+    parts = read(tmp_path, carcass=[*CASE, *as_large_as(front), *lid], slab=[front])
+
+    assert parts["slab"].label is not PartLabel.DRAWER
+    assert parts["slab"].box.size[1] < 0.03
+
+
+def test_boards_of_a_case_that_a_box_of_another_object_touches_are_none_of_it(tmp_path):
+    """Behind a low front the box fills its opening, a board of the case lies right below it."""
+    box, below = as_large_as(INSET[0]), [((-0.375, -0.22, 0.006), (0.375, 0.18, 0.0099))]
+    parts = read(tmp_path, carcass=[*CASE, *below], mesh_1=box, fronts=INSET)
+    assert len(parts["carcass"].mesh.faces) == 12 * (len(CASE) + 1)
+
+
+def test_a_knob_in_the_object_of_a_front_does_not_make_it_too_thick_for_one(tmp_path):
+    knob = ((-0.03, -0.44, 0.10), (0.03, -0.24, 0.16))
+    parts = read(tmp_path, carcass=[*CASE, *boards(LOWS[0])], slab=[FRONTS[0], knob])
+    assert parts["slab"].label is PartLabel.DRAWER
+
+
+def test_boards_without_names_that_are_joined_to_a_front_are_a_drawer_in_a_case_alone(tmp_path):
+    inside = {f"mesh_{k}": [board] for k, board in enumerate([FRONTS[0], *boards(LOWS[0])])}
+    case = {f"mesh_{9 + k}": [board] for k, board in enumerate(CASE)}
+    parts = read(tmp_path, **inside, **case)
+    assert parts["mesh_0"].label is PartLabel.DRAWER
+
+    parts = read(tmp_path, **inside, mesh_8=[((-0.4, -0.24, -0.1), (0.4, 0.22, 0.0))])
+    assert "mesh_3" not in parts
+    assert parts["mesh_0"].label is not PartLabel.DRAWER
+
+
 @pytest.mark.parametrize("left_out", [None, "tray_floor", "tray_rear"])
 def test_boards_with_words_of_their_own_go_with_the_front_before_them(tmp_path, left_out):
     words = ("tray_l", "tray_r", "tray_floor", "tray_rear")

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from grafu.asset.lying_handles import with_lying_handles
@@ -36,3 +37,13 @@ def test_a_bar_or_a_knob_on_a_front_is_its_handle(ends):
 @pytest.mark.parametrize("other", OTHERS)
 def test_what_else_lies_there_is_none(other):
     assert label_of(*OTHERS[other]) is PartLabel.MISC
+
+
+@pytest.mark.parametrize(("towards", "label"), [((0.0, -1.0, 0.0), PartLabel.HANDLE), (None, PartLabel.MISC)])
+def test_a_bar_is_a_handle_also_on_a_front_with_the_box_of_its_drawer(towards, label):
+    """Such a front is as deep as its box; it is known where one looks that was cut out of an object."""
+    drawer = replace(box("fronts_1", (0.0, -0.02, 0.0), (0.45, 0.4, 0.2)), label=PartLabel.UNKNOWN, labelled_by="none")
+    bar = replace(box("metal", (0.15, -0.05, 0.1), (0.3, -0.02, 0.11)), label=PartLabel.MISC, labelled_by="none")
+    facing = (None, None if towards is None else np.array(towards), None)
+
+    assert with_lying_handles((CASE, drawer, bar), (False, False, True), facing)[2].label is label

@@ -106,6 +106,39 @@ def test_a_case_without_a_back_is_no_box_behind_its_door():
     assert groups(door, case=case) == []
 
 
+def test_what_holds_two_fronts_with_a_handle_each_is_their_case_and_no_drawer():
+    """The top of a table with its apron, one object that its legs flank; fronts and boxes of two drawers are in it."""
+    apron = [
+        ((-0.7, y, z), (0.7, y + 0.01, z + h))
+        for y, z, h in ((-0.4, 0.62, 0.04), (-0.4, 0.76, 0.04), (0.39, 0.62, 0.18))
+    ]
+    ends = [((x, -0.4, 0.62), (x + 0.08, 0.4, 0.8)) for x in (-0.7, 0.62)]
+    top = merge_meshes([board(*ends) for ends in (((-0.75, -0.45, 0.8), (0.75, 0.45, 0.83)), *apron, *ends)])
+    legs = [board((x, y, 0.0), (x + 0.06, y + 0.06, 0.79)) for x in (-0.7, 0.64) for y in (-0.4, 0.34)]
+    fronts = [board((x, -0.4, 0.66), (x + 0.6, -0.38, 0.76)) for x in (-0.62, 0.02)]
+    inner = [board((x + 0.02, -0.38, 0.67), (x + 0.58, 0.3, 0.75)) for x in (-0.62, 0.02)]
+    bars = [board((x + 0.25, -0.43, 0.7), (x + 0.35, -0.4, 0.72)) for x in (-0.62, 0.02)]
+    meshes = [top, *fronts, merge_meshes(legs), merge_meshes(inner), *bars]
+
+    are_bars = [False] * 5 + [True] * 2
+    assert joined_objects(meshes, [not is_bar for is_bar in are_bars], handles=are_bars) == []
+    assert joined_objects(meshes, [not is_bar for is_bar in are_bars]) == [(0, 1, 2, 4)], "hinges tell nothing"
+
+
+@pytest.mark.parametrize("is_known", [True, False], ids=["known as a handle", "not known"])
+def test_a_wide_bar_that_stands_on_several_pieces_of_one_front_is_one_handle(is_known):
+    """Nine sheets that share their edges, a framed door; the posts of its bar stand on the lower corners."""
+    xs, zs = (-0.38, -0.28, 0.28, 0.38), (0.0, 0.1, 0.88, 0.98)
+    pieces = [quad(xs[i : i + 2], zs[k : k + 2]) for i in range(3) for k in range(3)]
+    posts = [board((x, -0.24, 0.05), (x + 0.01, -0.21, 0.06)) for x in (-0.33, 0.32)]
+    bar = merge_meshes([board((-0.35, -0.25, 0.05), (0.35, -0.24, 0.06)), *posts])
+    meshes = [*pieces, bar, *CASE]
+
+    may = [True] * len(pieces) + [not is_known] + [True] * len(CASE)
+    found = joined_objects(meshes, may, handles=[not one for one in may])
+    assert [set(group) for group in found] == [set(range(len(pieces)))]
+
+
 def test_objects_that_may_not_be_joined_are_not_and_never_all_are():
     fragments = [FRONT, *BOARDS.values()]
     closed = [True] * 5 + [False] * len(CASE)

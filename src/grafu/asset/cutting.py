@@ -106,9 +106,15 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
         freed(_named(part_of_piece(part, piece, new, T, part.id in cases), piece, model, T, config), cut)
         for (part, piece), new in zip(bare, ids_of_pieces(pieces), strict=True)
     )
-    parts = with_lying_handles(parts, [piece is not None and piece.role == "on front" for _, piece in pieces])
+    lying = [piece is not None and piece.role == "on front" for _, piece in pieces]
+    parts = with_lying_handles(parts, lying, [_facing(piece, T) for _, piece in pieces])
     notes = (note_on_cut(reading.parts[k], found) for k, found in cuts.items())
     return replace(reading, parts=parts, notes=(*reading.notes, *notes), fronts_face=_side_of_fronts(cuts, T))
+
+
+def _facing(piece: FacePiece | None, T: Mat4) -> Vec3 | None:
+    """Returns where a piece looks in the input; `T` turns the input upright."""
+    return None if piece is None or piece.towards is None else T[:3, :3].T @ piece.towards
 
 
 def _with_nameless_whole(reading: Reading) -> Reading:
@@ -134,7 +140,7 @@ def _may_have_lid(meshes: list[TriangleMesh], cuts: dict[int, list[FacePiece]], 
 
 def _side_of_fronts(cuts: dict[int, list[FacePiece]], T: Mat4) -> str | None:
     """Returns the direction in the input that all fronts face which were cut out; `T` turns the input upright."""
-    facing = [T[:3, :3].T @ p.towards for found in cuts.values() for p in found if p.towards is not None]
+    facing = [side for found in cuts.values() for p in found if (side := _facing(p, T)) is not None]
     if not facing:
         return None
     axis = int(np.argmax(np.abs(facing[0])))

@@ -16,6 +16,8 @@ from grafu.asset.reading import Reading
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
+from grafu.geometry.mesh import TriangleMesh
+from grafu.segmentation.boxes_in_case import boxes_in_cases
 from grafu.segmentation.joining import joined_objects
 from grafu.vocabulary import PartLabel
 
@@ -48,6 +50,8 @@ class HeldTogetherConfig:
 def joined_where_nameless(reading: Reading, frame: Frame) -> Reading:
     """Returns the reading with objects joined that no name tells and that are one door, drawer or handle; with notes.
 
+    A front that is joined with the boards of a box which stands in its case is a drawer.
+
     Args:
         reading: what was read.
         frame: how it stands; its unit does not matter.
@@ -58,7 +62,22 @@ def joined_where_nameless(reading: Reading, frame: Frame) -> Reading:
     if sum(nameless) < 2:
         return reading
     T = turn_of(frame)
-    return _joined(reading, joined_objects([part.mesh.transformed(T) for part in reading.parts], nameless))
+    meshes = [part.mesh.transformed(T) for part in reading.parts]
+    groups = joined_objects(meshes, nameless, handles=[part.label is PartLabel.HANDLE for part in reading.parts])
+    drawers = {group[0] for group in _with_boxes(meshes, groups)}
+    parts = (
+        replace(part, label=PartLabel.DRAWER, labelled_by="shape") if k in drawers else part
+        for k, part in enumerate(reading.parts)
+    )
+    return _joined(replace(reading, parts=tuple(parts)), groups)
+
+
+def _with_boxes(meshes: Sequence[TriangleMesh], groups: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Returns the groups whose first object is a front, and the others the box of a drawer in its case."""
+    fronts, boards = {group[0] for group in groups}, {k for group in groups for k in group[1:]}
+    count = range(len(meshes))
+    found = boxes_in_cases(meshes, [k in fronts for k in count], [k in boards for k in count])
+    return [group for group in groups if group[0] in found and {*found[group[0]]} <= {*group}]
 
 
 def has_copies(reading: Reading) -> bool:

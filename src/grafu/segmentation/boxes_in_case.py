@@ -38,7 +38,7 @@ class BoxInCaseConfig:
     most: int = 600
     """Shells behind one front at most: what is more is a basket of wire or a load."""
     plate: float = 0.7
-    """How thick a front is at most, with its handle (of its shorter side)."""
+    """How thick a front is at most, without what stands before its largest shell: handles (of its shorter side)."""
     width: float = 0.5
     """How wide a box is at least (of the front's width) ..."""
     height: float = 0.25
@@ -46,7 +46,9 @@ class BoxInCaseConfig:
     depth: float = 0.9
     """... and how deep (of its own height): the bins of tilting fronts are less deep."""
     full: float = 0.96
-    """A box is narrower or lower than this (of its front): boards that are neither are the case behind a door."""
+    """A box is narrower or lower than this (of its front): boards that are neither are the case behind a door ..."""
+    low: float = 0.6
+    """... unless the front looks to -Y, is as low as this (of its width), and no more than one object is parted."""
     wall: float = 0.3
     """What the faces of a side cover at least (of the box as it is seen from there) ..."""
     bottom: float = 0.4
@@ -61,7 +63,7 @@ class BoxInCaseConfig:
     def __post_init__(self) -> None:
         require_positive(self, "most", "depth")
         require_ratios(
-            self, "near", "touch", "plate", "width", "height", "full", "wall", "bottom", "lid", "end", "along"
+            self, "near", "touch", "plate", "width", "height", "full", "low", "wall", "bottom", "lid", "end", "along"
         )
 
 
@@ -74,7 +76,7 @@ def boxes_in_cases(
     """Returns for each front that has its box in other objects the faces of these that are the box, by object.
 
     Args:
-        meshes: the objects of an input, Z up; any unit.
+        meshes: the objects of an input, Z up, their front most likely at -Y; any unit.
         fronts: which of them may be the front of a drawer, and have no box yet.
         cases: which of them may hold boxes, whole or in part.
         config: the thresholds.
@@ -106,7 +108,7 @@ class _BoxFinder:
     ) -> None:
         axes = axes_from(turn)
         self._view: ShellsView = shells.seen(axes)
-        self._mesh, self._axes = shells.mesh, axes
+        self._mesh, self._axes, self._is_ahead = shells.mesh, axes, turn == 0
         self._gives: MaskOfShells = cases[shells.owner]
         self._config = config
 
@@ -117,7 +119,8 @@ class _BoxFinder:
         low, high = view.low[own].min(axis=0), view.high[own].max(axis=0)
         size = high - low
         near = config.near * float(size[:2].max())
-        if size[2] > config.plate * size[:2].min():
+        main = np.flatnonzero(own)[np.argmax(np.prod(view.size[own, :2], axis=1))]
+        if float(view.high[main, 2] - low[2]) > config.plate * size[:2].min():
             return None
         inside = (view.low[:, :2] >= low[:2] - near).all(axis=1) & (view.high[:, :2] <= high[:2] + near).all(axis=1)
         inside &= self._gives & ~taken & ~own & (view.high[:, 2] <= high[2] + near) & (view.low[:, 2] < low[2] - near)
@@ -144,7 +147,9 @@ class _BoxFinder:
         size, front_low = high - low, view.low[front].min(axis=0)
         whole = view.high[front].max(axis=0) - front_low
         ratio = size[:2] / whole[:2]
-        is_fitting = ratio[0] >= config.width and ratio[1] >= config.height and ratio.min() <= config.full
+        is_low = self._is_ahead and whole[1] <= config.low * whole[0] and self._is_of_one(group)
+        is_smaller = ratio.min() <= config.full or is_low
+        is_fitting = ratio[0] >= config.width and ratio[1] >= config.height and is_smaller
         is_right_behind = front_low[2] - near <= high[2]
         is_deep = size[2] >= config.depth * size[1] and size[2] > 2 * near
         if not (is_fitting and is_right_behind and is_deep and self._is_open_above(group, low, high)):
@@ -152,6 +157,12 @@ class _BoxFinder:
         rest = ~front
         rest[group] = False
         return self._stands_in_case(rest, low, high, near)
+
+    def _is_of_one(self, group: Indices) -> bool:
+        """Whether shells are of one object, or all that several consist of: a drawer, and no piece of its case."""
+        owner = self._view.owner
+        owners = np.unique(owner[group])
+        return len(owners) == 1 or int(np.isin(owner, owners).sum()) == len(group)
 
     def _stands_in_case(self, rest: MaskOfShells, low: np.ndarray, high: np.ndarray, near: float) -> bool:
         """Whether the rest reaches past a box on the left and on the right, and behind it or farther back."""

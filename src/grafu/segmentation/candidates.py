@@ -115,7 +115,8 @@ def halves(view: ShellsView, config: SegmentationConfig) -> list[tuple[int, ...]
         alike = beside[(np.abs(size[beside] - size[k]).max(axis=1) <= same[k]) & (ends[beside] <= same[k])]
         across = (np.abs(view.low[:, 0] + view.high[:, 0] - 2 * seam) <= same[k]) & (size[:, 0] > 2 * near[k])
         across &= (view.low[:, 1:] >= view.low[k, 1:] - near[k]).all(axis=1) & (view.high[:, 1] <= view.high[k, 1])
-        across &= (area <= config.members.handle_area * area[k]) & (view.high[:, 2] >= view.high[k, 2] - near[k])
+        face = view.high[k, 2] - min(float(near[k]), float(size[k, 2]) / 2)  # what ends farther back is a board behind
+        across &= (area <= config.members.handle_area * area[k]) & (view.high[:, 2] >= face)
         if len(alike) == 1 and across.any():
             found.append((k, int(alike[0])))
     return _without_shared(found)

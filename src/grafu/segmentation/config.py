@@ -186,7 +186,9 @@ class MemberConfig(ShortRepr):
     liner: float = 1.5
     """How far behind a front its liners lie, and how thick they are (of its thickness)."""
     liner_plate: float = 0.5
-    """How thick a liner is at most (of its shorter side)."""
+    """How thick a liner is at most (of its shorter side) ..."""
+    seam: float = 0.1
+    """... and how far it may leave its front's outline (multiple of `near`): stiles of a case behind it leave more."""
     side_width: float = 0.2
     """How thick the side of a drawer's box is at most (of the front's width) ..."""
     side_height: float = 0.3
@@ -216,7 +218,9 @@ class DivisionConfig:
     plate: float = 0.35
     """As thick as this an object is a plate (of its shorter side)."""
     filled: float = 0.6
-    """What fronts in a plate cover (of its outline)."""
+    """What fronts in a plate cover (of its outline) ..."""
+    apart: float = 0.3
+    """... and where it is nothing but fronts: those of two pedestals lie far apart, handles cover less."""
     alike: float = 0.4
     """What the others have where several fronts are one plate (of the largest front's outline)."""
     board: float = 5.0

@@ -23,12 +23,13 @@ SHEET = 1e-6  # of the gap across which pieces touch: what is no wider, seen fro
 class FrontShells:
     """The shells of one door or drawer, the plate first, and those of each handle on it.
 
-    `is_held` states whether a handle stands on it, its own or one that is another object.
+    `is_held` states whether a handle stands on it, its own or one that is another object; `others` are the latter.
     """
 
     shells: tuple[int, ...]
     handles: tuple[tuple[int, ...], ...] = ()
     is_held: bool = False
+    others: tuple[tuple[int, ...], ...] = ()
 
     @property
     def all_shells(self) -> frozenset[int]:
@@ -39,7 +40,8 @@ class FrontShells:
         """Returns the front with each shell replaced by those that it is made of."""
         parts = tuple(m for shell in self.shells for m in members[shell])
         handles = tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.handles)
-        return FrontShells(parts, handles, self.is_held)
+        others = tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.others)
+        return FrontShells(parts, handles, self.is_held, others)
 
 
 def fronts_among(view: ShellsView, plates: Indices, config: SegmentationConfig) -> tuple[FrontShells, ...]:
@@ -58,8 +60,11 @@ def fronts_among(view: ShellsView, plates: Indices, config: SegmentationConfig) 
             chosen.append(plate)
     taken: set[int] = set(chosen)
     found = []
+    inside = {plate: within(view, plate, 0.0) for plate in chosen}
+    in_any = np.any([*inside.values()], axis=0) if chosen else np.zeros(0, bool)
     for plate in chosen:
-        front = finder.with_members(plate, taken)
+        of_others = np.flatnonzero(in_any & ~inside[plate])  # such as a bottom close above this front
+        front = finder.with_members(plate, {*taken, *of_others.tolist()})
         taken |= front.all_shells
         found.append(front)
     return _with_stiles(view, found, config)
@@ -200,7 +205,7 @@ class _FrontFinder:
         members |= drawer_boards(view, plate, inside & ~members, near, self._config)
         members |= drawer_tub(view, plate, inside, cover, near, self._config)
         members |= free & self._stands_behind(plate) & bool(handles)
-        return FrontShells((plate, *np.flatnonzero(members).tolist()), handles, bool(handles or others))
+        return FrontShells((plate, *np.flatnonzero(members).tolist()), handles, bool(handles or others), others)
 
     def _stands_on(self, plate: int) -> MaskOfShells:
         """Whether each shell is small and stands out from the plate: a handle, or a piece of one."""
@@ -245,7 +250,7 @@ class _FrontFinder:
         thick = float(view.size[plate, 2])
         mounted = view.low[:, 2] >= view.low[plate, 2] - near
         liner = view.size[:, 2] <= config.liner * thick + near
-        liner &= view.low[:, 2] >= view.low[plate, 2] - config.liner * thick
+        liner &= (view.low[:, 2] >= view.low[plate, 2] - config.liner * thick) & within(view, plate, config.seam * near)
         is_frame = (self._cover < config.ring) & (self._area >= config.whole * self._area[plate])
         plate_like = view.size[:, 2] <= config.liner_plate * view.size[:, :2].min(axis=1)
         return np.asarray(mounted | (liner & plate_like & ~is_frame))

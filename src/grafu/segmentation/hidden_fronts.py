@@ -32,7 +32,8 @@ def without_case(
 def is_panel_of_controls(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bool:
     """Whether a low strip has more handles in a row than a drawer has: the knobs of a stove."""
     size = view.size[front.shells[0]]
-    return len(front.handles) >= config.knobs and bool(size[0] >= config.strip * size[1])
+    count = len(front.handles) + len(front.others)
+    return count >= config.knobs and bool(size[0] >= config.strip * size[1])
 
 
 def is_one_with_handles(view: ShellsView, owner: int, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
@@ -67,8 +68,9 @@ def hides(
 ) -> bool:
     """Whether an object is more than the fronts in it are: a case, or several fronts in one.
 
-    What is said to be one door or drawer holds several where they fill its outline, as an open niche among them does
-    not, or where it is nothing but fronts in one plane. The only object of an input is a case, also where it looks
+    What is said to be one door or drawer, and a plate, holds several where they fill its outline, as an open niche
+    among them does not, or where it is nothing but fronts in one plane; those of a plate without a name are of about
+    one size then, or a handle stands on each. The only object of an input is a case, also where it looks
     like a drawer: open above, and as wide as its front. So is the frame that the leaf of a door hangs in.
     """
     own = view.owner == owner
@@ -86,7 +88,10 @@ def hides(
         return False
     if is_whole or (is_plate and not _is_shallow_case(view, np.flatnonzero(own), fronts, config.division)):
         several = len(major) > 1 and filled >= config.division.filled
-        several |= is_whole and len(fronts) > 1 and _is_nothing_else(view, np.flatnonzero(own), fronts)
+        covered = sum(outline(view, front) for front in fronts) / float(size[0] * size[1])
+        clear = len(major) == len(fronts) or all(front.is_held for front in fronts)
+        clear = is_whole or (clear and covered >= config.division.apart)
+        several |= clear and len(fronts) > 1 and _is_nothing_else(view, np.flatnonzero(own), fronts)
         return several or (not is_whole and _is_beside_panel(view, np.flatnonzero(own), major, config.division))
     if len(fronts) == 1 and not own.all() and _is_plinth(view, fronts[0], float(size[1]), config.division):
         return False
@@ -94,7 +99,7 @@ def hides(
     rest[[shell for front in fronts for shell in front.all_shells]] = False
     if len(major) > 1 or not rest.any():
         return len(major) > 1
-    return bool(own.all()) or _is_case(view, np.flatnonzero(rest), fronts, config)
+    return bool(own.all()) or _is_case(view, np.flatnonzero(rest), major, config)
 
 
 def _is_nothing_else(view: ShellsView, own: Indices, fronts: tuple[FrontShells, ...]) -> bool:

@@ -33,6 +33,7 @@ def joined_objects(
     open_to: Sequence[bool],
     config: SegmentationConfig = SegmentationConfig(),
     has_name: bool = False,
+    handles: Sequence[bool] | None = None,
 ) -> list[Group]:
     """Returns the objects that are one front with what belongs to it, or one handle; two at least each.
 
@@ -45,6 +46,7 @@ def joined_objects(
         open_to: which of them may be joined.
         config: the thresholds.
         has_name: whether the names of the objects that may be joined tell that they are doors or drawers.
+        handles: which of the other objects are known as handles; None: none of them.
     """
     may = np.asarray(open_to, dtype=bool)
     owner = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
@@ -54,15 +56,16 @@ def joined_objects(
     across = _across(shells.mesh, owner, apart, may)
     numberings = [across] if across.max(initial=0) < apart.max(initial=0) else []
     numberings += [apart, owner] if len(meshes) <= apart.max(initial=0) else [apart]
-    fronts = [front for shell in numberings for front in _front_objects(shells, shell, owner, may, config)]
+    known = np.zeros(len(may), dtype=bool) if handles is None else np.asarray(handles, dtype=bool)
+    fronts = [front for shell in numberings for front in _front_objects(shells, shell, owner, (may, known), config)]
     single = [front for front in fronts if contacts.count_apart(front.handles_within(fronts)) < 2]
     taken: set[int] = set()
     found: list[Group] = []
     for front in single:
-        handles = () if has_name else front.handles
+        grips = () if has_name else front.handles
         if not has_name and len({*contacts.hanging_together(front, may), *_all(front.handles)}) >= int(may.sum()):
             continue  # nothing would be left that carries it
-        for group in (contacts.hanging_together(front, may), *(contacts.handle_of(h, front) for h in handles)):
+        for group in (contacts.hanging_together(front, may), *(contacts.handle_of(h, front) for h in grips)):
             if len(group) > 1 and not taken & {*group}:
                 found.append(group)
                 taken |= {*group}
@@ -83,6 +86,8 @@ class _Front:
     handles: tuple[Group, ...]
     carriers: Group
     """The objects of its plate, also where they are more than the front: then there are no plates."""
+    others: tuple[Group, ...]
+    """The objects of the handles on it that are known as such, and so may not be joined."""
 
     @property
     def objects(self) -> frozenset[int]:
@@ -90,9 +95,13 @@ class _Front:
         return frozenset((*self.plates, *self.members))
 
     def handles_within(self, fronts: "Sequence[_Front]") -> list[Group]:
-        """Returns the objects of the handles of each smaller front in it; a face frame holds several such."""
+        """Returns the objects of the handles of each smaller front in it; a face frame holds several such.
+
+        So does the apron of a table with its top and its drawers.
+        """
         inner = (front for front in fronts if front.plates and front.objects < self.objects)
-        return [tuple(k for handle in front.handles for k in handle) for front in inner if any(front.handles)]
+        held = (tuple(k for handle in (*front.handles, *front.others) for k in handle) for front in inner)
+        return [objects for objects in held if objects]
 
 
 class _Contacts:
@@ -207,9 +216,14 @@ def _across(whole: TriangleMesh, owner: ObjectOfFaces, apart: Indices, may: Mask
 
 
 def _front_objects(
-    shells: MeshShells, shell: Indices, owner: ObjectOfFaces, may: MaskOfObjects, config: SegmentationConfig
+    shells: MeshShells,
+    shell: Indices,
+    owner: ObjectOfFaces,
+    masks: tuple[MaskOfObjects, MaskOfObjects],
+    config: SegmentationConfig,
 ) -> list[_Front]:
-    """Returns the objects of each front and of its handles."""
+    """Returns the objects of each front and of its handles; `masks` are what may be joined, and the known handles."""
+    may, known = masks
     of = np.where(may, 0, np.arange(len(may)) + 1)
     first = np.unique(shell, return_index=True)[1]
     seen = shells.sorted(shell, of[owner[first]].astype(np.int64)).seen(axes_from(0))
@@ -222,6 +236,7 @@ def _front_objects(
             *objects.whole_in(front.shells),
             tuple(sum(objects.whole_in(handle), ()) for handle in front.handles),
             objects.of_shell(front.shells[0]),
+            tuple(group for handle in front.others if known[[*(group := objects.of_shells(handle))]].all()),
         )
         for front in found
     ]
@@ -249,6 +264,10 @@ class _ObjectsOfShells:
         if not whole >= {*plates}:
             return (), ()
         return plates, tuple(sorted(whole - {*plates}))
+
+    def of_shells(self, group: Group) -> Group:
+        """Returns the objects that have faces in some shells."""
+        return tuple(sorted({k for shell in group for k in self.of_shell(shell)}))
 
     def of_shell(self, shell: int) -> Group:
         """Returns the objects that have faces in a shell."""

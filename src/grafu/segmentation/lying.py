@@ -5,10 +5,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from grafu.geometry.arrays import Indices
+from grafu.geometry.components import linked
+from grafu.geometry.touching import near_ends
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.fronts import SHEET, FrontShells
 from grafu.segmentation.surroundings import Scale
-from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
+from grafu.segmentation.view import MaskOfShells, PointsOfShells, ScalarsOfShells, ShellsView
 from grafu.shapes import Bool
 
 
@@ -23,8 +25,9 @@ def lying_on_fronts(
     The first of `fronts` are hidden in objects, the second are plates that are objects of their own: on such, handles
     count alone, on a single one those that stand before it. `may` are the shells that may be parted by the first, and
     those that may by either. What is as small as a handle may be inset: it reaches the face of its front from behind.
-    What is large, or has more behind its front, is a front itself before a single hidden one.
-    The handle on the other side of a door, behind that on its face, lies on it as well.
+    What is large, or hangs together with more behind its front, is a front itself before a single hidden one.
+    The handle on the other side of a door, behind that on its face, lies on it as well. What reaches a border of its
+    front, as hinges do, is a group of its own.
     """
     hidden, alone = fronts
     plates = np.array([front.shells[0] for fronts in hidden.values() for front in fronts], dtype=np.int64)
@@ -55,12 +58,40 @@ def lying_on_fronts(
         in_others = bool(served) and is_hidden[served].any()
         if in_others and len(served) == 1:
             behind = ~lies & (high[:, 0, 2] <= view.high[plates[served[0]], 2]) & in_outline[:, served[0]]
+            behind &= _hang_together(low[:, 0], high[:, 0], lies, float(near[served[0]]))
             if behind.any() or not is_small[:, served[0]].all():
                 continue  # a drawer of its own, before the apron of another object
         is_ahead = view.low[own][:, 2] >= (view.high[plates, 2] - near)[front]
         if len(served) > 1 or ((in_others or (lies & is_ahead).any()) and not lies.all()):
-            found[owner] = tuple(tuple(own[lies & (front == k)].tolist()) for k in served)
+            found[owner] = tuple(
+                group
+                for k in served
+                for group in _by_place(view, own[lies & (front == k)], int(plates[k]), float(near[k]), config)
+            )
     return found
+
+
+def _hang_together(
+    low: PointsOfShells, high: PointsOfShells, lies: Bool[np.ndarray, " own"], near: float
+) -> Bool[np.ndarray, " own"]:
+    """Whether each of some shells touches one that lies on a front, or others that do."""
+    label = linked(len(low), *near_ends(low, high, near))
+    return np.isin(label, label[lies])
+
+
+def _by_place(
+    view: ShellsView, lying: Indices, plate: int, near: float, config: SegmentationConfig
+) -> tuple[tuple[int, ...], ...]:
+    """Returns what lies on a front as one group, or as two: what keeps clear of its borders, and what reaches one.
+
+    A handle does the former, with its posts; hinges do the latter, with their screws.
+    """
+    low, high = view.low[lying], view.high[lying]
+    label = linked(len(lying), *near_ends(low, high, config.members.handle_touch * near))
+    reaches = (low[:, :2] < view.low[plate, :2] + near).any(axis=1)
+    reaches |= (high[:, :2] > view.high[plate, :2] - near).any(axis=1)
+    at_border = np.isin(label, label[reaches])
+    return tuple(tuple(lying[group].tolist()) for group in (~at_border, at_border) if group.any())
 
 
 def _behind(

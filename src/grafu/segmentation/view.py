@@ -55,6 +55,10 @@ class RayGrid:
         """How high each ray meets that face (z); minus infinity where it meets none."""
         return self._met[1]
 
+    def corners(self, faces: Bool[np.ndarray, " faces"]) -> Float[np.ndarray, "n 3 3"]:
+        """Returns the corners of some faces of the mesh, in the viewer's coordinates."""
+        return np.asarray(self._mesh.vertices[self._mesh.faces[faces]] @ self._axes.T)
+
     @cached_property
     def _met(self) -> tuple[Int[np.ndarray, "r c"], Float[np.ndarray, "r c"]]:
         x, y = np.meshgrid(*(self.origin[k] + self.cell * np.arange(self.shape[1 - k]) for k in (0, 1)))
