@@ -39,6 +39,8 @@ class BoxInCaseConfig:
     """Shells behind one front at most: what is more is a basket of wire or a load."""
     plate: float = 0.7
     """How thick a front is at most, without what stands before its largest shell: handles (of its shorter side)."""
+    flattest: float = 16.0
+    """How many times as wide as high a front is at most: what is flatter is an apron, with several drawers behind."""
     width: float = 0.5
     """How wide a box is at least (of the front's width) ..."""
     height: float = 0.25
@@ -61,7 +63,7 @@ class BoxInCaseConfig:
     """How much of the height and depth of a box the sides of its case run along at least (fraction)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "most", "depth")
+        require_positive(self, "most", "depth", "flattest")
         require_ratios(
             self, "near", "touch", "plate", "width", "height", "full", "low", "wall", "bottom", "lid", "end", "along"
         )
@@ -120,7 +122,8 @@ class _BoxFinder:
         size = high - low
         near = config.near * float(size[:2].max())
         main = np.flatnonzero(own)[np.argmax(np.prod(view.size[own, :2], axis=1))]
-        if float(view.high[main, 2] - low[2]) > config.plate * size[:2].min():
+        is_thick = float(view.high[main, 2] - low[2]) > config.plate * size[:2].min()
+        if is_thick or size[0] > config.flattest * size[1]:
             return None
         inside = (view.low[:, :2] >= low[:2] - near).all(axis=1) & (view.high[:, :2] <= high[:2] + near).all(axis=1)
         inside &= self._gives & ~taken & ~own & (view.high[:, 2] <= high[2] + near) & (view.low[:, 2] < low[2] - near)

@@ -24,12 +24,14 @@ class FrontShells:
     """The shells of one door or drawer, the plate first, and those of each handle on it.
 
     `is_held` states whether a handle stands on it, its own or one that is another object; `others` are the latter.
+    `has_box` states whether the box of a drawer was drawn behind it.
     """
 
     shells: tuple[int, ...]
     handles: tuple[tuple[int, ...], ...] = ()
     is_held: bool = False
     others: tuple[tuple[int, ...], ...] = ()
+    has_box: bool = False
 
     @property
     def all_shells(self) -> frozenset[int]:
@@ -41,7 +43,7 @@ class FrontShells:
         parts = tuple(m for shell in self.shells for m in members[shell])
         handles = tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.handles)
         others = tuple(tuple(m for shell in handle for m in members[shell]) for handle in self.others)
-        return FrontShells(parts, handles, self.is_held, others)
+        return FrontShells(parts, handles, self.is_held, others, self.has_box)
 
 
 def fronts_among(view: ShellsView, plates: Indices, config: SegmentationConfig) -> tuple[FrontShells, ...]:
@@ -202,10 +204,12 @@ class _FrontFinder:
         inside = free & within(view, plate, float(self._near[plate]))
         members = inside & self._lies_in(plate)
         near, cover = float(self._near[plate]), self._cover
-        members |= drawer_boards(view, plate, inside & ~members, near, self._config)
-        members |= drawer_tub(view, plate, inside, cover, near, self._config)
+        box = drawer_boards(view, plate, inside & ~members, near, self._config)
+        box |= drawer_tub(view, plate, inside, cover, near, self._config)
+        members |= box
         members |= free & self._stands_behind(plate) & bool(handles)
-        return FrontShells((plate, *np.flatnonzero(members).tolist()), handles, bool(handles or others), others)
+        shells = (plate, *np.flatnonzero(members).tolist())
+        return FrontShells(shells, handles, bool(handles or others), others, bool(box.any()))
 
     def _stands_on(self, plate: int) -> MaskOfShells:
         """Whether each shell is small and stands out from the plate: a handle, or a piece of one."""

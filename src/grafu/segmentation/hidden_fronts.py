@@ -182,7 +182,10 @@ def _is_around(view: ShellsView, shells: Indices, plate: int) -> bool:
 
 
 def _is_case(view: ShellsView, rest: Indices, fronts: tuple[FrontShells, ...], config: SegmentationConfig) -> bool:
-    """Whether shells are more than a box behind fronts: they stand out of these, or are closed from above."""
+    """Whether shells are more than a box behind fronts: they stand out of these, or are closed from above.
+
+    What ends below the middle of the fronts is the bottom of a box with its runners, and closes nothing.
+    """
     plates = [front.shells[0] for front in fronts]
     reach = config.division.case_reach
     near = reach * (config.candidates.near * float(Scale.of(view).extent[plates[0]]))
@@ -190,6 +193,8 @@ def _is_case(view: ShellsView, rest: Indices, fronts: tuple[FrontShells, ...], c
     left, right = view.low[plates].min(axis=0) - near, view.high[plates].max(axis=0) + near
     if (low[:2] < left[:2]).any() or (high[:2] > right[:2]).any():
         return bool(view.low[plates, 2].max() - low[2] > near / reach)
+    if high[1] < (left[1] + right[1]) / 2:
+        return False
     above = view.high[rest, 1] >= high[1] - near
     lid = float(view.faced[rest[above], 1].sum())
     return lid >= config.division.lid * float((high - low)[0] * (high - low)[2])

@@ -18,7 +18,7 @@ from grafu.segmentation.view import MaskOfShells, ShellsView
 def with_low(
     view: ShellsView, may: MaskOfShells, fronts: tuple[FrontShells, ...], config: SegmentationConfig
 ) -> tuple[FrontShells, ...]:
-    """Returns the fronts with the smaller ones beside them: low ones with a handle, and what is in line with others.
+    """Returns the fronts with the smaller ones beside them: low ones with a handle or a box, and what is in line.
 
     The former are the drawers of a table or of a chest for plans, the latter the top drawers and the narrow door of a
     row of kitchen units.
@@ -34,7 +34,7 @@ def with_low(
     in_line = _in_line(view, free, plates, division)
     in_line |= _in_line(view, free, [*plates, *in_line], division)  # the corner of a column and a row of such
     found = fronts_among(view, np.array([k for k in free if k in low | in_line], dtype=np.int64), config)
-    kept = (f for f in found if f.shells[0] in in_line or f.is_held)
+    kept = (f for f in found if f.shells[0] in in_line or f.is_held or f.has_box)
     return (*fronts, *(front for front in kept if not taken & front.all_shells))
 
 
