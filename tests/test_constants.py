@@ -39,6 +39,7 @@ from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
 from grafu.asset.place_names import PlaceNamesConfig
 from grafu.asset.plausibility import PlausibilityConfig
+from grafu.asset.polygons import PolygonConfig
 from grafu.asset.resting import RestConfig
 from grafu.asset.ring_seats import RingSeatConfig
 from grafu.asset.scale import ScaleConfig
@@ -268,7 +269,7 @@ CONFIGS = (
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
     RehangConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
-    ScaleConfig, SeenSideConfig, SegmentationConfig, ShownLidConfig,
+    PolygonConfig, ScaleConfig, SeenSideConfig, SegmentationConfig, ShownLidConfig,
     StandingConfig, StandingOutConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DrawerAboveConfig, DroppingDoorConfig, JoiningConfig,
     TallDoorConfig, ThickDoorConfig, TubConfig, UpEvidenceConfig, VerdictConfig,

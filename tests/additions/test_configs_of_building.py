@@ -21,6 +21,7 @@ from grafu.additions.top.config import (
     SupportConfig,
     TopConfig,
 )
+from grafu.additions.top.lids_below import LidBelowConfig
 from grafu.additions.top.slope_config import SlopeConfig
 from grafu.additions.top.tap_config import TapConfig
 from grafu.joints.clearance_config import ClearanceConfig
@@ -116,6 +117,7 @@ RATIOS = [
     (RoomConfig, "walled"),
     (SupportConfig, "full"),
     (TapConfig, "bottom"),
+    (LidBelowConfig, "closes"),
     (TopConfig, "coverage"),
     (TopConfig, "metal"),
 ]

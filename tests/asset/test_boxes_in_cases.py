@@ -138,6 +138,33 @@ def test_boards_without_names_that_are_joined_to_a_front_are_a_drawer_in_a_case_
     assert parts["mesh_0"].label is not PartLabel.DRAWER
 
 
+@pytest.mark.parametrize("deeper", [0.0, 0.001, 0.004], ids=["rests", "cuts in by 1 mm", "cuts in by 4 mm"])
+def test_a_box_that_rests_on_the_bottom_of_the_case_or_cuts_into_it_is_told_from_it(tmp_path, deeper):
+    lowest = ((-0.399, -0.24, 0.0), FRONTS[0][1])
+    parts = read(tmp_path, carcass=[*CASE, *boards(-0.01 - deeper)], fronts=[lowest, *FRONTS[1:]])
+
+    assert deep_drawers(parts) == 1
+    assert len(parts["carcass"].mesh.faces) == 12 * len(CASE)
+
+
+@pytest.mark.parametrize("left", [-1.2, -0.4])
+def test_the_sides_of_a_case_that_stand_on_its_bottom_are_no_box(tmp_path, left):
+    """Units of a row: each has a bottom under its sides, a back between them, and one front before it."""
+    units = [
+        [
+            ((x, -0.22, 0.0), (x + 0.8, 0.22, 0.02)),
+            ((x + 0.02, -0.22, 0.02), (x + 0.04, 0.22, 0.8)),
+            ((x + 0.76, -0.22, 0.02), (x + 0.78, 0.22, 0.8)),
+            ((x + 0.04, 0.2, 0.02), (x + 0.76, 0.22, 0.8)),
+        ]
+        for x in (-1.2, -0.4, 0.4)
+    ]
+    front = ((left - 0.01, -0.24, -0.01), (left + 0.81, -0.22, 0.85))
+    parts = read(tmp_path, carcass=[board for unit in units for board in unit], fronts=[front])
+
+    assert deep_drawers(parts) == 0
+
+
 @pytest.mark.parametrize("left_out", [None, "tray_floor", "tray_rear"])
 def test_boards_with_words_of_their_own_go_with_the_front_before_them(tmp_path, left_out):
     words = ("tray_l", "tray_r", "tray_floor", "tray_rear")

@@ -193,3 +193,19 @@ def test_a_panel_before_the_wall_of_a_tub_is_of_it(tmp_path):
     panel = solid((0.02, -0.008, 0.03), (W - 0.02, 0, H - 0.01))
 
     assert [part.source.name for part in lids(tmp_path, a=plate(), b=tub(), c=panel)] == ["a"]
+
+
+@pytest.mark.parametrize(("called", "label"), [("Lid", PartLabel.SIDE_PANEL), ("Cube", PartLabel.UNKNOWN)])
+def test_a_wall_that_was_cut_from_its_object_is_no_door_where_a_name_tells_of_the_lid(tmp_path, called, label):
+    """Without such a name it may be the door of a case with a top."""
+    wall, high, side = 0.05, 0.8, W - 0.05
+    walls = [
+        solid((0, 0, 0), (wall, D, high)),
+        solid((side, 0, 0), (W, D, high)),
+        solid((wall, 0, 0), (side, D, wall)),
+        solid((wall, D - wall, wall), (side, D, high)),
+        solid((wall, 0, wall), (side, wall, high)),
+    ]
+    parts = read(tmp_path, Cabinet=trimesh.util.concatenate(walls), **{called: plate(low=high + 0.003)})
+
+    assert {part.id: part.label for part in parts}["Cabinet_front"] is label

@@ -10,6 +10,7 @@ from grafu.errors import TooComplex
 from grafu.geometry.budget import UNLIMITED
 from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Rail
+from grafu.graph.edit import rehung
 from grafu.graph.motion import opening_face
 from grafu.graph.parse import parse_graph
 from grafu.joints.plan import PlanConfig
@@ -27,6 +28,8 @@ from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
 from grafu.synth.case.case import Case
 from grafu.synth.fronts.layout import Door, Drawer, Stack
 from grafu.templates.gallery import builtin_gallery
+from grafu.vocabulary import PartLabel
+from small_scenes import box
 
 LEFT, RIGHT, FRONT, BACK = "0", "1", "2", "3"
 BACKWARDS = ((FRONT, 0.3), (LEFT, 0.05), (RIGHT, 0.005))
@@ -106,6 +109,44 @@ def test_a_door_on_another_border_opens_to_the_same_face(asset: Asset) -> None:
         assert opening_face(thin, turned.border, turned.sign) == opening_face(thin, hinge.border, hinge.sign)
         words = " ".join(certainty_words(other, hinge.child))
         assert "opens to the front" in words
+
+
+def two_doors_without_a_divider() -> Asset:
+    """A case whose two doors meet in the middle, with nothing there that could hold a hinge."""
+    boards = {
+        "left": ((-0.5, -0.25, 0.0), (-0.48, 0.25, 0.7)),
+        "right": ((0.48, -0.25, 0.0), (0.5, 0.25, 0.7)),
+        "bottom": ((-0.48, -0.25, 0.0), (0.48, 0.25, 0.02)),
+        "top": ((-0.48, -0.25, 0.68), (0.48, 0.25, 0.7)),
+        "back": ((-0.48, 0.23, 0.02), (0.48, 0.25, 0.68)),
+        "door_1": ((-0.497, -0.27, 0.06), (-0.002, -0.2505, 0.64)),
+        "door_2": ((0.002, -0.27, 0.06), (0.497, -0.2505, 0.64)),
+    }
+    parts = tuple(
+        replace(box(name, *ends), label=PartLabel.DOOR if name.startswith("door") else PartLabel.SIDE_PANEL)
+        for name, ends in boards.items()
+    )
+    return Asset("made", "", "made", parts)
+
+
+@pytest.mark.parametrize(("likely", "built_side"), [(0.28, RIGHT), (0.005, LEFT)], ids=["likely enough", "unlikely"])
+def test_a_door_that_nothing_holds_hangs_on_its_other_side(likely: float, built_side: str) -> None:
+    asset = two_doors_without_a_divider()
+    right = complete_by_rule(parse_graph(asset))
+    edges = tuple(
+        rehung(e, 0, right.completed) if isinstance(e, Hinge) and e.child == "door_2" else e
+        for e in right.completed.edges
+    )
+    stated = Decision("door_2", "border", LEFT, 0.72, RIGHT, likely, others=((RIGHT, likely),))
+    kept = tuple(d for d in right.decisions if (d.part, d.question) != ("door_2", "border"))
+    made = built(asset, replace(right, completed=replace(right.completed, edges=edges), decisions=(*kept, stated)))
+    hinge = next(e for e in made.completion.completed.hinges if e.child == "door_2")
+    assert str(hinge.border) == built_side
+    notes = [note for done in made.realized.report.installed if done.moving == "door_2" for note in done.notes]
+    assert notes == (["towards the left (72%) nothing holds it"] if built_side == RIGHT else [])
+    assert [refusal.reason for refusal in made.realized.report.skipped] == (
+        [] if built_side == RIGHT else [Reason.NO_ROOM]
+    )
 
 
 def test_other_refusals_change_nothing(asset: Asset) -> None:

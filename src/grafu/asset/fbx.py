@@ -14,8 +14,8 @@ import numpy as np
 from grafu.asset.drafts import drafts_of_nodes, parts_of_drafts
 from grafu.asset.fbx_document import FbxArray, FbxRecord, damaged, read_records
 from grafu.asset.mesh_files import linear_channel, named_texture, surface_of_corners
-from grafu.asset.obj_parser import triangulate
 from grafu.asset.options import LoadOptions, check_parts
+from grafu.asset.polygons import triangulate
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scene_nodes import Chain, SceneNode

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from grafu.asset.names import spoken
-from grafu.asset.obj_parser import ObjData, parse_obj, triangulate
+from grafu.asset.obj_parser import ObjData, parse_obj
+from grafu.asset.polygons import triangulate
 from grafu.asset.reading import MeshFile, MeshPiece
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import read_with_trimesh

@@ -134,7 +134,7 @@ def _lids(
     top = Box.enclosing(meshes[p.id].box for p in (plate, *on))
     is_thin = top.size[_UP] <= config.thick * whole.size[_UP]
     is_free = all(part.label in (PartLabel.UNKNOWN, PartLabel.MISC) for part in on)
-    if not (body and is_thin and is_free and _is_box(body, meshes, top, config)):
+    if not (body and is_thin and is_free and _is_box(body, meshes, top, plate, config)):
         return [], set()
     return [plate, *on], {part.id for part in body if _is_bare_wall(part, parts, meshes, config)}
 
@@ -159,8 +159,13 @@ def _is_plate(part: Part, box: Box, whole: Box, config: ShownLidConfig) -> bool:
     return part.label in (PartLabel.UNKNOWN, PartLabel.DOOR) and bool(plan and is_above)
 
 
-def _is_box(body: Sequence[Part], meshes: dict[str, TriangleMesh], lid: Box, config: ShownLidConfig) -> bool:
-    """Whether a body is hollow, closed all round but from above, and nothing of it stands beside or above its lid."""
+def _is_box(
+    body: Sequence[Part], meshes: dict[str, TriangleMesh], lid: Box, plate: Part, config: ShownLidConfig
+) -> bool:
+    """Whether a body is hollow, closed all round but from above, and nothing of it stands beside or above its lid.
+
+    Where a name tells of the lid, a wall that was cut from its object counts with it.
+    """
     mesh = merge_meshes([meshes[part.id] for part in body])
     box, rays = mesh.box, RayCaster(mesh)
     beyond = np.maximum(box.low - lid.low, lid.high - box.high)[:_UP]
@@ -174,7 +179,11 @@ def _is_box(body: Sequence[Part], meshes: dict[str, TriangleMesh], lid: Box, con
         return False
     if not _is_walled(mesh, box, config):
         return False
-    alone = any(_is_walled(meshes[part.id], box, config) for part in body)
+    of_object: dict[object, list[TriangleMesh]] = {}
+    for part in body:
+        key = part.source if plate.label is PartLabel.DOOR else part.id
+        of_object.setdefault(key, []).append(meshes[part.id])
+    alone = any(_is_walled(merge_meshes(of_one), box, config) for of_one in of_object.values())
     if float(lid.high[_UP] - box.low[_UP]) > config.high:
         return alone
     return alone or _is_walled_alike([meshes[part.id].box for part in body], box, config)

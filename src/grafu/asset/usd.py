@@ -13,8 +13,8 @@ import numpy as np
 
 from grafu.asset.drafts import drafts_of_nodes, parts_of_drafts
 from grafu.asset.mesh_files import surface_of_corners
-from grafu.asset.obj_parser import triangulate
 from grafu.asset.options import LoadOptions, check_parts
+from grafu.asset.polygons import triangulate
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import library_call

@@ -81,7 +81,7 @@ class JointStages:
         best = self._without_colliding(best)
         if best is first:
             return first
-        report = noted(best.realized.report, completion, best.completion)
+        report = noted(best.realized.report, completion, best.completion, first.realized.report.skipped)
         return best._replace(realized=replace(best.realized, report=report))
 
     def _without_colliding(self, made: BuiltJoints) -> BuiltJoints:

@@ -1,4 +1,7 @@
-"""Another direction for a part that is blocked in the one that was decided. It builds nothing."""
+"""Another direction for a part that is blocked, or a door that nothing holds, in the one that was decided.
+
+It builds nothing.
+"""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -15,6 +18,8 @@ from grafu.refusal import Reason, Refusal
 
 _DIRECTIONS: Final = ("slide", "border")
 """The questions that decide where a part moves to; the face that a door opens to stays."""
+_WHY: Final = {Reason.BLOCKED: "it is blocked", Reason.NO_ROOM: "nothing holds it"}
+"""What a note states of the direction that was given up."""
 
 
 def second_choices(
@@ -22,10 +27,11 @@ def second_choices(
 ) -> GraphCompletion | None:
     """Returns the completion with another direction for what is blocked: in each `turn` (0, 1, ...) the next likely.
 
-    None where nothing is blocked that has one. What the user or the input stated has none.
+    None where nothing is blocked that has one. What the user or the input stated has none. A door that finds no hold
+    at a border, such as that between two doors without a divider, may find one at another.
     """
-    blocked = {refusal.part for refusal in skipped if refusal.reason is Reason.BLOCKED}
-    swapped = {d.part: _swapped(d, turn) for d in completion.decisions if d.part in blocked and _has(d, turn, config)}
+    why = {refusal.part: refusal.reason for refusal in skipped}
+    swapped = {d.part: _swapped(d, turn) for d in completion.decisions if _is_stuck(d, why) and _has(d, turn, config)}
     if not swapped:
         return None
     graph = completion.completed
@@ -35,11 +41,18 @@ def second_choices(
     return replace(completion, completed=replace(graph, edges=edges), decisions=decisions)
 
 
-def noted(report: RealizationReport, first: GraphCompletion, second: GraphCompletion) -> RealizationReport:
-    """Returns the report in which each joint of a `second` choice states what the first one was."""
+def noted(
+    report: RealizationReport, first: GraphCompletion, second: GraphCompletion, skipped: Iterable[Refusal] = ()
+) -> RealizationReport:
+    """Returns the report in which each joint of a `second` choice states what the first one was.
+
+    `skipped` are the refusals of the first.
+    """
+    why = {refusal.part: _WHY.get(refusal.reason, _WHY[Reason.BLOCKED]) for refusal in skipped}
     kept = {(d.part, d.question, d.choice) for d in second.decisions}
     given_up = {
-        d.part: f"towards the {named_choice(d, d.choice, first.completed)} ({d.score:.0%}) it is blocked"
+        d.part: f"towards the {named_choice(d, d.choice, first.completed)} ({d.score:.0%}) "
+        + why.get(d.part, _WHY[Reason.BLOCKED])
         for d in first.decisions
         if d.question in _DIRECTIONS and (d.part, d.question, d.choice) not in kept
     }
@@ -50,6 +63,12 @@ def noted(report: RealizationReport, first: GraphCompletion, second: GraphComple
         for done in report.outcomes
     )
     return replace(report, outcomes=outcomes)
+
+
+def _is_stuck(decision: Decision, why: Mapping[str, Reason]) -> bool:
+    """Whether a part cannot move where this was decided: it is blocked, or no border holds its hinges."""
+    reason = why.get(decision.part)
+    return reason is Reason.BLOCKED or (reason is Reason.NO_ROOM and decision.question == "border")
 
 
 def _has(decision: Decision, turn: int, config: PlanConfig) -> bool:

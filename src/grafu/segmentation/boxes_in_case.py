@@ -59,14 +59,14 @@ class BoxInCaseConfig:
     """... and those near its top at most (the same)."""
     end: float = 0.2
     """How far from an end of the box its sides, bottom and lid lie (of its size)."""
+    board: float = 0.1
+    """How thick a lying board of the case is at most on which a box rests, or that it cuts into (of its depth)."""
     along: float = 0.5
     """How much of the height and depth of a box the sides of its case run along at least (fraction)."""
 
     def __post_init__(self) -> None:
         require_positive(self, "most", "depth", "flattest")
-        require_ratios(
-            self, "near", "touch", "plate", "width", "height", "full", "low", "wall", "bottom", "lid", "end", "along"
-        )
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name not in ("most", "depth", "flattest")))
 
 
 def boxes_in_cases(
@@ -130,11 +130,31 @@ class _BoxFinder:
         behind = np.flatnonzero(inside)
         if not 0 < len(behind) <= config.most:
             return None
-        for gap in (config.touch * float(size[:2].max()), near):
+        touch = config.touch * float(size[:2].max())
+        for gap in (touch, near):
             found = [group for group in self._groups(behind, gap) if self._is_box(group, own, near)]
             if found:
                 return found[0] if len(found) == 1 else None
-        return None
+        found = [group for group in self._resting(behind, touch) if self._is_box(group, own, near)]
+        return found[0] if len(found) == 1 else None
+
+    def _resting(self, shells: Indices, touch: float) -> Iterator[Indices]:
+        """Yields what of each group rests on a board of the case, or cuts into one, without that board.
+
+        Such a board reaches past the rest on both sides and lies at its foot. What is left has a bottom of its own:
+        the sides of a case that stand on its bottom have none.
+        """
+        view, config = self._view, self._config
+        for group in self._groups(shells, touch):
+            low, high, size = view.low[group], view.high[group], view.size[group]
+            lies = size[:, 1] <= config.board * size[:, 2]
+            if lies.all():
+                continue
+            foot, top = low[~lies].min(axis=0), high[~lies].max(axis=0)
+            at_foot = lies & (low[:, 1] < foot[1] + config.end * (top[1] - foot[1]))
+            of_case = at_foot & (low[:, 0] < foot[0] - touch) & (high[:, 0] > top[0] + touch)
+            if of_case.any() and (at_foot & ~of_case).any():
+                yield group[~of_case]
 
     def _groups(self, shells: Indices, gap: float) -> Iterator[Indices]:
         """Yields the shells in groups of those that are no farther apart than a gap."""

@@ -26,6 +26,7 @@ from grafu.additions.top.evidence import (
     speaks_for_bars,
     vessel_in,
 )
+from grafu.additions.top.lids_below import lid_in
 from grafu.additions.top.outline import (
     inset_regions,
     one_piece,
@@ -199,6 +200,9 @@ def _judged(
     vessel = vessel_in(roles, coverage, config.evidence, metre)
     if vessel is not None:
         return TopVerdict(True, coverage.ratio, f"`{vessel.id}` is a vessel: its plan is round", coverage)
+    lid = lid_in(roles, coverage)
+    if lid is not None:
+        return TopVerdict(True, coverage.ratio, f"`{lid.id}` is a lid: it closes what is open there", coverage)
     named = named_cells(roles, views, coverage, config.evidence, metre)
     near_top = coverage.near_top | (named & coverage.everything)
     coverage = replace(coverage, near_top=near_top)

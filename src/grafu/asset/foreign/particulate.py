@@ -15,8 +15,9 @@ import numpy as np
 
 from grafu.articulation.motion_kind import moving_kinds
 from grafu.asset.foreign.motions import ForeignJoint, ForeignMotions, ForeignPart, JointFrame
-from grafu.asset.obj_parser import parse_obj, triangulate
+from grafu.asset.obj_parser import parse_obj
 from grafu.asset.options import LoadOptions
+from grafu.asset.polygons import triangulate
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import array_from, library_call
 from grafu.errors import AssetError, UnreadableAsset
