@@ -2,7 +2,7 @@
 
 A row is an English word (or a phrase, `top panel`) and the words that mean it; `;` parts rows. Latin words stand
 without accents, as `grafu.asset.names.plain` writes them; umlauts also as `ue`. Words that mean several things are left
-out unless one is meant nearly always: `Deckel`, `крышка` and `盖板` name lids and the tops of cases alike.
+out unless one is meant nearly always. What names lids and tops of cases alike is a `coverplate` (`lid_names`).
 """
 
 import re
@@ -21,7 +21,7 @@ GERMAN: Final = """
     door: tur tuer turblatt tuerblatt
     doors: turen tueren
     sliding door: schiebetur schiebetuer schiebeturen
-    flap: klappe klappen klappdeckel truhendeckel
+    flap: klappe klappen klappdeckel truhendeckel; coverplate: deckel
     drawer: schublade schubkasten auszug schub
     drawers: schubladen schubkaesten
     handle: griff griffe griffleiste bugelgriff stangengriff
@@ -240,7 +240,7 @@ CHINESE: Final = """
     sink: 水槽 洗手盆
     mirror: 镜子 镜 鏡
     glass: 玻璃
-    screw: 螺丝 螺钉; plate: 盖板
+    screw: 螺丝 螺钉; coverplate: 盖板
     wheel: 轮 轮子 滚轮
     lock: 锁
     front: 面板 前板 前脸; left: 左; right: 右; upper: 上; lower: 下; middle: 中; front: 前; back: 后 後; of: 的

@@ -35,6 +35,7 @@ POLISH: Final = """
 
 RUSSIAN: Final = """
     door: dver dveri dvertsa dverca stvorka dvertsy dvercy stvorki
+    coverplate: kryshka
     drawer: yaschik yashchik yashik yaschika yashchika yaschiki yashchiki
     handle: ruchka ruchki
     tabletop: stoleshnitsa stoleshnica

@@ -21,6 +21,7 @@ from grafu.asset.framed_leaves import with_framed_leaves
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
 from grafu.asset.handle_stands import with_handle_stands
 from grafu.asset.leaf_pieces import with_leaf_pieces
+from grafu.asset.lid_names import with_lids_by_name
 from grafu.asset.loose import loose_parts, with_split_handles
 from grafu.asset.named_fittings import with_named_fittings
 from grafu.asset.one_front import has_copies, joined_where_nameless, joined_where_one_name
@@ -139,7 +140,7 @@ def _assembled(reading: Reading) -> Reading:
 
 
 def _plausible(reading: Reading) -> Reading:
-    opened, places = with_place_names(reading.parts)
+    opened, places = with_place_names(with_lids_by_name(reading.parts))
     judged, notes = with_plausible_labels(opened)
     judged, told = with_named_fittings(judged)
     return _with_split_handles(replace(reading, parts=judged, notes=(*reading.notes, *places, *notes, *told)))
