@@ -5,7 +5,8 @@ side: edges of such parts and doors are left out, of what is true and of what wa
 
 Where a front meets several pieces of the carcass at one place, such as a side panel and the edge strip on it, the
 generator names one of them as its carrier, and nothing in the input tells which. So each figure is printed twice: with
-the carrier that the generator named, and with any that stands, touches that one and is as near to the front.
+the carrier that the generator named, and with any that stands, meets that one, and runs beside the front as that one
+does: along most of the hinge's border, or of the drawer where it slides. Boxes of parts are compared.
 """
 
 from collections import Counter
@@ -13,12 +14,15 @@ from collections.abc import Iterable, Sequence
 from typing import Final
 
 from grafu.data.pair import GraphPair
+from grafu.geometry.box import Box
 from grafu.graph.edges import Attached, Hinge, Rail
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.graph.motion import border_to_face
 from grafu.graph.piece_facts import STATIC
 
 KINDS = ("hinge", "rail", "attached")
 NEAR: Final = 0.03  # metres: pieces of a carcass so near to each other, and to a front, meet there
+MOST: Final = 0.5  # of a border, or of the length of a drawer
 Decided = Counter[tuple[str, str]]
 """By kind of edge, how many are right, `alike`, found and true; of `joint`, how many doors are right, and are there.
 
@@ -56,13 +60,29 @@ def _alike(found: set[Ends], true: set[Ends], pair: GraphPair) -> dict[Ends, End
     stands: dict[Ends, Ends] = {}
     for child, carrier in sorted(found):
         box = pair.input.node(carrier).box
-        if not _stands(carrier, pair) or box.gap(pair.input.node(child).box) > NEAR:
+        if not _stands(carrier, pair) or not _runs_beside(box, child, pair):
             continue
         left = sorted(edge for edge in true - set(stands.values()) if edge[0] == child and _stands(edge[1], pair))
         met = next((edge for edge in left if box.gap(pair.input.node(edge[1]).box) <= NEAR), None)
         if met is not None:
             stands[child, carrier] = met
     return stands
+
+
+def _runs_beside(carrier: Box, child: str, pair: GraphPair) -> bool:
+    """Whether a carrier is near a door's true hinge along most of it, or near a drawer along most of its depth."""
+    box = pair.input.node(child).box
+    hinge = next((hinge for hinge in pair.target.hinges if hinge.child == child), None)
+    low, high = box.low.copy(), box.high.copy()
+    if hinge is None:
+        along = next((rail.axis // 2 for rail in pair.target.rails if rail.child == child), box.thin_axis)
+    else:
+        face = border_to_face(box.thin_axis, hinge.border)
+        (low if face % 2 else high)[face // 2] = (high if face % 2 else low)[face // 2]
+        along = 3 - box.thin_axis - face // 2
+    side = Box(low, high)
+    shared = float(min(side.high[along], carrier.high[along]) - max(side.low[along], carrier.low[along]))
+    return carrier.gap(side) <= NEAR and shared >= MOST * float(box.size[along])
 
 
 def _stands(part: str, pair: GraphPair) -> bool:
