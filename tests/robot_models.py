@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+import numpy as np
+import pytest
+
 from small_assets import CABINET, DOOR, DRAWER, HINGE, write_obj_folder
 
 STATIC = [name for name in CABINET if name not in DOOR + DRAWER]
@@ -83,3 +86,19 @@ def write_mjcf(folder: Path, text: str | None = None) -> Path:
     write_obj_folder(folder / "meshes")
     (folder / "cabinet.xml").write_text(mjcf_text() if text is None else text)
     return folder / "cabinet.xml"
+
+
+def assert_same_robot(asset, urdf):
+    """Whether two assets that were read as annotated have the same parts and joints."""
+    assert {p.id: (p.label, p.carried_by) for p in asset.parts} == {p.id: (p.label, p.carried_by) for p in urdf.parts}
+    for part in asset.parts:
+        np.testing.assert_allclose(part.box.low, urdf.part(part.id).box.low, atol=1e-6)
+        np.testing.assert_allclose(part.box.high, urdf.part(part.id).box.high, atol=1e-6)
+    assert len(asset.joints) == len(urdf.joints)
+    for found, stated in zip(asset.joints, urdf.joints, strict=True):
+        assert (found.part, found.type, found.limited) == (stated.part, stated.type, stated.limited)
+        assert (found.lower, found.upper) == pytest.approx((stated.lower, stated.upper), abs=1e-6)
+        np.testing.assert_allclose(found.axis.direction, stated.axis.direction, atol=1e-9)
+        if found.type.value == "revolute":
+            between = np.cross(found.axis.point - stated.axis.point, stated.axis.direction)
+            np.testing.assert_allclose(between, np.zeros(3), atol=1e-6)

@@ -114,7 +114,7 @@ READERS = (
     "blend", "collada", "fbx", "fbx_document", "folder", "gltf", "gltf_buffers", "gltf_draco", "gltf_meshes",
     "gltf_meshopt", "hssd_annotation", "json_files", "load", "mesh_files", "mjcf", "mjcf_text", "obj_lines",
     "obj_parser", "regular_files", "resources", "robot_document", "scan_files", "sdf", "threeds", "threemf", "urdf",
-    "urdf_shapes", "usd", "usd_materials",
+    "urdf_shapes", "usd", "usd_materials", "usd_physics",
 )  # fmt: skip
 """Modules that read bytes and text: their numbers are those of formats, of colours and of how much is read."""
 

@@ -11,26 +11,11 @@ from grafu.export.files import write_files
 from grafu.export.mjcf import export_mjcf
 from grafu.synth.truth.clashes import articulated_of
 from predictions import cabinet
-from robot_models import mjcf_text, sdf_text, write_mjcf, write_sdf
+from robot_models import assert_same_robot, mjcf_text, sdf_text, write_mjcf, write_sdf
 from small_assets import CABINET, load_annotated, png_bytes, write_obj_folder, write_urdf
 
 EVERYTHING = tuple(CABINET)
 IN_SDF = "<material><diffuse>0.6 0.4 0.2 1</diffuse></material>"
-
-
-def same(asset, urdf):
-    assert {p.id: (p.label, p.carried_by) for p in asset.parts} == {p.id: (p.label, p.carried_by) for p in urdf.parts}
-    for part in asset.parts:
-        np.testing.assert_allclose(part.box.low, urdf.part(part.id).box.low, atol=1e-6)
-        np.testing.assert_allclose(part.box.high, urdf.part(part.id).box.high, atol=1e-6)
-    assert len(asset.joints) == len(urdf.joints)
-    for found, stated in zip(asset.joints, urdf.joints, strict=True):
-        assert (found.part, found.type, found.limited) == (stated.part, stated.type, stated.limited)
-        assert (found.lower, found.upper) == pytest.approx((stated.lower, stated.upper), abs=1e-6)
-        np.testing.assert_allclose(found.axis.direction, stated.axis.direction, atol=1e-9)
-        if found.type.value == "revolute":
-            between = np.cross(found.axis.point - stated.axis.point, stated.axis.direction)
-            np.testing.assert_allclose(between, np.zeros(3), atol=1e-6)
 
 
 @pytest.mark.parametrize("boxes", [(), EVERYTHING], ids=["meshes", "boxes"])
@@ -40,7 +25,7 @@ def test_a_cabinet_is_the_same_in_every_robot_format(tmp_path, kind, boxes):
     asset = load_annotated(made)
     assert asset.kind == kind
     assert asset.notes == ()
-    same(asset, load_annotated(write_urdf(tmp_path / "urdf")))
+    assert_same_robot(asset, load_annotated(write_urdf(tmp_path / "urdf")))
 
 
 @pytest.mark.parametrize("kind", ["sdf", "mjcf"])
@@ -119,7 +104,7 @@ def test_included_mjcf_files_are_put_in_place(tmp_path):
     inner = re.search(r"<default>.*</default>", text)[0]
     (tmp_path / "looks.xml").write_text(f"<mujocoinclude>{inner}</mujocoinclude>")
     asset = load_annotated(write_mjcf(tmp_path, text.replace(inner, '<include file="looks.xml"/>')))
-    same(asset, load_annotated(write_urdf(tmp_path / "urdf")))
+    assert_same_robot(asset, load_annotated(write_urdf(tmp_path / "urdf")))
 
 
 def test_geoms_of_a_class_of_mjcf_are_as_their_class_states(tmp_path):

@@ -21,10 +21,10 @@ from grafu.visible import writable
 from grafu.vocabulary import JointType, PartLabel
 
 AssetKind = Literal[
-    "partnet-mobility", "hssd", "urdf", "sdf", "mjcf", "glb", "mesh folder", "mesh file", "release", "made"
+    "partnet-mobility", "hssd", "urdf", "sdf", "mjcf", "usd", "glb", "mesh folder", "mesh file", "release", "made"
 ]
-ROBOTS: Final = ("urdf", "sdf", "mjcf")
-"""The kinds that describe links and joints as robots have them."""
+ROBOTS: Final = ("urdf", "sdf", "mjcf", "usd")
+"""The kinds that describe links and joints as robots have them; `usd`: a scene with rigid bodies and joints."""
 
 
 @final

@@ -1,7 +1,7 @@
-"""A robot described in another format, written as URDF elements: what MJCF and SDF share. It reads no files.
+"""A robot described in another format, written as URDF elements: what MJCF, SDF and OpenUSD share. It reads no files.
 
 Readers state each link and each visual by its pose in the world with every joint at zero; links, joints, materials and
-shapes are then read as those of a URDF.
+shapes are then read as those of a URDF. Where a reader has surfaces and no files, it states them in the world.
 """
 
 from collections.abc import Iterable, Mapping
@@ -20,8 +20,10 @@ from grafu.asset.part import AssetKind
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf import bodies_of_robot
+from grafu.asset.urdf_shapes import MADE
 from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import invert, roll_pitch_yaw
 
@@ -57,6 +59,7 @@ class RobotDocument:
     def __post_init__(self) -> None:
         self._robot: Any = etree.Element("robot")
         self._links: dict[str, tuple[Any, Mat4]] = {}
+        self._made: list[tuple[Surface, ...]] = []
 
     def add_link(self, name: str, T_world_link: Mat4) -> None:
         """Adds a link; its pose is the frame of the joint above it."""
@@ -93,6 +96,11 @@ class RobotDocument:
         if texture:
             etree.SubElement(material, "texture", filename=texture)
 
+    def add_surfaces(self, link: str, name: str, surfaces: tuple[Surface, ...]) -> None:
+        """Adds a visual to a link that was added: surfaces in the coordinates of the world."""
+        self.add_visual(link, name, np.eye(4), (MADE, {"number": str(len(self._made))}))
+        self._made.append(surfaces)
+
     def add_joint(self, joint: RobotJoint) -> None:
         """Adds a joint between links that were added.
 
@@ -127,9 +135,10 @@ class RobotDocument:
         for link in others:
             if link not in moved:
                 self.add_joint(RobotJoint(f"{link} stands", "fixed", world, link))
-        found = bodies_of_robot(self._robot, self.path, files)
+        found = bodies_of_robot(self._robot, self.path, files, made=self._made)
         parts = parts_of_drafts(drafts_of_visuals(with_links_as_groups(found.visuals, found.base, division)))
-        annotation = annotation_of_bodies(list(found.bodies), up=2)
+        up = "XYZ".index(convention.up[1]) if convention.up else 2
+        annotation = annotation_of_bodies(list(found.bodies), up)
         return Reading(kind, parts, convention, annotation, notes=tuple(dict.fromkeys((*self.notes, *found.notes))))
 
     def _add_origin(self, element: Any, T: Mat4) -> None:

@@ -4,7 +4,7 @@ Everything comes out in the coordinates of the root link, every joint at zero. I
 """
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, final
@@ -23,6 +23,7 @@ from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf_shapes import ShapeReader, numbers, origin_of, read_xml
 from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
+from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import invert
@@ -103,13 +104,15 @@ def read_bodies(path: Path, files: ModelFiles, mesh_frame: bool = False) -> Urdf
     return bodies_of_robot(read_xml(path, files), path, files, mesh_frame)
 
 
-def bodies_of_robot(robot: Any, path: Path, files: ModelFiles, mesh_frame: bool = False) -> UrdfBodies:
-    """Returns the bodies of a `<robot>` element that `path` holds; see `read_bodies`."""
+def bodies_of_robot(
+    robot: Any, path: Path, files: ModelFiles, mesh_frame: bool = False, made: Sequence[tuple[Surface, ...]] = ()
+) -> UrdfBodies:
+    """Returns the bodies of a `<robot>` element that `path` holds; see `read_bodies`, and of `made` `ShapeReader`."""
     tree = _read_tree(robot, path, files)
     heads = _heads(tree)
     base = _base_link(tree) if mesh_frame else tree.roots[0]
     T_base_root = invert(tree.T_root_link[base])
-    shapes = ShapeReader(path, files, _materials(tree.robot))
+    shapes = ShapeReader(path, files, _materials(tree.robot), made)
     visuals: dict[str, list[BodyVisual]] = {}
     for link in sorted(tree.links, key=lambda name: tree.links[name].find("visual") is None):
         visuals.setdefault(heads[link], []).extend(_link_visuals(tree, link, shapes, T_base_root))
@@ -178,7 +181,7 @@ def _joint_element(element: Any, path: Path) -> _JointElement:
     if any(end is None for end in ends):
         raise UnreadableAsset(f"{path}: joint {name!r} lacks a parent or a child; expected both")
     limit, axis = element.find("limit"), element.find("axis")
-    lower, upper = (_number(limit, key, path) for key in ("lower", "upper"))
+    lower, upper = (numbers(None if limit is None else limit.get(key), (0.0,), path)[0] for key in ("lower", "upper"))
     direction = numbers(axis.get("xyz") if axis is not None else None, (1.0, 0.0, 0.0), path)
     limited = kind != "continuous" and limit is not None and lower != upper
     parent, child = (end.get("link", "") for end in ends)
@@ -193,10 +196,6 @@ def _mimic(element: Any, path: Path) -> Coupling | None:
         return None
     ((multiplier,), (offset,)) = (numbers(mimic.get(k), (v,), path) for k, v in (("multiplier", 1.0), ("offset", 0.0)))
     return Coupling(mimic.get("joint", ""), multiplier, offset) if multiplier else None
-
-
-def _number(element: Any, key: str, path: Path) -> float:
-    return numbers(element.get(key) if element is not None else None, (0.0,), path)[0]
 
 
 def _kind(joint: _JointElement) -> MotionKind | None:

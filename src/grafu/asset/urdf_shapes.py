@@ -7,10 +7,11 @@ the URDF, or the folder that the user gave. Where neither is known and the URDF 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any, final
+from typing import Any, Final, final
 
 import numpy as np
 
@@ -102,6 +103,8 @@ def _package(urdf: Path) -> Path | None:
     return next((p for p in (folder, *folder.parents)[:_LEVELS] if (p / "package.xml").is_file()), None)
 
 
+MADE: Final = "surfaces"
+"""The tag of a shape that another reader made: its number among the surfaces that it hands over."""
 _LARGEST = 1e9  # of a shape's size: squares and products of such stay finite
 
 
@@ -129,10 +132,16 @@ def _unit(form: str) -> TriangleMesh:
 
 
 class ShapeReader:
-    """Reads the shapes of one URDF; each mesh file is read once. What cannot be read is a note."""
+    """Reads the shapes of one URDF; each mesh file is read once. What cannot be read is a note.
 
-    def __init__(self, path: Path, files: ModelFiles, materials: dict[str, Any]) -> None:
+    `made` are surfaces that were read before, for the shapes of a robot that no URDF describes (`MADE`).
+    """
+
+    def __init__(
+        self, path: Path, files: ModelFiles, materials: dict[str, Any], made: Sequence[tuple[Surface, ...]] = ()
+    ) -> None:
         self.path, self.files, self.materials = path, package_files(path, files), materials
+        self._made = made
         self.notes: list[str] = []
         self._read: dict[Path, tuple[Surface, ...] | None] = {}
 
@@ -143,9 +152,11 @@ class ShapeReader:
             UnreadableAsset: if a mesh file is there but damaged, or a size is no number.
             AssetTooLarge: if the model has more of something than the limits allow.
         """
-        self.files.tally.add(self.path, primitives=1)
         geometry = visual.find("geometry")
         element = next((e for e in (geometry if geometry is not None else ()) if isinstance(e.tag, str)), None)
+        if self._made and element is not None and element.tag == MADE:  # counted when it was read
+            return VisualShape(self._made[int(element.get("number"))])
+        self.files.tally.add(self.path, primitives=1)
         if element is None:
             return None
         shape = self._mesh(element) if element.tag == "mesh" else self._primitive(element)

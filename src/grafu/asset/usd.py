@@ -1,11 +1,14 @@
 """OpenUSD scenes (.usd, .usda, .usdc, .usdz), read by usd-core: meshes and plain solids are parts. It settles no frame.
 
+A scene in which joints let rigid bodies move is read as a robot (`usd_robot`): its bodies are links.
+
 Layers and images are sought in the model's folder and nowhere else; a scene that refers to a layer outside of it is
 refused before it is opened. What is hidden, or of purpose `guide` or `proxy`, is left out, and so is what moves with
 time: the first moment counts. The library is an extra (`grafu[usd]`).
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, final
 
@@ -20,8 +23,10 @@ from grafu.asset.resources import ModelFiles
 from grafu.asset.scan_files import library_call
 from grafu.asset.scene_nodes import Chain, SceneNode
 from grafu.asset.usd_materials import EXPECTED, UsdMaterials
+from grafu.asset.usd_physics import bodies_of, joints_of
+from grafu.asset.usd_robot import UsdRobot, document_of, is_robot
 from grafu.errors import UnreadableAsset
-from grafu.geometry.appearance import Material, Surface
+from grafu.geometry.appearance import Surface
 from grafu.geometry.mesh import TriangleMesh
 
 _LARGEST = 1e12  # of a number in a transform or a position: products of some of them stay finite
@@ -36,12 +41,19 @@ def read_usd(path: Path, options: LoadOptions, files: ModelFiles | None = None) 
             installed.
         AssetTooLarge: if it has more of something than the limits allow.
     """
-    scene = _Scene(path, files or ModelFiles(path, options.limits))
-    nodes = list(scene.nodes())
+    files = files or ModelFiles(path, options.limits)
+    scene = _Scene(path, files)
+    placed = scene.nodes()
+    nodes = [node for _, node in placed]
     check_parts(len(nodes), path, options.limits)
     up, unit = scene.up, scene.metres
     metres = "no unit" if unit is None else f"{unit:g} m per unit"
     convention = Convention(f"the file (OpenUSD: {metres}, {up[1]} up)", up=up, unit=unit)
+    robot = scene.robot()
+    if nodes and is_robot(robot):
+        document = document_of(robot, placed, path)
+        document.notes += scene.notes
+        return document.reading("usd", convention, files, options.parts)
     parts = parts_of_drafts(drafts_of_nodes(nodes, path.name, by_name=not scene.is_ours))
     return Reading("mesh file", parts, convention, notes=tuple(dict.fromkeys(scene.notes)))
 
@@ -53,6 +65,7 @@ class _Scene:
     def __init__(self, path: Path, files: ModelFiles) -> None:
         self.path, self.files = path, files
         self.notes: list[str] = []
+        self._wholes: set[str] = set()  # prims of parts that grafu wrote
         self._warnings = _unheard(path)
         self._stage = _opened(path, files)
         self._materials = UsdMaterials(path, files, self.notes)
@@ -70,8 +83,30 @@ class _Scene:
         creator = self._stage.GetRootLayer().customLayerData.get("creator", "")
         self.is_ours = str(creator).startswith("grafu")  # it writes a prim for each part
 
-    def nodes(self) -> Iterator[SceneNode]:
-        """Yields a node for each shape that is shown, in the order of the scene."""
+    def robot(self) -> UsdRobot:
+        """Returns the rigid bodies and joints of the scene."""
+        with library_call(self.path, EXPECTED):
+            bodies = bodies_of(self._stage)
+            return UsdRobot(bodies, tuple(joints_of(self._stage, self._poses, bodies)) if bodies else ())
+
+    def nodes(self) -> list[tuple[str, SceneNode]]:
+        """Returns a node for each shape that is shown, in the order of the scene, with the path of its prim.
+
+        What grafu wrote of one part, a mesh for each surface, is one node.
+        """
+        found: list[tuple[str, SceneNode]] = []
+        for place, node in self._meshes():
+            above = place.rpartition("/")[0]
+            if above not in self._wholes:
+                found.append((place, node))
+            elif found and found[-1][0] == above:
+                before = found[-1][1]
+                found[-1] = above, replace(before, surfaces=before.surfaces + node.surfaces)
+            else:
+                found.append((above, SceneNode(node.chain[-2][1], node.chain[:-1], node.surfaces)))
+        return found
+
+    def _meshes(self) -> Iterator[tuple[str, SceneNode]]:
         from pxr import Usd
 
         chains: dict[str, Chain] = {}
@@ -82,9 +117,11 @@ class _Scene:
             above = chains.get(str(prim.GetPath().GetParentPath()), ())
             chains[place] = (*above, (count, str(prim.GetName()))) if count else ()
             self.files.limits.require("depth", len(above) + 1, self.path)
+            if self.is_ours and prim.HasAttribute("grafu:role"):
+                self._wholes.add(place)
             surfaces = self._surfaces(prim)
             if surfaces:
-                yield SceneNode(str(prim.GetName()), chains[place], surfaces)
+                yield place, SceneNode(str(prim.GetName()), chains[place], surfaces)
 
     def _surfaces(self, prim: Any) -> tuple[Surface, ...]:
         """Returns the surfaces of one prim in the scene's coordinates, empty where it is no shape that is shown."""
@@ -181,14 +218,6 @@ class _Scene:
             return [(prim, None)]
         rest = np.setdiff1d(np.arange(count), np.concatenate([faces for _, faces in found]))
         return [*found, *([(prim, rest)] if len(rest) else [])]
-
-
-def _surface(
-    points: np.ndarray, index: np.ndarray, at: np.ndarray, uv: tuple[np.ndarray, np.ndarray] | None, material: Material
-) -> Surface:
-    none = np.full(len(at), -1)
-    rows = np.stack([index[at], none if uv is None else uv[1][at], none], axis=1)
-    return surface_of_corners(rows, points, np.zeros((0, 2)) if uv is None else uv[0], np.zeros((0, 3)), None, material)
 
 
 def _unheard(path: Path) -> Any:

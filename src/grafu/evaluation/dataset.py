@@ -17,7 +17,7 @@ from grafu.asset.hssd_annotation import is_hssd
 from grafu.asset.json_files import read_json
 from grafu.asset.load import AFTER_MESHES, READERS, SCENES, detect, is_partnet_mobility, load_asset, scene_kind
 from grafu.asset.mesh_files import MESH_SUFFIXES
-from grafu.asset.part import ROBOTS, Asset, Part
+from grafu.asset.part import Asset, Part
 from grafu.asset.resources import ModelFiles
 from grafu.data.furfun.layout import LayoutKind
 from grafu.dataclass import dataclass
@@ -39,6 +39,7 @@ _MADE = "synth"
 _ON_THE_SPOT = ("made", WELDED)
 _TEST_COUNT = 100
 _MOST_MADE = 1_000_000  # more are a slip of the pen: a month of work
+_ROBOT_FILES = ("urdf", "sdf", "mjcf")  # all of which are robots; of OpenUSD scenes only some are
 _MESHES_OF = frozenset({"meshes", "mesh", "visual", "collision", "textured_objs", "objs", "textures", "images"})
 _DEEPEST = 3  # folders below the one that is asked for
 EXPECTED = (
@@ -178,7 +179,7 @@ def _models_in(folder: Path, split: str, depth: int) -> list[ModelRef]:
     entries = sorted(p for p in folder.iterdir() if not p.name.startswith((".", "__")))
     scenes = _scene_files(entries)
     found = [ref for file in scenes for ref in _one(file)]
-    if depth and not any(ref.kind in ROBOTS for ref in found):  # what lies below a robot are its meshes
+    if depth and not any(ref.kind in _ROBOT_FILES for ref in found):  # what lies below a robot are its meshes
         inner = [p for p in entries if p.is_dir() and p.name.lower() not in _MESHES_OF]
         below = [ref for p in inner for ref in _models_in(p, split, depth - 1)]
         found += [ref for ref in below if ref.kind != "mesh" or not scenes]
@@ -194,7 +195,7 @@ def _scene_files(entries: list[Path]) -> list[Path]:
     if any(p.suffix.lower() in MESH_SUFFIXES for p in kinds):
         kinds = {p: None if kind in AFTER_MESHES else kind for p, kind in kinds.items()}
     annotated = [p for p in kinds if is_hssd(p)]
-    robots = [p for p, kind in kinds.items() if kind in ROBOTS]
+    robots = [p for p, kind in kinds.items() if kind in _ROBOT_FILES]
     found = robots or [p for p, kind in kinds.items() if kind is not None]
     order = list(SCENES)
     first: dict[str, Path] = {}
