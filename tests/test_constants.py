@@ -15,6 +15,7 @@ from grafu.articulation.catch import CatchConfig
 from grafu.articulation.finger_fit import FingerFitConfig
 from grafu.articulation.finger_room import FingerRoomCutConfig
 from grafu.articulation.joint_dynamics import DynamicsConfig
+from grafu.asset.animated_bodies import AnimatedMotionConfig
 from grafu.asset.appliance_fronts import ApplianceFrontConfig
 from grafu.asset.boarded_drawers import BoardedDrawerConfig
 from grafu.asset.body_kinds import BodyKindConfig
@@ -112,7 +113,8 @@ FINGER = "the fingertip of a gripper: frames, shapes and pages must not differ i
 
 READERS = (
     "blend", "collada", "fbx", "fbx_document", "folder", "gltf", "gltf_buffers", "gltf_draco", "gltf_meshes",
-    "gltf_meshopt", "hssd_annotation", "json_files", "load", "mesh_files", "mjcf", "mjcf_text", "obj_lines",
+    "gltf_animations", "gltf_meshopt", "hssd_annotation", "json_files", "load", "mesh_files", "mjcf", "mjcf_text",
+    "obj_lines",
     "obj_parser", "regular_files", "resources", "robot_document", "scan_files", "sdf", "threeds", "threemf", "urdf",
     "urdf_shapes", "usd", "usd_materials", "usd_physics",
 )  # fmt: skip
@@ -251,7 +253,7 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, BoardBehindConfig,
+    AgreementConfig, AnimatedMotionConfig, BoardBehindConfig,
     BodyKindConfig, BoxInCaseConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,

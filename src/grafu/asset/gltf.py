@@ -1,16 +1,24 @@
-"""glTF scenes: nodes with meshes are parts, in the scene's coordinates. It settles no frame."""
+"""glTF scenes: nodes with meshes are parts, in the scene's coordinates. It settles no frame.
 
-from collections.abc import Iterator
+Nodes that animations turn or slide are the annotation's moving bodies.
+"""
+
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import final
 
 import numpy as np
 
+from grafu.articulation.articulated_object import VisualRole
+from grafu.asset.animated_bodies import animated_bodies, in_scene
+from grafu.asset.bodies import annotation_of_bodies
 from grafu.asset.drafts import drafts_of_nodes, parts_of_drafts
+from grafu.asset.gltf_animations import moved_nodes
 from grafu.asset.gltf_buffers import GltfFile, read_gltf_file
 from grafu.asset.gltf_meshes import GltfMeshes
 from grafu.asset.json_files import JsonObject
 from grafu.asset.options import LoadOptions, check_parts
+from grafu.asset.part import Annotation
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.scene_nodes import Chain, SceneNode
@@ -45,10 +53,11 @@ def read_gltf(path: Path, options: LoadOptions, files: ModelFiles | None = None)
     meshes, nodes = _counted(file)
     check_parts(len(nodes), path, options.limits)
     by_name = not str(file.document.member("asset").get("generator")).startswith("grafu")  # it writes a node per part
-    drafts = drafts_of_nodes([_scene_node(node, meshes) for node in nodes], path.name, by_name)
-    notes = (["animations are not read as joints"] if file.document.array("animations") else []) + meshes.notes
+    shapes = [_scene_node(node, meshes) for node in nodes]
+    drafts = drafts_of_nodes(shapes, path.name, by_name)
     parts = parts_of_drafts(drafts)
-    return Reading("glb", parts, CONVENTION, notes=tuple(dict.fromkeys(notes)))
+    annotation, notes = _annotation(file, shapes, path)
+    return Reading("glb", parts, CONVENTION, annotation, notes=tuple(dict.fromkeys((*notes, *meshes.notes))))
 
 
 def read_surfaces(path: Path, files: ModelFiles) -> tuple[Surface, ...]:
@@ -88,26 +97,59 @@ def _scene_node(node: _Node, meshes: GltfMeshes) -> SceneNode:
     return SceneNode(node.name, node.chain, surfaces)
 
 
+def _annotation(file: GltfFile, shapes: Sequence[SceneNode], path: Path) -> tuple[Annotation | None, list[str]]:
+    """Returns what the animations state about the motions of nodes, and notes on what is left out."""
+    moved = moved_nodes(file)
+    if not moved:
+        return None, []
+    above = {index: T_scene_above for index, _, T_scene_above, _ in _placed_nodes(file)}
+    moves = {
+        index: [[in_scene(above[index], T) for T in run] for run in runs]
+        for index, runs in moved.items()
+        if index in above and not _is_hardware(file.item("nodes", index))
+    }
+    bodies, notes = animated_bodies(shapes, moves, path.name)
+    return annotation_of_bodies(bodies, up=1) if bodies else None, notes
+
+
+def _is_hardware(node: JsonObject) -> bool:
+    """Whether grafu wrote the node for a piece of hardware, which follows what it is fixed to."""
+    extras = node.get("extras")
+    ours = extras.get("grafu") if isinstance(extras, dict) else None
+    return isinstance(ours, dict) and ours.get("role") == VisualRole.HARDWARE.value
+
+
 def _scene_nodes(file: GltfFile) -> Iterator[_Node]:
+    for index, chain, T_scene_above, T in _placed_nodes(file):
+        node = file.item("nodes", index)
+        mesh, name = node.whole("mesh"), chain[-1][1]
+        if mesh is not None:
+            name = name or file.item("meshes", mesh).text("name") or f"node_{index}"
+            yield _Node(name, (*chain[:-1], (index, name)), mesh, T_scene_above @ T)
+
+
+def _placed_nodes(file: GltfFile) -> Iterator[tuple[int, Chain, Mat4, Mat4]]:
+    """Yields each node of the scene: its number, the nodes from the scene down to it, and two transforms.
+
+    The first is that of the node above it in the scene, the second its own in the coordinates of that.
+    """
     limits = file.files.limits
     stack: list[tuple[int, Mat4, Chain]] = [(r, np.eye(4), ()) for r in reversed(_roots(file))]
     seen: set[int] = set()
     while stack:
-        index, T, above = stack.pop()
+        index, above, chain = stack.pop()
         node = file.item("nodes", index)
         if index in seen:
             raise file.damaged(f"nodes[{index}] has two parents or lies in a cycle")
         seen.add(index)
         limits.require("nodes", len(seen), file.path)
-        limits.require("depth", len(above) + 1, file.path)
-        T = T @ _local(node, file)
+        limits.require("depth", len(chain) + 1, file.path)
+        own = _local(node, file)
+        T = above @ own
         if not np.abs(T).max() < _LARGEST**2:
             raise file.damaged("the transforms of nodes one below the other grow beyond all furniture")
-        mesh, name = node.whole("mesh"), node.text("name")
-        if mesh is not None:
-            name = name or file.item("meshes", mesh).text("name") or f"node_{index}"
-            yield _Node(name, (*above, (index, name)), mesh, T)
-        chain = (*above, (index, name))
+        chain = (*chain, (index, node.text("name")))
+        yield index, chain, above, own
         stack += [(child, T, chain) for child in reversed(node.indices("children"))]
 
 

@@ -4,9 +4,11 @@ from collections import defaultdict
 from collections.abc import Sequence
 from typing import final
 
+from grafu.asset.labels import label_of
 from grafu.asset.split_meshes import is_one_mesh
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
+from grafu.vocabulary import PartLabel
 
 Chain = tuple[tuple[int, str], ...]
 
@@ -22,6 +24,12 @@ class SceneNode:
     name: str
     chain: Chain
     surfaces: tuple[Surface, ...]
+
+
+def telling_name(node: SceneNode) -> str:
+    """Returns what a shape is called: by its own name or those above it, whichever gives a label first."""
+    names = [name for _, name in reversed(node.chain)]
+    return next((name for name in names if label_of(name) is not PartLabel.UNKNOWN), node.name)
 
 
 def with_split_meshes_whole(nodes: Sequence[SceneNode]) -> list[SceneNode]:

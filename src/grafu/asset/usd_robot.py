@@ -14,13 +14,11 @@ from typing import Final, final
 import numpy as np
 
 from grafu.articulation.motion_kind import kind_named
-from grafu.asset.labels import label_of
 from grafu.asset.mjcf_text import COLLISION
 from grafu.asset.robot_document import RobotDocument, RobotJoint
-from grafu.asset.scene_nodes import SceneNode, with_split_meshes_whole
+from grafu.asset.scene_nodes import SceneNode, telling_name, with_split_meshes_whole
 from grafu.asset.usd_physics import PhysicsJoint, body_above
 from grafu.dataclass import dataclass
-from grafu.vocabulary import PartLabel
 
 _WORLD: Final = "world"
 
@@ -83,7 +81,7 @@ def document_of(robot: UsdRobot, nodes: Sequence[tuple[str, SceneNode]], path: P
         shapes[body].append(own)
     for body, name in names.items():
         for node in _shown(shapes[body]):
-            document.add_surfaces(name, _name_of(node), node.surfaces)
+            document.add_surfaces(name, telling_name(node), node.surfaces)
     by_path = {step.joint.path: step for step in steps}
     for step in steps:
         document.add_joint(_robot_joint(step, names, by_path))
@@ -139,12 +137,6 @@ def _shown(nodes: list[SceneNode]) -> list[SceneNode]:
     """Returns the shapes of one body without its collision shapes, those that an exporter parted as one."""
     visible = [node for node in nodes if not any(COLLISION.search(name) for _, name in node.chain)]
     return with_split_meshes_whole(visible or nodes)
-
-
-def _name_of(node: SceneNode) -> str:
-    """Returns what a shape is called: by its own name or those above it in its body, whichever has a meaning first."""
-    names = [name for _, name in reversed(node.chain)]
-    return next((name for name in names if label_of(name) is not PartLabel.UNKNOWN), node.name)
 
 
 def _robot_joint(step: _Step, names: dict[str, str], steps: dict[str, _Step]) -> RobotJoint:
