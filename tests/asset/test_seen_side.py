@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from grafu.asset.frame import settle_frame, whole_box
+from grafu.asset.frame import front_is_assumed, settle_frame, whole_box
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import Part
 from grafu.asset.reading import Convention, Reading
@@ -59,6 +59,25 @@ BOX = (
     ((-0.5, 0.4, 0.0), (0.22, 0.42, 1.0)),
     ((0.22, 0.4, 0.0), (0.5, 0.41, 1.0)),
 )
+
+
+def test_what_a_format_alone_states_of_the_front_is_no_evidence():
+    alike = tuple(box(f"p{k}", (-0.5, -0.5, 0.3 * k), (0.5, 0.5, 0.3 * k + 0.02)) for k in range(4))
+    labelled = tuple(replace(p, label=PartLabel.DOOR) if p.id == "door" else p for p in (*alike, box("door", *DOOR)))
+    stated = replace(URDF, front="-Y")
+    for parts, kind, is_assumed in (
+        (alike, "glb", True),
+        (alike, "partnet-mobility", False),
+        (labelled, "glb", False),
+        (nameless_cabinet("-Y"), "glb", False),
+    ):
+        frame = settle_frame(Reading(kind, parts, stated), LoadOptions())
+        assert (frame.front, front_is_assumed(frame)) == ("-Y", is_assumed)
+    chosen = settle_frame(Reading("glb", alike, stated), LoadOptions(front="+X"))
+    assert (chosen.front, front_is_assumed(chosen)) == ("+X", False)
+
+
+DOOR = ((-0.5, -0.52, 0.0), (0.5, -0.5, 0.9))
 
 
 @pytest.mark.parametrize("kind", ["partnet-mobility", "hssd"])

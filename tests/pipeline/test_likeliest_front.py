@@ -22,6 +22,8 @@ from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 
 ASSUMED = ("up is +Z: stated", "front is -Y: assumed, as all sides look alike; --front changes it", "scale 1: stated")
+BY_FORMAT = "front is -Y: stated by the format (glTF), where nothing shows another; --front changes it"
+SHOWN = "front is -Y: stated by the format (glTF)"
 SIDES = ("-Y", "-X", "+Y", "+X")  # where the front of the made cabinet is after so many quarter turns
 
 
@@ -54,9 +56,11 @@ def sliding(score: float, drawer: str):
     return complete
 
 
+@pytest.mark.parametrize("front_words", [ASSUMED[1], BY_FORMAT], ids=["assumed", "by the format alone"])
 @pytest.mark.parametrize("quarters", range(4))
-def test_the_side_to_which_fronts_open_comes_to_the_front(nameless, quarters):
+def test_the_side_to_which_fronts_open_comes_to_the_front(nameless, quarters, front_words):
     front = next(part.id for part in nameless.parts if "door" in part.id)
+    nameless = replace(nameless, frame=replace(nameless.frame, assumed=(ASSUMED[0], front_words, ASSUMED[2])))
     given = turned(nameless, quarters)
     found = with_likeliest_front(given, sliding(0.9, front))
     assert found.frame.front == SIDES[quarters]
@@ -73,6 +77,7 @@ def test_the_side_to_which_fronts_open_comes_to_the_front(nameless, quarters):
     [
         (0.4, ASSUMED, LikeliestFrontConfig()),  # not sure enough
         (0.9, (ASSUMED[0], "front is -Y: stated by the user", ASSUMED[2]), LikeliestFrontConfig()),
+        (0.9, (ASSUMED[0], SHOWN, ASSUMED[2]), LikeliestFrontConfig()),
         (0.9, ASSUMED, LikeliestFrontConfig(most=2)),
     ],
 )

@@ -29,6 +29,7 @@ from grafu.geometry.transform import from_rotation, rotation_matrix
 _USUAL_FRONT = {"+Y": "+Z", "-Y": "+Z", "+Z": "-Y", "-Z": "-Y", "+X": "+Z", "-X": "+Z"}
 
 _BY_HABIT = "assumed, as all sides look alike; --front changes it"
+_BY_FORMAT = "where nothing shows another; --front changes it"
 _BY_HANDLES = "small parts stand out there alone, as handles do"
 
 _DATA_SETS = ("partnet-mobility", "hssd", "release")  # their models face one way
@@ -103,8 +104,8 @@ def turned_before(frame: Frame, T: Mat4) -> Frame:
 
 
 def front_is_assumed(frame: Frame) -> bool:
-    """Whether nothing showed which side is the front."""
-    return any(_BY_HABIT in words for words in frame.assumed)
+    """Whether nothing showed which side is the front, and at most the format of the file states it."""
+    return any(_BY_HABIT in words or _BY_FORMAT in words for words in frame.assumed)
 
 
 def whole_box(parts: tuple[Part, ...]) -> Box:
@@ -175,9 +176,11 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     stated = convention.front if convention.front is not None and convention.front[1] != up[1] else None
     votes = front_votes(_telling(reading), whole, up)
     faces_one_way = stated is not None and reading.kind in _DATA_SETS
-    if not any(votes.values()) and not faces_one_way:
+    is_known = any(votes.values()) or faces_one_way
+    if not is_known:
         held = side_with_handles(reading.parts, whole, up)
         shown = held or most_shown_side(reading.parts, whole, up, stated is not None)
+        is_known = shown is not None
         if shown is not None and shown != stated:
             return _Choice(shown, _BY_HANDLES if held else "most parts, and steps between them, are seen there")
         if reading.fronts_face is not None and stated is None and reading.fronts_face[1] != up[1]:
@@ -187,7 +190,7 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
     sure = _sure(votes[front] / max(sum(votes.values()), 1e-9))
     reasons = {
         "geometry": f"doors, drawers, handles or the back panel face or open there{sure}",
-        "convention": f"stated by {convention.origin}",
+        "convention": f"stated by {convention.origin}{'' if is_known else f', {_BY_FORMAT}'}",
         "habit": _BY_HABIT,
     }
     return _Choice(front, reasons[why])
