@@ -54,7 +54,7 @@ def with_likeliest_front(
     complete: Callable[[Asset], GraphCompletion],
     config: LikeliestFrontConfig = LikeliestFrontConfig(),
 ) -> Asset:
-    """Returns the asset with the side in front to which most doors and drawers open; as it is where shape shows a front.
+    """Returns the asset with the side in front to which most doors and drawers open; as it is where its front is shown.
 
     `complete` is how the network completes an asset.
     """
