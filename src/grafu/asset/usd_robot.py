@@ -156,7 +156,7 @@ def _limits(step: _Step, limits: tuple[float, float]) -> tuple[float, float]:
 def _mimic(step: _Step, steps: dict[str, _Step]) -> tuple[str, float, float] | None:
     """Returns which joint of the tree a joint follows; both count from where they are drawn."""
     mimic = step.joint.mimic
-    if mimic is None or mimic[0] not in steps:
+    if mimic is None or mimic[0] not in steps or not np.isfinite(mimic[1:]).all():
         return None
     path, multiplier, offset = mimic
     leader = steps[path]
