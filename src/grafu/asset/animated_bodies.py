@@ -8,6 +8,7 @@ a slide along a line is left out, with a note.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import pi, radians
+from types import MappingProxyType
 from typing import Final, final
 
 import numpy as np
@@ -56,6 +57,7 @@ def animated_bodies(
     nodes: Sequence[SceneNode],
     moves: Mapping[int, Sequence[Sequence[Mat4]]],
     file: str,
+    names: Mapping[int, str] = MappingProxyType({}),
     config: AnimatedMotionConfig = AnimatedMotionConfig(),
 ) -> tuple[list[Body], list[str]]:
     """Returns the bodies of a scene, and notes on animations that are left out.
@@ -65,6 +67,7 @@ def animated_bodies(
         moves: by the number of a node, for each animation where it takes the node at each key: a rigid motion in the
             coordinates of the scene, relative to where the node is drawn, all that is above it at rest.
         file: the name of the file.
+        names: of nodes, by number, that stand for what is called otherwise.
         config: which motion an animation states.
     """
     if not nodes:
@@ -82,10 +85,12 @@ def animated_bodies(
             notes.append(f"the animation of {name} is neither a turn about an axis nor a slide, and is not read")
         else:
             motions[number] = motion
-    return _bodies(nodes, motions, file), notes
+    return _bodies(nodes, motions, file, names), notes
 
 
-def _bodies(nodes: Sequence[SceneNode], motions: Mapping[int, StatedMotion], file: str) -> list[Body]:
+def _bodies(
+    nodes: Sequence[SceneNode], motions: Mapping[int, StatedMotion], file: str, called: Mapping[int, str]
+) -> list[Body]:
     """Returns a body for each node that moves, and one for all that does not."""
     of: dict[int | None, list[SceneNode]] = {None: []} | {number: [] for number in motions}
     above: dict[int, int | None] = {}
@@ -93,7 +98,10 @@ def _bodies(nodes: Sequence[SceneNode], motions: Mapping[int, StatedMotion], fil
     for node in nodes:
         carriers = [(number, name) for number, name in node.chain if number in motions]
         for k, (number, name) in enumerate(carriers):
-            above[number], names[number] = (carriers[k - 1][0] if k else None), name or f"node_{number}"
+            above[number], names[number] = (
+                (carriers[k - 1][0] if k else None),
+                called.get(number) or name or f"node_{number}",
+            )
         start = next((k for k, (number, _) in enumerate(node.chain) if carriers and number == carriers[-1][0]), 0)
         of[carriers[-1][0] if carriers else None].append(replace(node, chain=node.chain[start:]))
     links = {number: f"node {number}" for number in motions}

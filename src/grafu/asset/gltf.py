@@ -3,9 +3,9 @@
 Nodes that animations turn or slide are the annotation's moving bodies.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -108,15 +108,22 @@ def _annotation(file: GltfFile, shapes: Sequence[SceneNode], path: Path) -> tupl
         for index, runs in moved.items()
         if index in above and not _is_hardware(file.item("nodes", index))
     }
-    bodies, notes = animated_bodies(shapes, moves, path.name)
+    links = {index: _ours(file.item("nodes", index)).get("link") for index in moves}
+    names = {index: link for index, link in links.items() if isinstance(link, str) and link}
+    bodies, notes = animated_bodies(shapes, moves, path.name, names)
     return annotation_of_bodies(bodies, up=1) if bodies else None, notes
 
 
 def _is_hardware(node: JsonObject) -> bool:
     """Whether grafu wrote the node for a piece of hardware, which follows what it is fixed to."""
+    return _ours(node).get("role") == VisualRole.HARDWARE.value
+
+
+def _ours(node: JsonObject) -> Mapping[str, Any]:
+    """Returns what grafu wrote about a node; empty of other nodes."""
     extras = node.get("extras")
     ours = extras.get("grafu") if isinstance(extras, dict) else None
-    return isinstance(ours, dict) and ours.get("role") == VisualRole.HARDWARE.value
+    return ours if isinstance(ours, dict) else {}
 
 
 def _scene_nodes(file: GltfFile) -> Iterator[_Node]:
