@@ -19,6 +19,7 @@ from grafu.asset.animated_bodies import AnimatedMotionConfig
 from grafu.asset.appliance_fronts import ApplianceFrontConfig
 from grafu.asset.boarded_drawers import BoardedDrawerConfig
 from grafu.asset.body_kinds import BodyKindConfig
+from grafu.asset.closed_side import ClosedSideConfig
 from grafu.asset.cutting import CutConfig
 from grafu.asset.door_frames import FramedDoorsConfig
 from grafu.asset.drafts import GroupConfig
@@ -53,6 +54,7 @@ from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
 from grafu.completion.control_panels import ControlPanelConfig
 from grafu.completion.copied_bars import CopiedBarsConfig
+from grafu.completion.cushions import CushionConfig
 from grafu.completion.decode_config import FactConfig, HeldFrontsConfig, HeldPlateConfig
 from grafu.completion.drawer_case import CaseConfig
 from grafu.completion.drawers_above_doors import DrawerAboveConfig
@@ -138,6 +140,7 @@ OF_MODULES = {
     },
     "asset": {
         "bodies.py": {},
+        "closed_side.py": {"_STEPS": SAMPLES},
         "cutting.py": {},
         "door_frames.py": {"_RAYS": SAMPLES},
         "drafts.py": {},
@@ -255,9 +258,10 @@ IN_FUNCTIONS = {
 CONFIGS = (
     AgreementConfig, AnimatedMotionConfig, BoardBehindConfig,
     BodyKindConfig, BoxInCaseConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
+    ClosedSideConfig,
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
-    AlikeConfig, CopiedBarsConfig, CoverageTestConfig, DrawnGripConfig,
+    AlikeConfig, CopiedBarsConfig, CoverageTestConfig, CushionConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig, FixedShelfConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,

@@ -81,6 +81,14 @@ def test_what_is_called_a_frame_and_held_by_a_handle_is_a_door():
     assert labels(part("face frame", (0, 0, 0), (0.4, 0.02, 0.7)), knob)[0] is PartLabel.FACE_FRAME
 
 
+def test_a_frame_around_several_leaves_is_none_of_these():
+    frame = part("frame", (0, 0, 0), (1.2, 0.04, 1.0))
+    knob = part("knob", (0.55, -0.03, 0.5), (0.57, 0, 0.52))
+    leaves = [part(f"sash_{k}", (x, 0, 0.05), (x + 0.545, 0.03, 0.95)) for k, x in enumerate((0.05, 0.605))]
+    assert labels(frame, knob, *leaves)[0] is PartLabel.FACE_FRAME
+    assert labels(frame, knob, leaves[0])[0] is PartLabel.DOOR  # one panel may be that of the door itself
+
+
 @pytest.mark.parametrize("name", ["mirror", "leaf_mirror", "glass_2"])
 def test_a_mirror_or_pane_is_a_door_where_a_handle_sits_on_it_alone(name):
     pane, knob = part(name, (0, 0, 0), (0.4, 0.01, 0.7)), part("knob", (0.3, -0.03, 0.3), (0.32, 0, 0.32))

@@ -170,10 +170,22 @@ def test_of_what_its_maker_divided_labels_tell_unless_they_are_hidden(labels, la
     boxes += [box("b", (0.0, 0.0, 0.0), (W, D, H))]
     shell = TriangleMesh(np.array(tub().vertices), np.array(tub().faces))
     parts = (boxes[0], replace(boxes[1], surfaces=(replace(boxes[1].surfaces[0], mesh=shell),)))
+    parts = tuple(replace(part, labelled_by="name") for part in parts)
     reading = Reading("partnet-mobility", parts, Convention("made", up="+Z", front="-Y", unit=1.0))
     made = settled(reading, "piece", Path("piece"), LoadOptions(labels=labels))
 
     assert made.part("a").label is label
+
+
+def test_where_no_name_tells_anything_shape_tells_of_what_its_maker_divided(tmp_path):
+    visual = '<visual><geometry><mesh filename="{}.obj"/></geometry></visual>'
+    links = "".join(f'<link name="link_{k}">{visual.format(k)}</link>' for k in range(2))
+    fixed = '<joint name="j" type="fixed"><parent link="link_0"/><child link="link_1"/></joint>'
+    (tmp_path / "piece.urdf").write_text(f'<robot name="piece">{links}{fixed}</robot>')
+    tub().export(tmp_path / "0.obj")
+    plate().export(tmp_path / "1.obj")
+
+    assert [part.label for part in load_asset(tmp_path / "piece.urdf").parts] == [PartLabel.SIDE_PANEL, PartLabel.DOOR]
 
 
 def leaning(degrees, low):
@@ -209,3 +221,29 @@ def test_a_wall_that_was_cut_from_its_object_is_no_door_where_a_name_tells_of_th
     parts = read(tmp_path, Cabinet=trimesh.util.concatenate(walls), **{called: plate(low=high + 0.003)})
 
     assert {part.id: part.label for part in parts}["Cabinet_front"] is label
+
+
+def test_a_lid_may_reach_into_its_body_as_a_plug_or_around_it_as_a_cap(tmp_path):
+    plug = trimesh.util.concatenate([plate(), solid((0.06, 0.06, H - 0.03), (W - 0.06, D - 0.06, H))])
+    cap = trimesh.util.concatenate([plate(), solid((-0.01, -0.01, H - 0.03), (W + 0.01, -0.001, H))])
+    for lid in (plug, cap):
+        (found,) = lids(tmp_path, Cube=lid, Cube_9=tub())
+        assert float(found.box.low[2]) == pytest.approx(H - 0.03, abs=1e-6)
+    assert not lids(tmp_path, Cube=solid((-0.01, -0.01, H - 0.15), (W + 0.01, D + 0.01, H + 0.03)), Cube_9=tub())
+
+
+def test_the_body_below_a_lid_is_no_drawer(tmp_path):
+    bodies = [read(tmp_path, Cube=plate(), Cube_9=tub()), read(tmp_path, "trunk", Cube=plate(), Cube_9=tub())]
+    for parts in bodies:
+        (body,) = (part for part in parts if part.source.name == "Cube_9")
+        assert (body.label, body.labelled_by) == (PartLabel.SIDE_PANEL, "shape")
+
+
+def test_a_handle_above_a_wall_is_that_of_the_lid(tmp_path):
+    front = solid((0, 0, 0), (W, 0.02, H))
+    walls = {**boards(), "Cube_1": front}
+    on_lid = solid((W / 2 - 0.05, -0.03, H + 0.005), (W / 2 + 0.05, -0.01, H + 0.02))
+    on_wall = on_lid.copy().apply_translation((0, 0.01, -0.1))
+    for handle, label in ((on_lid, PartLabel.SIDE_PANEL), (on_wall, PartLabel.UNKNOWN)):
+        parts = read(tmp_path, lid=plate(), handle=handle, **walls)
+        assert {p.label for p in parts if p.source.name == "Cube_1"} == {label}

@@ -286,3 +286,15 @@ def test_a_board_of_a_post_is_no_door_and_that_of_a_slim_cabinet_is():
     assert why([part for part in of_boards(0.1, 0.1) if part.id in {"board", "guess"}], edge=edge) == "", (
         "a board alone"
     )
+
+
+@pytest.mark.parametrize(("hollow", "kept"), [(False, False), (True, True)])
+def test_a_cushion_on_a_closed_seat_is_no_lid(hollow, kept):
+    cushion = box("cushion", (-0.3, -0.35, 0.3), (0.3, 0.25, 0.45))
+    body = (
+        tray("base", (-0.3, -0.35, 0.0), (0.3, 0.25, 0.3))
+        if hollow
+        else box("base", (-0.3, -0.35, 0.0), (0.3, 0.25, 0.3))
+    )
+    asset, completion = made([cushion, body], "cushion", Hinge("base", "cushion", 0, 1))
+    assert (shape_against(completion.completed.node("cushion"), asset, completion.completed) == "") is kept

@@ -25,6 +25,7 @@ from grafu.joints.hinge_config import FootingConfig, HingeConfig, PinConfig, Piv
 from grafu.joints.hung_parts import HungPartsConfig
 from grafu.joints.lever_config import LeverConfig
 from grafu.joints.lift_arm_config import LiftArmConfig
+from grafu.joints.on_lids import OnLidConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.portholes import PortholeConfig
 from grafu.joints.pull_outs import PullOutConfig
@@ -41,8 +42,11 @@ from grafu.joints.rail_config import (
 from grafu.joints.rail_footing_config import RailFootingConfig
 from grafu.joints.raised_leaves import RaisedLeafConfig
 from grafu.joints.ring_seats import SeatPairConfig
+from grafu.joints.screens import ScreenConfig
+from grafu.joints.sliding_panes import SlidingPaneConfig
 from grafu.joints.stay_config import StayConfig
 from grafu.joints.swivel_mirrors import MirrorConfig
+from grafu.joints.swivels import SwivelConfig
 from grafu.joints.tilting_fronts import TiltConfig
 from grafu.joints.trays import TrayConfig
 from grafu.joints.waste_bins import WasteBinConfig
@@ -139,11 +143,15 @@ REASONS = {
     "racks.py": {"(_UP, _DEPTH)": NUMBERING, "_RAYS": SAMPLES},
     "rail/body_region.py": {"(_SLIDE, _HEIGHT)": SAMPLES, "_FINER": SAMPLES},
     "sliding_doors.py": {"_UP": NUMBERING},
+    "sliding_panes.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING},
+    "screens.py": {"_WIDTH": NUMBERING, "_DEPTH": NUMBERING, "_UP": NUMBERING},
+    "on_lids.py": {"_UP": NUMBERING},
+    "swivels.py": {"_UP": NUMBERING},
     "trays.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING},
     "stays.py": {"_SIDES": NUMBERING},
     "small_parts.py": {"_UP": NUMBERING},
     "windows.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING, "_RAYS": SAMPLES},
-    "tilting_fronts.py": {"(_UP, _DEPTH)": NUMBERING},
+    "tilting_fronts.py": {"(_UP, _DEPTH)": NUMBERING, "_RAYS": SAMPLES},
     "behind_fronts.py": {"_DEPTH": NUMBERING, "_ACROSS": NUMBERING, "_AS_DEEP": "as deep as another"},
     "waste_bins.py": {"(_UP, _DEPTH)": NUMBERING, "_OUT": NUMBERING, "_RAYS": SAMPLES},
     "support_block.py": {"WOOD": LOOK, "METAL": LOOK, "_GRID": SAMPLES, "_STEPS": SAMPLES, "_ON_LEAF": SAMPLES},
@@ -155,7 +163,7 @@ CONFIGS = (
     FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, HungPartsConfig,
     LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
-    BoxFlapConfig, SeatPairConfig,
+    BoxFlapConfig, OnLidConfig, ScreenConfig, SeatPairConfig, SlidingPaneConfig, SwivelConfig,
     PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RackGuideConfig, RailConfig, RailFootingConfig,
     RaisedLeafConfig,
     RealizationConfig,

@@ -9,12 +9,13 @@ from grafu.geometry.axis import Axis
 from grafu.graph.parse import parse_graph
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.joints.pull_outs import with_pull_outs
+from grafu.joints.realize import realize
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import JointType, PartLabel
-from judging import swept_collisions
+from judging import GALLERY, installed, swept_collisions
 from small_scenes import box, cylinder, scene
 
 FRONT = box("door", (0.0, -0.021, 0.1), (0.3, -0.001, 0.8))
@@ -179,3 +180,41 @@ def test_baskets_that_were_guessed_to_move_by_themselves_are_pieces_of_the_rack(
 
     assert moving(PartLabel.UNKNOWN) == ["door"]
     assert moving(PartLabel.DRAWER) == ["door", basket.id]
+
+
+def as_one(name, parts):
+    """One part with the surfaces of several."""
+    return replace(
+        parts[0], id=name, label=PartLabel.UNKNOWN, surfaces=tuple(s for part in parts for s in part.surfaces)
+    )
+
+
+def test_a_rack_may_be_drawn_in_one_part_but_boards_that_hang_in_the_air_are_none():
+    (request,) = requests(FRONT, *CASE, as_one("rack", RACK))
+    assert (request.type, request.attached) == (JointType.PRISMATIC, ("rack",))
+
+    boards = [box("b", (0.05, 0.0, z), (0.25, 0.46, z + 0.01)) for z in (0.15, 0.4, 0.6, 0.74)]
+    assert [r.attached for r in requests(FRONT, *CASE, as_one("boards", boards))] == [()]
+
+
+def opening(*behind):
+    """How far a front opens whose mesh holds what is behind it, too (metres)."""
+    front = as_one("door", (FRONT, *behind))
+    slide = JointRequest("door", JointType.PRISMATIC, Axis(FRONT.box.center, vec3(0.0, -1.0, 0.0)), "network")
+    built = installed(realize(RealizationPlan((slide,)), scene(front, *CASE), GALLERY))
+    return built["door"].opening
+
+
+def test_rails_run_beside_an_open_rack_that_is_drawn_with_its_front():
+    corners = [(x, y) for x in (0.06, 0.23) for y in (0.0, 0.44)]
+    posts = [box("post", (x, y, 0.15), (x + 0.01, y + 0.01, 0.75)) for x, y in corners]
+    boards = [box("board", (0.06, 0.0, z), (0.24, 0.45, z + 0.003)) for z in (0.16, 0.365, 0.57, 0.745)]
+    assert opening(*posts, *boards) > 0.3
+
+
+def test_rails_run_along_two_bins_one_behind_the_other_but_not_along_one_far_behind():
+    def bin_at(first, last):
+        return box("bin", (0.05, first, 0.15), (0.25, last, 0.55))
+
+    assert opening(bin_at(-0.001, 0.21), bin_at(0.24, 0.45)) > 0.3
+    assert opening(bin_at(-0.001, 0.21), bin_at(0.32, 0.45)) < 0.25

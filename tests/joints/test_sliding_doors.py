@@ -3,6 +3,10 @@ import pytest
 
 from grafu.asset.edit import mirrored, yawed
 from grafu.asset.part import Asset
+from grafu.geometry.arrays import vec3
+from grafu.geometry.axis import Axis
+from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.sliding_doors import with_sliding_doors
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.templates.gallery import builtin_gallery
@@ -138,3 +142,26 @@ def test_a_door_that_slides_beside_nothing_that_stays_is_skipped():
     joints = (sliding("door_front", (1.0, 0.0, 0.0)), sliding("door_behind", (-1.0, 0.0, 0.0)))
     result = realized(scene(*doors, joints=joints))
     assert {refusal.part for refusal in result.report.skipped} == {"door_front", "door_behind"}
+
+
+@pytest.mark.parametrize(("name", "kind"), [("barn_door", JointType.PRISMATIC), ("barnwood_door", JointType.REVOLUTE)])
+def test_doors_of_barns_slide(name, kind):
+    *shell, front, _ = two_sliding_doors(0.003, stated=False).parts
+    asset = scene(*shell, box(name, tuple(front.box.low), (-0.05, *front.box.high[1:])))
+    assert by_rule(asset)[name].type is kind
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_pocket_door_goes_into_its_pocket_and_not_into_the_wall(side):
+    def wall(name, low, high, y):
+        left, right = sorted((side * low, side * high))
+        return box(name, (left, y[0], 0.0), (right, y[1], 2.3))
+
+    pocket = [wall(f"wall_{k}", -1.2, -0.45, y) for k, y in enumerate(((-0.05, -0.03), (0.03, 0.05)))]
+    leaf = box("pocket_door", (-0.46, -0.02, 0.01), (0.445, 0.02, 2.0))
+    header = box("header", (-0.45, -0.05, 2.05), (0.45, 0.05, 2.3))
+    asset = scene(*pocket, wall("wall_2", 0.45, 1.6, (-0.05, 0.05)), header, leaf)
+    hinge = JointRequest("pocket_door", JointType.REVOLUTE, Axis(leaf.box.center, vec3(0.0, 0.0, 1.0)), "network")
+    (request,) = with_sliding_doors(RealizationPlan((hinge,)), asset).joints
+    assert request.type is JointType.PRISMATIC
+    assert request.axis.direction[0] == pytest.approx(-side)

@@ -430,3 +430,18 @@ def test_a_stated_knob_that_is_drawn_off_its_panel_turns_and_the_report_states_h
     assert record.largest_gap == pytest.approx(0.0, abs=1e-5)
     assert record.notes == ("it is drawn 0.020 m off what carries it",)
     assert [line.part for line in report.verdict.lines if line.why in record.notes] == ["dial"]
+
+
+def test_trays_and_pole_of_a_carousel_turn_as_one():
+    trays = [
+        cylinder(f"lazy_susan_tray_{k}", ((0.2, 0.2, z), (0.2, 0.2, z + 0.02)), 0.15) for k, z in enumerate((0.1, 0.3))
+    ]
+    pole = cylinder("lazy_susan_pole", ((0.2, 0.2, 0.05), (0.2, 0.2, 0.5)), 0.01)
+    apart = cylinder("lazy_susan_other", ((0.2, 0.55, 0.05), (0.2, 0.55, 0.07)), 0.1)
+    floor = box("floor", (-0.02, 0.0, 0.0), (0.42, 0.7, 0.05))
+    made = made_of(*CASE, floor, *trays, pole, apart)
+    assert set(small_joints(made)) == {"lazy_susan_tray_0", "lazy_susan_other"}
+    assert {v.name for v in made.object.link("lazy_susan_tray_0").visuals} == {
+        *(t.id for t in trays),
+        "lazy_susan_pole",
+    }

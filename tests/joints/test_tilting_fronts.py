@@ -16,7 +16,7 @@ from grafu.graph.parse import parse_graph
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.motion_choice import MotionChoice, Moves, Side
 from grafu.joints.plan import JointRequest, RealizationPlan
-from grafu.joints.tilting_fronts import with_tilts
+from grafu.joints.tilting_fronts import with_shown_tilts, with_tilts
 from grafu.synth.cabinets.tilting import TiltingFronts, make_tilting_fronts
 from grafu.synth.case.case import Case
 from grafu.vocabulary import JointType, PartLabel
@@ -152,3 +152,33 @@ def test_the_fall_of_a_bureau_holds_no_bin_however_deep_its_box_is(degrees_back,
     result = grafu.functionalize(asset, motion="rule", motions={"door": "drop"})
 
     assert 70 < degrees(result.joint("door").upper) < most
+
+
+def before_basin(*more, deep=0.08, high=0.12):
+    """How a front above two doors moves, with a wall `deep` behind it, and how far: type, stop."""
+    front = box("front", (-0.39, -0.3, 0.7), (0.39, -0.281, 0.7 + high))
+    basin = box("wall_of_it", (-0.3, -0.281 + deep, 0.66), (0.3, -0.281 + deep + 0.3, 0.86))
+    asset = scene(front, *more, basin, box("side", (-0.4, -0.28, 0.0), (-0.382, 0.3, 0.86)))
+    slide = JointRequest("front", JointType.PRISMATIC, Axis(front.box.center, vec3(0.0, -1.0, 0.0)), "network")
+    plan = RealizationPlan((replace(slide, attached=tuple(part.id for part in more)),), ())
+    (made,) = with_shown_tilts(plan, asset, parse_graph(asset)).joints
+    return made.type, made.stop
+
+
+def test_a_front_with_a_handle_right_before_a_basin_tilts_and_others_do_not():
+    handle = replace(box("handle", (-0.06, -0.33, 0.75), (0.06, -0.3, 0.76)), label=PartLabel.HANDLE)
+    walls = box("walls", (-0.35, -0.281, 0.71), (0.35, -0.22, 0.76))
+
+    assert before_basin(handle) == (JointType.REVOLUTE, pytest.approx(radians(45)))
+    others = [before_basin(handle, deep=deep) for deep in (0.001, 0.4)]
+    for what in (before_basin(), before_basin(handle, walls), *others):
+        assert what == (JointType.PRISMATIC, None)
+    assert before_basin(handle, high=0.4)[0] is JointType.PRISMATIC
+
+
+def test_a_front_without_a_label_that_is_called_tilting_tilts():
+    front = replace(box("tilt_front", (-0.39, -0.3, 0.2), (0.39, -0.281, 0.6)), label=PartLabel.UNKNOWN)
+    asset = scene(front, box("side", (-0.4, -0.28, 0.0), (-0.382, 0.3, 0.86)))
+    slide = JointRequest("tilt_front", JointType.PRISMATIC, Axis(front.box.center, vec3(0.0, -1.0, 0.0)), "network")
+    (made,) = with_shown_tilts(RealizationPlan((slide,), ()), asset, parse_graph(asset)).joints
+    assert (made.type, float(made.axis.direction[0])) == (JointType.REVOLUTE, pytest.approx(1.0))

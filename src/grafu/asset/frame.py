@@ -9,6 +9,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.asset.closed_side import faces_across, side_of_door
 from grafu.asset.labels import label_of
 from grafu.asset.lying_windows import lies_as_a_window
 from grafu.asset.options import LoadOptions
@@ -186,6 +187,12 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
         if reading.fronts_face is not None and stated is None and reading.fronts_face[1] != up[1]:
             return _Choice(reading.fronts_face, "what was cut out of a mesh as a front faces there")
     usual = "+X" if reading.kind in ROBOTS and up[1] != "X" else _USUAL_FRONT[up]
+    if reading.kind in ROBOTS and stated is None and not any(votes.values()):
+        door = side_of_door(reading.parts, whole, up)
+        if door is not None:
+            return _Choice(door, "a body of its own closes this side alone, as a door does")
+    if faces_across(usual, whole, up):
+        usual = _USUAL_FRONT[up]
     front, why = decide_front(votes, stated, usual)
     sure = _sure(votes[front] / max(sum(votes.values()), 1e-9))
     reasons = {

@@ -9,6 +9,7 @@ of glass a door where a handle sits on it alone, and what is called a bar and is
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import combinations
 from typing import final
 
 import numpy as np
@@ -44,8 +45,11 @@ class PlaceNamesConfig:
     leaf: float = 0.4
     """How wide a plate called a bar is at least to be no bar (fraction of its length)."""
 
+    filled: float = 0.6
+    """Leaves in a frame take this much of its outline at least (fraction)."""
+
     def __post_init__(self) -> None:
-        require_ratios(self, "plate", "touch", "leaf")
+        require_ratios(self, "plate", "touch", "leaf", "filled")
 
 
 def with_place_names(
@@ -60,7 +64,7 @@ def with_place_names(
     leaves = _beside_each_other([part for part in sides if _is_plate(part, config)])
     opened |= leaves and leaves | {part.id for part in sides if not _is_plate(part, config)}
     frames = [part for part in parts if _is_called(part, _FRAMES, PartLabel.FACE_FRAME)]
-    held = {part.id for part in frames if _is_held(part, parts, config)}
+    held = {p.id for p in frames if _is_held(p, parts, config) and not _is_around_leaves(p, parts, config)}
     opened_by = [part for part in parts if _is_pane(part) or _is_wide_bar(part, config)]
     held |= {part.id for part in opened_by if _is_held(part, parts, config, alone=True)}
     found = (replace(p, label=PartLabel.UNKNOWN, labelled_by="none") if p.id in opened else p for p in parts)
@@ -104,6 +108,23 @@ def _is_held(part: Part, parts: Sequence[Part], config: PlaceNamesConfig, alone:
     near = [p for p in parts if p is not part and (p.label.is_movable or (alone and p.label is not PartLabel.HANDLE))]
     free = [box for box in handles if not any(box.overlaps(other.box, reach) for other in near)]
     return bool(free) and _is_plate(part, config)
+
+
+def _is_around_leaves(frame: Part, parts: Sequence[Part], config: PlaceNamesConfig) -> bool:
+    """Whether several plates without a label, side by side, fill the outline of a frame: it is that of a window."""
+    axis, box = frame.box.thin_axis, frame.box
+    across = [k for k in range(3) if k != axis]
+    inside = [
+        p.box
+        for p in parts
+        if p is not frame and p.label is PartLabel.UNKNOWN and p.box.thin_axis == axis and _is_plate(p, config)
+    ]
+    inside = [
+        b for b in inside if (b.low[across] >= box.low[across]).all() and (b.high[across] <= box.high[across]).all()
+    ]
+    apart = all(a.axis_gaps(b)[across].max() >= 0 for a, b in combinations(inside, 2))
+    area = sum(float(np.prod(b.size[across])) for b in inside)
+    return len(inside) > 1 and apart and area >= config.filled * float(np.prod(box.size[across]))
 
 
 def _beside_each_other(plates: Sequence[Part]) -> set[str]:

@@ -53,7 +53,9 @@ class ShownLidConfig:
     overhang: float = 0.035
     """How far a lid stands out of its body at most (metres)."""
     near: float = 0.01
-    """How far a lid lies above its body at most, and how far that reaches into it (metres)."""
+    """How far a lid lies above its body at most (metres) ..."""
+    lip: float = 0.06
+    """... and how far it reaches below the rim of that, as a plug into it or as a cap around it (metres)."""
     hollow: float = 0.5
     """What of its plan is open from above down to its lower half at least (fraction) ..."""
     floor: float = 0.6
@@ -68,7 +70,7 @@ class ShownLidConfig:
     """What is smaller, seen from each side, is a fitting: no wall, and no back of a seat (fraction of that side)."""
 
     def __post_init__(self) -> None:
-        require_positive(self, "high", "bin", "slender", "wide", "overhang", "near")
+        require_positive(self, "high", "bin", "slender", "wide", "overhang", "near", "lip")
         require_ratios(self, "plan", "thick", "hollow", "floor", "walls", "wall", "alike", "small")
 
 
@@ -87,7 +89,7 @@ def with_shown_lid(
     """
     parts = reading.parts
     movable = [part for part in parts if part.label.is_movable]
-    is_told = is_divided(reading) and any(part.labelled_by != "hidden" for part in parts)
+    is_told = is_divided(reading) and any(part.labelled_by not in ("hidden", "none") for part in parts)
     is_open = parts and not is_told and [part.label for part in movable] in ([], [PartLabel.DOOR])
     if not is_open or _TABLES & set(spoken(name)):
         return reading
@@ -136,14 +138,21 @@ def _lids(
     is_free = all(part.label in (PartLabel.UNKNOWN, PartLabel.MISC) for part in on)
     if not (body and is_thin and is_free and _is_box(body, meshes, top, plate, config)):
         return [], set()
-    return [plate, *on], {part.id for part in body if _is_bare_wall(part, parts, meshes, config)}
+    around = Box.enclosing(meshes[p.id].box for p in body)
+    walls = (p for p in body if _is_bare_wall(p, parts, meshes, config) or _is_tub(p, meshes[p.id].box, around, config))
+    return [plate, *on], {part.id for part in walls}
+
+
+def _is_tub(part: Part, box: Box, body: Box, config: ShownLidConfig) -> bool:
+    """Whether a part without a label is the body itself, or what is left of it: it takes most of each of its sides."""
+    return part.label is PartLabel.UNKNOWN and bool(np.all(box.size >= config.plan * body.size))
 
 
 def _is_bare_wall(part: Part, parts: Sequence[Part], meshes: dict[str, TriangleMesh], config: ShownLidConfig) -> bool:
-    """Whether a part without a label is an upright board that no handle sits on."""
+    """Whether a part without a label is an upright board that no handle sits on: one above it is on the lid."""
     box = meshes[part.id].box
     handles = [meshes[p.id].box for p in parts if p.label is PartLabel.HANDLE]
-    is_held = any(box.overlaps(handle, config.near) for handle in handles)
+    is_held = any(box.overlaps(handle, config.near) and handle.center[_UP] <= box.high[_UP] for handle in handles)
     return part.label is PartLabel.UNKNOWN and box.thin_axis != _UP and not is_held
 
 
@@ -169,7 +178,7 @@ def _is_box(
     mesh = merge_meshes([meshes[part.id] for part in body])
     box, rays = mesh.box, RayCaster(mesh)
     beyond = np.maximum(box.low - lid.low, lid.high - box.high)[:_UP]
-    is_under = abs(float(lid.low[_UP] - box.high[_UP])) <= config.near
+    is_under = -config.lip <= float(lid.low[_UP] - box.high[_UP]) <= config.near < float(lid.high[_UP] - box.high[_UP])
     if not is_under or beyond.max() > config.overhang or not (box.size > 0).all():
         return False
     above = float(box.size.max())

@@ -11,6 +11,7 @@ from typing import NamedTuple, final
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.completion.cushions import closes_nothing, is_cushion_sized
 from grafu.completion.drawer_case import is_front_only, is_without_case
 from grafu.completion.ways_out import rest_of
 from grafu.dataclass import dataclass
@@ -108,6 +109,9 @@ def shape_against(
         return "it is round, which fronts are not"
     rest = partial(rest_of, asset, node.id, graph)  # of a large model it takes long, and most doors need none
     rail = next((rail for rail in graph.rails if rail.child == node.id), None)
+    may_be_cushion = node.label is PartLabel.DOOR and not is_held and is_cushion_sized(box)
+    if may_be_cushion and (why := closes_nothing(box, rest())):
+        return why
     if rail is None and node.label is PartLabel.DOOR:
         is_open = _is_open(mesh, rest, box, signed_axis(box.thin_axis, positive=False), config.leaf)
         return "hardly anything is within its outline" if is_open else ""

@@ -32,7 +32,7 @@ from grafu.joints.no_hardware import (
 )
 from grafu.joints.plan import JointRequest, MotionRole
 from grafu.joints.rail.place import place_rails
-from grafu.joints.rail.search import DrawerSearch, drawer_search
+from grafu.joints.rail.search import DrawerSearch, beside_rack, drawer_search
 from grafu.joints.report import Clearance, Placement
 from grafu.refusal import Reason, Refusal
 from grafu.scene.border import border_frame, part_axes
@@ -41,6 +41,8 @@ from grafu.templates.template import Gallery
 from grafu.vocabulary import JointType
 
 _Found = tuple[Placement, Scene, tuple[Clearance, ...]]
+_ON_WHAT_IS_THERE = (MotionRole.SUPPORT, MotionRole.SEAT)
+"""What turns without hardware where it is free so: hinges of its own would set seat and lid apart."""
 
 
 @final
@@ -89,7 +91,7 @@ def _door_built(request: JointRequest, scene: Scene, gallery: Gallery, config: R
     search = door_search(request, scene, config)
     if not search.has_pins:
         return Refusal(request.moving, Reason.NO_ROOM, f"what stands around it allows no {request.choice}")
-    swung = support_without_hardware(search) if request.role is MotionRole.SUPPORT else None
+    swung = support_without_hardware(search) if request.role in _ON_WHAT_IS_THERE else None
     drawn = (swung, scene, ()) if swung else _on_drawn_hinges(search)
     if drawn is not None:
         return _built(request, drawn, search.wanted)
@@ -204,6 +206,8 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
             search, scene, clearances = again, cleared.scene, (*lap, *cleared.clearances)
     placement = _guided(search, gallery)
     found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
+    if found is None and (beside := beside_rack(search)) is not None and (placement := _guided(beside, gallery)):
+        return _built(request, (placement, scene, clearances), request.reference or beside.wanted)
     free = None if found else drawer_without_hardware(search)
     found = (free, scene, clearances) if free else found
     if found is None:

@@ -244,7 +244,8 @@ class RealizationConfig(ShortRepr):
     no_hardware_box_gap: float = 0.02
     """... and the widest gap (extent) to what such a box runs between without hardware."""
     rack_gap: float = 0.05
-    """How far a rack, whose wheels and guides are seldom drawn, stands off what carries it at most (extent)."""
+    """How far a rack, whose wheels and guides are seldom drawn, stands off what carries it at most (extent); so far a
+    toilet's seat and lid come from what their pin is on."""
     kept: float = 0.4
     """Fraction of its own thickness that a trimmed piece keeps at least."""
     rail: RailConfig = RailConfig()

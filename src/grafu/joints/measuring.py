@@ -87,7 +87,9 @@ def _measured(built: Built, upper: float, scene: Scene, config: RealizationConfi
     """Returns the fraction of poses that collide with static parts, and the widest gap in metres to the static body."""
     moving = built.request.moving
     motion = built.request.kind.along(built.placement.axis)
-    near = in_the_way(scene.static_obstacles, swept_box(scene.moving_mesh(moving).box, motion, upper))
+    aside = config.rack_gap * scene.extent if built.placement.template == DRAWN else 0.0  # what it stands off so far
+    path = swept_box(scene.moving_mesh(moving).box, motion, upper).grown(aside)
+    near = in_the_way(scene.static_obstacles, path)
     names = {*scene.moving_bodies[moving].members, *(obstacle.id for obstacle in near)}
     around = replace(
         scene,

@@ -75,16 +75,17 @@ def _about(axis: Axis, search: DoorSearch, opening_first: frozenset[str] = froze
 def support_without_hardware(search: DoorSearch) -> Placement | None:
     """Returns the joint of what swings out below a leaf, on the pin that the table has: as asked for, or on its border.
 
-    It is None where hardware was chosen, where it is not free, and where it would come away from all static parts. The
-    leaf, while it hangs, may be in its way.
+    So turn the seat and the lid of a toilet. It is None where hardware was chosen, where it is not free, and where it
+    would come away from all static parts. The leaf, while it hangs, may be in its way.
     """
     frame = search.frame
     found: list[Placement] = []
+    gap = search.config.rack_gap if search.request.role is MotionRole.SEAT else 0.0
     for axis in (search.request.axis, *(frame.axis_at(0.0, -ratio * frame.thickness) for ratio in _DEPTHS)):
         upper = search.widest(axis, search.wanted)
         if upper < search.config.restricted * search.wanted or (found and upper <= found[0].upper):
             continue
-        joint = _joint(search, axis, axis.rotation, upper, search.bodies_in_the_way(axis, upper))
+        joint = _joint(search, axis, axis.rotation, upper, search.bodies_in_the_way(axis, upper), gap)
         found = found if joint is None else [replace(joint, template=DRAWN, notes=())]
         if found and upper >= search.wanted:
             break

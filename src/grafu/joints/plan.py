@@ -44,6 +44,9 @@ class MotionRole(StrEnum):
     EXTENSION = "extension"  # it makes a table longer, and slides on what the table has
     BIN = "bin"  # it stands behind a door, and slides out on what is there
     SUPPORT = "support"  # it carries a table's raised leaf, and swings or slides out on what the table has
+    SEAT = (
+        "seat"  # of a toilet, or its lid: both turn about one pin, on what the toilet has where that leaves both free
+    )
     LIFTED = "lifted"  # arms lift it upright where they find room
 
 

@@ -26,6 +26,11 @@ class PlateEdge:
     low: float
     across: float
 
+    @property
+    def high(self) -> float:
+        """The height of its upper face."""
+        return 2 * self.up - self.low
+
 
 def edges_of(mesh: TriangleMesh, along: int, thin: float) -> Iterator[PlateEdge]:
     """Yields both edges of a plate that run along a level axis; none where it is no plate, seen along that.

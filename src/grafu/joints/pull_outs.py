@@ -17,10 +17,12 @@ from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
 from grafu.geometry.mesh import merge_meshes
+from grafu.geometry.shells import shell_numbers
 from grafu.graph.edges import Slide
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.behind_fronts import groups_held_by, groups_within, is_within_outline, touched_by
 from grafu.joints.plan import JointRequest, RealizationPlan
+from grafu.joints.racks import hangs_together
 from grafu.joints.waste_bins import is_bucket
 from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
@@ -50,7 +52,8 @@ class PullOutConfig:
     upright: float = 0.9
     """From this cosine on to the vertical the predicted hinge is at a side of the front."""
     pieces: int = 3
-    """How many parts a rack has at least, unless it is a bin: one board may be a shelf whose pins are not drawn."""
+    """How many parts a rack has at least, or shells that hang together where it is drawn in fewer parts, unless it is
+    a bin: one board may be a shelf whose pins are not drawn."""
     tall: float = 0.5
     """Least height of a rack (fraction of the front's height)."""
     deep: float = 0.5
@@ -147,11 +150,12 @@ def _is_rack(found: Sequence[str], front: Box, asset: Asset, config: PullOutConf
     near = abs(float(box.low[_DEPTH] - front.high[_DEPTH])) <= config.reach
     tall = box.size[_UP] >= config.tall * front.size[_UP]
     deep = box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
-    return bool(near and tall and deep) and (len(found) >= config.pieces or _is_bin(found, asset))
-
-
-def _is_bin(parts: Sequence[str], asset: Asset) -> bool:
-    return is_bucket(merge_meshes([asset.part(name).mesh for name in parts]))
+    if not (near and tall and deep):
+        return False
+    if len(found) >= config.pieces:
+        return True
+    mesh = merge_meshes([asset.part(name).mesh for name in found])
+    return is_bucket(mesh) or (int(shell_numbers(mesh).max()) + 1 >= config.pieces and hangs_together(mesh))
 
 
 def _is_behind(box: Box, front: Box, config: PullOutConfig) -> bool:

@@ -108,12 +108,12 @@ def _racks(
         wide = box.size[0] >= config.wide * door.size[0]
         deep = box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
         mesh = merge_meshes([part.mesh for part in parts])
-        if wide and deep and is_grid(mesh, config) and _hangs_together(mesh, config):
+        if wide and deep and is_grid(mesh, config) and hangs_together(mesh, config):
             found.append(sliding_out(parts, SOURCE))
     return found
 
 
-def _hangs_together(mesh: TriangleMesh, config: RackConfig) -> bool:
+def hangs_together(mesh: TriangleMesh, config: RackConfig = RackConfig()) -> bool:
     """Whether the shells of a rack that touch one another have nearly its whole height: no supports are drawn in it."""
     number = shell_numbers(mesh)
     boxes = [Box.around(mesh.triangles[number == k].reshape(-1, 3)) for k in range(int(number.max()) + 1)]

@@ -30,10 +30,14 @@ class BodyConfig:
     """The same as a fraction of what the rays of the best column meet."""
     long: float = 0.6
     """Fraction of the body's length over which a height of the flanks belongs to it."""
+    gap: float = 0.1
+    """A gap in the flanks, as between two bins one behind another, is bridged up to this (fraction of the depth) ..."""
+    beside_gap: float = 0.25
+    """... where the flanks before and behind it are as long as this at least (the same)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "met_ratio", "long")
+        require_ratios(self, "met_ratio", "long", "gap", "beside_gap")
 
 
 @final
@@ -131,6 +135,8 @@ class DrawerConfig:
     """A sliding door is thinner than this fraction of its smaller side, and slides nearly along its plane."""
     stands_out: float = 1e-3
     """How far an attached part may stand out and still count as behind a drawer's front side (metres)."""
+    outline: float = 0.9
+    """A board before an open rack takes this much of the drawer's width and height at least (fraction)."""
     level: float = 0.5
     """Largest vertical part of a direction along which a drawer slides; more is up or down."""
     body: BodyConfig = BodyConfig()
@@ -138,7 +144,7 @@ class DrawerConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "thickest_board", "stands_out")
-        require_ratios(self, "shallow", "slat", "shortest", "flat", "level")
+        require_ratios(self, "shallow", "slat", "shortest", "flat", "outline", "level")
 
 
 @final

@@ -19,7 +19,7 @@ from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster, depths_below
 from grafu.graph.edges import Hinge
 from grafu.joints.framed_leaves import SOURCE, relabelled
-from grafu.joints.plan import JointRequest, RealizationPlan, moved_instead
+from grafu.joints.plan import JointRequest, MotionRole, RealizationPlan, moved_instead
 from grafu.joints.plate_edges import PlateEdge, edges_of
 from grafu.vocabulary import PartLabel
 
@@ -103,12 +103,18 @@ def with_seat_pair(
     if pair is None or {pair.seat.id, pair.lid.id} & set(settled):
         return plan
     own = {pair.seat.id, pair.lid.id}
-    turning = [JointRequest(part.id, Hinge.joint_type, pair.pin, SOURCE) for part in (pair.lid, pair.seat)]
+    turning = [
+        JointRequest(part.id, Hinge.joint_type, pair.pin, SOURCE, role=MotionRole.SEAT)
+        for part in (pair.lid, pair.seat)
+    ]
     return moved_instead(plan, own, turning)
 
 
 def _pin(seat: Part, lid: Part, below: list[PlateEdge], above: list[PlateEdge], config: SeatPairConfig) -> Axis | None:
-    """Returns the pin at the lowest common edge of two plates of one outline, the rear one of two that are level."""
+    """Returns the pin at the lowest common edge of two plates of one outline, the rear one of two that are level.
+
+    It is above both: what lies below a pin moves to the front as it is raised, and away from a tank close behind.
+    """
     width, other = float(seat.box.size[_WIDTH]), float(lid.box.size[_WIDTH])
     length, deep = below[0].across, above[0].across
     if abs(width - other) > config.alike * other or abs(length - deep) > config.alike * deep:
@@ -123,7 +129,7 @@ def _pin(seat: Part, lid: Part, below: list[PlateEdge], above: list[PlateEdge], 
     level = [(a, b) for a, b in common if min(a.up, b.up) <= lowest + near]
     first, second = max(level, key=lambda pair: pair[0].level)
     place = seat.box.center.copy()
-    place[_DEPTH], place[_UP] = min(first.level, second.level), min(first.low, second.low)
+    place[_DEPTH], place[_UP] = min(first.level, second.level), max(first.high, second.high)
     return Axis(vec3(*place.tolist()), vec3(-1.0, 0.0, 0.0))
 
 

@@ -22,6 +22,7 @@ from grafu.joints.plan import JointRequest, RealizationPlan
 SOURCE = "rule"
 """`JointRequest.source` of a sliding door: its name tells."""
 _WORDS = ("sliding", "slide", "bypass")  # or what begins so: `slidelink`
+_KINDS = frozenset({"pocket", "barn"})  # of sliding doors, by where they go and what they come from
 _UP = 2
 
 
@@ -60,9 +61,11 @@ def with_sliding_doors(
 def _sliding(request: JointRequest, asset: Asset, doors: list[Part], config: NamedSlideConfig) -> JointRequest:
     """Returns the request of a hinged door that is called sliding as one that slides; any other as it is."""
     leaf = asset.part(request.moving)
-    if not any(word.startswith(_WORDS) for word in spoken(leaf.source.name)):
+    if not any(word.startswith(_WORDS) or word in _KINDS for word in spoken(leaf.source.name)):
         return request
-    shift = next(_shifts(leaf, asset, doors, config), None)
+    own = {leaf.id, *request.attached}
+    static = [part.box for part in asset.parts if part.id not in own and not part.label.is_movable]
+    shift = next(_shifts(leaf, asset, doors, static, config), None)
     if shift is None:
         return request
     reach = float(np.abs(shift).max())
@@ -70,8 +73,11 @@ def _sliding(request: JointRequest, asset: Asset, doors: list[Part], config: Nam
     return JointRequest(request.moving, Slide.joint_type, axis, SOURCE, reach, (), request.attached)
 
 
-def _shifts(leaf: Part, asset: Asset, doors: list[Part], config: NamedSlideConfig) -> Iterator[Vec3]:
-    """Yields the shifts of an upright leaf along X or Y to beside where it stands, metres, the longer first."""
+def _shifts(leaf: Part, asset: Asset, doors: list[Part], static: list[Box], config: NamedSlideConfig) -> Iterator[Vec3]:
+    """Yields the shifts of an upright leaf along X or Y to beside where it stands, metres, the longer first.
+
+    What ends in the box of a static part comes after what does not: a pocket is beside the wall on the other side.
+    """
     across = int(np.argmin(leaf.box.size))
     if across == _UP or leaf.box.size[across] > config.thin * np.delete(leaf.box.size, across).min():
         return
@@ -79,8 +85,11 @@ def _shifts(leaf: Part, asset: Asset, doors: list[Part], config: NamedSlideConfi
     width = float(leaf.box.size[along])
     rooms = ((asset.box.high - leaf.box.high)[along], (leaf.box.low - asset.box.low)[along])
     inner = leaf.box.grown(-config.lap * float(leaf.box.size[across]))
-    for room, sign in sorted(zip(rooms, (1.0, -1.0), strict=True), key=lambda side: -side[0]):
-        shift = sign * min(float(room), width) * np.eye(3)[along]
-        moved = Box(inner.low + shift, inner.high + shift)
+    shifts = [sign * min(float(room), width) * np.eye(3)[along] for room, sign in zip(rooms, (1.0, -1.0), strict=True)]
+    paths = [Box(inner.low + shift, inner.high + shift) for shift in shifts]
+    blocked = [any(box.overlaps(path) for box in static) for path in paths]
+    for _, _, room, shift, moved in sorted(
+        zip(blocked, (-room for room in rooms), rooms, shifts, paths, strict=True), key=lambda side: side[:2]
+    ):
         if room >= config.room * width and not any(d is not leaf and d.box.overlaps(moved) for d in doors):
             yield shift

@@ -54,7 +54,8 @@ def with_small_joints(
     are in the scale of the object (`at_scale`).
     """
     outcomes: list[Outcome] = []
-    for request in sorted(requests, key=lambda r: -len(r.attached)):
+    moving = {request.moving for request in requests}
+    for request in sorted(requests, key=lambda r: -len(moving.intersection(r.attached))):
         taken = _taken(made, request)
         if isinstance(taken, TakenPart):
             made, outcome = _built(made, taken, config)

@@ -140,17 +140,33 @@ def _is_in(inner: Box, outer: Box) -> bool:
 
 
 def _turntables(still: Sequence[Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
-    """Yields the round trays, which turn with what lies beneath them and within their outline."""
-    for piece in still:
-        table = _turntable(piece, config)
-        if table is None:
+    """Yields the round trays, which turn with what lies beneath them and within their outline.
+
+    What is called a carousel turns as one with all of it about the same axis: its trays and its pole.
+    """
+    taken: set[str] = set()
+    tables = [(piece, table) for piece in still if (table := _turntable(piece, config)) is not None]
+    for piece, table in sorted(tables, key=lambda found: -found[1].diameter):
+        if piece.name in taken:
             continue
         box = piece.mesh.box
         below = Box(box.low - config.stout * np.array([0.0, 0.0, table.diameter]), box.high).grown(config.touching)
         reach = table.diameter / 2 + config.touching
         inside = (p for p in still if p is not piece and p.is_part and _is_in(p.mesh.box, below))
         ring = tuple(p.name for p in inside if _farthest(p.mesh.vertices, table.axis.point) <= reach)
+        ring += tuple(
+            p.name for p, other in tables if p is not piece and _is_one_carousel(piece, table, p, other, config)
+        )
+        ring = tuple(name for name in dict.fromkeys(ring) if name not in taken)
+        taken |= {piece.name, *ring}
         yield JointRequest(piece.name, JointType.CONTINUOUS, Axis(table.axis.point, _UP), SOURCE, 2 * pi, attached=ring)
+
+
+def _is_one_carousel(piece: Piece, table: Round, other: Piece, its: Round, config: SmallPartConfig) -> bool:
+    """Whether two pieces that are called carousels turn about one axis."""
+    are_called = all(_CAROUSELS & set(words(one.name)) for one in (piece, other))
+    apart = float(np.linalg.norm((table.axis.point - its.axis.point)[:2]))
+    return are_called and apart <= config.touching
 
 
 def _farthest(points: Points, middle: Vec3) -> float:

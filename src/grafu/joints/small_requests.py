@@ -15,20 +15,22 @@ from grafu.joints.realize import Realized
 from grafu.joints.report import Installed
 from grafu.joints.small_parts import are_links, small_parts, stated_small_parts
 from grafu.joints.swivel_mirrors import mirror_requests
+from grafu.joints.swivels import swivel_requests
 
 
 def found_requests(
     made: ArticulatedObject, asset: Asset, config: RealizationConfig, chosen: Collection[str] | None
 ) -> tuple[JointRequest, ...]:
-    """Returns the levers of a building's doors, with their bolts, mirrors, and small parts that are found by shape."""
+    """Returns the levers of a building's doors, with their bolts, mirrors, what swivels, and small parts by shape."""
     door = building_door(asset)
     levers = lever_requests(made, [leaf.id for leaf in door.leaves] if door else (), config.lever)
     mirrors = mirror_requests(made, asset)
-    taken = {name for request in (*levers, *mirrors) for name in (request.moving, *request.attached)}
+    swivels = swivel_requests(made, asset)
+    taken = {name for request in (*levers, *mirrors, *swivels) for name in (request.moving, *request.attached)}
     others = (r for r in small_parts(made, config.small) if taken.isdisjoint((r.moving, *r.attached)))
     if chosen is not None:
         others = (r for r in others if r.moving in chosen or are_links(asset, (r.moving, *r.attached)))
-    return (*levers, *mirrors, *others)
+    return (*levers, *mirrors, *others, *swivels)  # casters first: the seat above them shows which end is theirs
 
 
 def stated_requests(asset: Asset, realized: Realized, config: RealizationConfig) -> tuple[JointRequest, ...]:

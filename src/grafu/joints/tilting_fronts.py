@@ -17,18 +17,21 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Points
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, merge_meshes
+from grafu.geometry.raycast import RayCaster
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.behind_fronts import groups_within, is_within_outline, static_boxes, touched_by
 from grafu.joints.motion_choice import MotionChoice, Moves, Side, axis_of_motion
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.border import pitched_border_frame
 from grafu.scene.scale import metre_on
+from grafu.vocabulary import PartLabel
 
 _WORDS = frozenset({"tilt", "tilting", "tiltout", "kippfront", "kippklappe"})
 _OF_PIECES = frozenset({"shoe", "shoes", "schuhschrank", "schuhkipper", "chaussures", "zapatero", "scarpiera"})
 _TILTED = MotionChoice(Moves.TILTS, Side.BOTTOM)
 _UP, _DEPTH = 2, 1
+_RAYS = 12  # along each side of a front
 
 
 @final
@@ -40,7 +43,7 @@ class TiltConfig:
         ValueError: if a number is not above 0, or a fraction not between 0 and 1.
     """
 
-    LENGTHS = ("deep", "clear", "reach", "touching")
+    LENGTHS = ("deep", "clear", "reach", "touching", "before", "tray")
     opening: float = radians(45)
     """How far a front with a bin tilts where the input states nothing (radians)."""
     most: float = radians(60)
@@ -67,18 +70,32 @@ class TiltConfig:
     """Least height of that bin (fraction of the front's)."""
     beyond: float = 0.02
     """How much farther from the lower edge than the front's upper edge something of it may be (fraction)."""
+    before: float = 0.15
+    """What is no farther behind a front than this (metres) ..."""
+    tray: float = 0.02
+    """... and no nearer than this, as a small tray must find room (metres), ..."""
+    closed: float = 0.6
+    """... on this much of it (fraction) leaves no room for a drawer: a basin, before which the front tilts ..."""
+    uppermost: float = 0.75
+    """... where that ends above this (fraction of the height of the whole) ..."""
+    squat: float = 0.4
+    """... and is no higher than this (fraction of its width)."""
     touching: float = 0.004
     """What is nearer to a bin than this and touches it holds it (metres)."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        require_ratios(self, "level", "lower", "upright", "of_height", "wide", "tall", "beyond")
+        require_ratios(
+            self, "level", "lower", "upright", "of_height", "wide", "tall", "beyond", "closed", "squat", "uppermost"
+        )
 
 
 def with_shown_tilts(
     plan: RealizationPlan, asset: Asset, graph: FunctionalGraph, config: TiltConfig = TiltConfig()
 ) -> RealizationPlan:
     """Returns a predicted plan in which fronts turn about their lower edges that are called tilting, or have a bin.
+
+    So does a low front right before a basin: no drawer has room behind it.
 
     A front that was taken for a door at a side has a bin behind it where that fits no other motion: it is as high as
     half of the front at least, and nothing of it is farther from the lower edge than the front's upper edge is.
@@ -87,18 +104,25 @@ def with_shown_tilts(
     moving = {part for request in plan.joints for part in (request.moving, *request.attached)}
     static = static_boxes(asset, moving)
     joints = (_as_tilting(r, asset) if _is_shown(r, asset, static, graph, config) else r for r in plan.joints)
-    return replace(plan, joints=tuple(joints))
+    stopped = (
+        replace(_as_tilting(r, asset), stop=config.opening) if _is_before_basin(r, asset, graph, config) else r
+        for r in joints
+    )
+    return replace(plan, joints=tuple(stopped))
 
 
 def _is_shown(
     request: JointRequest, asset: Asset, static: Mapping[str, Box], graph: FunctionalGraph, config: TiltConfig
 ) -> bool:
     part = asset.part(request.moving)
-    if request.parent or request.coupling or not part.label.is_movable:
-        return False
-    if _WORDS & set(spoken(part.source.name)):
-        return True
     front = part.box
+    if request.parent or request.coupling:
+        return False
+    is_front = part.label.is_movable or front.thin_axis == _DEPTH
+    if is_front and _WORDS & set(spoken(part.source.name)):
+        return True
+    if not part.label.is_movable:
+        return False
     low = front.thin_axis == _DEPTH and front.size[_UP] <= config.low * front.size[0]
     if not (low and request.kind.turns) or float(np.linalg.norm(request.axis.direction[:_UP])) > 1 - config.level:
         return False
@@ -107,6 +131,30 @@ def _is_shown(
     points = np.vstack([asset.part(name).mesh.vertices for name in found]) if found else np.zeros((0, 3))
     tilted = _as_tilting(request, asset)
     return _has_bin(tilted, front, [static[name] for name in found], config) and _fits(points, tilted, front, config)
+
+
+def _is_before_basin(request: JointRequest, asset: Asset, graph: FunctionalGraph, config: TiltConfig) -> bool:
+    """Whether a low plate with a handle and no box was to slide out, and a basin closes the room right behind it."""
+    if request.parent or request.coupling:
+        return False
+    front, own = asset.part(request.moving).box, [asset.part(name) for name in request.attached]
+    handles = [part for part in own if graph.node(part.id).label is PartLabel.HANDLE]
+    is_plate = front.thin_axis == _DEPTH and front.size[_DEPTH] <= config.deep
+    if not (request.kind.slides and is_plate and handles) or len(handles) < len(own):
+        return False
+    whole = asset.box
+    is_top = front.high[_UP] >= whole.low[_UP] + config.uppermost * whole.size[_UP]
+    if not is_top or front.size[_UP] > config.squat * front.size[0]:
+        return False
+    moving = {request.moving, *request.attached}
+    behind = [p.mesh for p in asset.parts if p.id not in moving and not graph.node(p.id).label.is_movable]
+    if not behind:
+        return False
+    steps = (np.arange(_RAYS) + 0.5) / _RAYS
+    places = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2) * front.size[[0, _UP]]
+    origins = np.insert(front.low[[0, _UP]] + places, 1, float(front.high[_DEPTH]), axis=1)
+    met = RayCaster(merge_meshes(behind)).along(origins, np.eye(3)[_DEPTH])
+    return float(((met <= config.before) & (met >= config.tray)).mean()) >= config.closed
 
 
 def _fits(points: Points, tilted: JointRequest, front: Box, config: TiltConfig) -> bool:

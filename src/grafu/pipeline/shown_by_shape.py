@@ -24,6 +24,7 @@ from grafu.joints.layered_fronts import with_layered_fronts
 from grafu.joints.lifts import with_lifts
 from grafu.joints.lone_leaves import with_lone_labels, with_lone_leaf
 from grafu.joints.named_cases import with_case_label
+from grafu.joints.on_lids import with_parts_on_lids
 from grafu.joints.parallel_lifts import with_named_lifts
 from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.joints.portholes import with_porthole_labels
@@ -31,9 +32,12 @@ from grafu.joints.pull_outs import with_pull_outs
 from grafu.joints.racks import with_racks
 from grafu.joints.raised_leaves import with_raised_leaves
 from grafu.joints.ring_seats import with_seat_labels, with_seat_pair
+from grafu.joints.screens import with_screen, with_screen_labels
 from grafu.joints.shown_folds import shown_folds
 from grafu.joints.sliding_doors import with_sliding_doors
+from grafu.joints.sliding_panes import with_pane_labels
 from grafu.joints.swivel_mirrors import swivel_mirrors
+from grafu.joints.swivels import swivels
 from grafu.joints.tilting_fronts import with_shown_tilts
 from grafu.joints.trays import with_trays
 from grafu.joints.waste_bins import with_waste_bins
@@ -57,9 +61,10 @@ class WantedSmallParts:
 def with_labels_by_shape(asset: Asset) -> Asset:
     """Returns the asset in which the leaves of a building's door or window, a round door, flaps and seats are doors.
 
+    So are panes that slide past one another.
     What holds drawers that all parts are called has none.
     """
-    doors = with_door_labels(with_lone_labels(with_case_label(asset)))
+    doors = with_door_labels(with_lone_labels(with_pane_labels(with_screen_labels(with_case_label(asset)))))
     return with_seat_labels(with_flap_labels(with_porthole_labels(with_window_labels(doors))))
 
 
@@ -81,7 +86,7 @@ def shown_by_shape(
     plan = with_pull_outs(with_folds(plan, shown_folds(plan, asset, joints, settled), joints.fold), asset, graph)
     plan = with_wide_bars(with_boxes_behind(plan, asset, settled), asset, settled)
     plan = with_box_flaps(with_seat_pair(plan, asset, settled), asset, settled)
-    plan = with_hung_parts(plan, asset, settled)
+    plan = with_parts_on_lids(with_hung_parts(with_screen(plan, asset, settled), asset, settled), asset, settled)
     plan = with_named_lifts(with_shown_tilts(plan, asset, graph), asset)
     plan = with_raised_leaves(with_supported_leaves(with_shown_extensions(plan, asset), asset), asset)
     plan = with_racks(plan, asset, graph)
@@ -174,6 +179,6 @@ def small_parts_wanted(
     if asset.small_joints:
         return WantedSmallParts(reads_annotation)
     door = building_door(asset)
-    chosen = turning | swivel_mirrors(asset) | _carousels(asset)
+    chosen = turning | swivel_mirrors(asset) | swivels(asset) | _carousels(asset)
     chosen |= {part.id for parts in door.on_leaf for part in parts} if door else set()
     return WantedSmallParts(bool(chosen) or any(part.source.link for part in asset.parts), chosen)

@@ -6,6 +6,7 @@ sliding door is framed alike, but lying: X up, so that its flanks are its lower 
 """
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import final
 
 import numpy as np
@@ -15,6 +16,7 @@ from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_a
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.shells import shell_numbers
 from grafu.geometry.transform import from_rotation, transform_points
 from grafu.joints.rail_config import BodyConfig, DrawerConfig
 from grafu.scene.border import SNAP, part_axes
@@ -147,7 +149,7 @@ def body_region(
     medians = np.nanmedian(columns, axis=1)
     in_body = (np.abs(flanks - medians[:, None, None]) < band).all(axis=0)
     enough = max(body.met, body.met_ratio * float(in_body.sum(axis=1).max()))
-    run = _longest_run(in_body.sum(axis=1) >= enough)
+    run = _longest_run(_bridged(in_body.sum(axis=1) >= enough, body))
     if run[1] - run[0] + 1 < config.shortest * _SLIDE:
         return None
     rows = _longest_run(in_body[run[0] : run[1] + 1].mean(axis=0) > body.long)
@@ -185,6 +187,27 @@ def is_shallow(frame: DrawerFrame, config: DrawerConfig = DrawerConfig()) -> boo
     return frame.depth < config.shallow * max(frame.width, frame.height)
 
 
+def board_before_rack(
+    mesh: TriangleMesh, frame: DrawerFrame, tolerance: float, config: DrawerConfig = DrawerConfig()
+) -> TriangleMesh | None:
+    """Returns the front board of a drawer whose mesh holds an open rack, too; None where it holds a body, or a board.
+
+    The board is a shell of its own that fills the drawer's outline. Rails run beside the rack, from the board's back.
+    """
+    if is_shallow(frame, config) or body_region(mesh, frame, tolerance, config) is not None:
+        return None
+    number = shell_numbers(mesh)
+    for k in range(int(number.max(initial=-1)) + 1):
+        board = mesh.with_faces(number == k)
+        local = Box.around((board.triangles.reshape(-1, 3) - frame.origin) @ frame.rotation)
+        width, thickness, height = local.size.tolist()
+        fills = width >= config.outline * frame.width and height >= config.outline * frame.height
+        in_front = float(local.low[1]) <= config.shallow * frame.depth
+        if fills and in_front and thickness < config.shallow * min(width, height):
+            return board
+    return None
+
+
 def _median(values: np.ndarray) -> float:
     found = values[np.isfinite(values)]
     return median(found) if len(found) else float("nan")
@@ -207,6 +230,16 @@ def _flanks(caster: RayCaster, frame: DrawerFrame, y: np.ndarray, z: np.ndarray,
         distance = caster.along(origins, -sign * frame.rotation[:, 0])
         sides.append(np.where(distance < outside, sign * (outside - distance), np.nan))
     return np.stack(sides).reshape(2, len(y), len(z))
+
+
+def _bridged(flags: np.ndarray, config: BodyConfig) -> np.ndarray:
+    """Returns the flags with short gaps between long runs filled: bins that stand one behind another are one body."""
+    found, least = flags.copy(), config.beside_gap * len(flags)
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int))).reshape(-1, 2)
+    for (start, end), (after, last) in pairwise(ends.tolist()):
+        if after - end <= config.gap * len(flags) and min(end - start, last - after) >= least:
+            found[end:after] = True
+    return found
 
 
 def _longest_run(flags: np.ndarray) -> tuple[int, int]:

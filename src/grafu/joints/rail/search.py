@@ -1,5 +1,6 @@
 """One drawer's search: its frame and body, what it may hit, and how far it is wanted to open. It installs nothing."""
 
+from dataclasses import replace
 from functools import cached_property
 from typing import final
 
@@ -23,7 +24,15 @@ from grafu.joints.limits import (
     widest_free,
 )
 from grafu.joints.plan import JointRequest
-from grafu.joints.rail.body_region import BodyRegion, DrawerFrame, body_region, drawer_frame, is_shallow, lift_frame
+from grafu.joints.rail.body_region import (
+    BodyRegion,
+    DrawerFrame,
+    board_before_rack,
+    body_region,
+    drawer_frame,
+    is_shallow,
+    lift_frame,
+)
 from grafu.joints.rail.spots import front_only_region
 from grafu.joints.rail_config import DrawerConfig
 from grafu.scene.border import SNAP, part_axes
@@ -208,3 +217,13 @@ def drawer_search(
     body = scene.swept_body(request.moving, config.depth * scene.extent, part_axes(mesh))
     obstacles = scene.still_obstacles.without(ignored)
     return DrawerSearch(request, scene, config, frame, body, obstacles, scene.other_bodies(request.moving))
+
+
+def beside_rack(search: DrawerSearch) -> DrawerSearch | None:
+    """Returns the search for rails beside an open rack that is drawn in one mesh with its front; None for others."""
+    mesh, config = search.scene.parts[search.request.moving].mesh, search.config
+    if search.is_leaf or search.is_column:
+        return None
+    board = board_before_rack(mesh, search.frame, config.body_tolerance, config.drawer)
+    frame = None if board is None else drawer_frame(board, search.frame.slide, False, config.drawer)
+    return None if frame is None else replace(search, frame=frame)
