@@ -18,7 +18,9 @@ from grafu.articulation.joint_dynamics import DynamicsConfig
 from grafu.asset.animated_bodies import AnimatedMotionConfig
 from grafu.asset.appliance_fronts import ApplianceFrontConfig
 from grafu.asset.boarded_drawers import BoardedDrawerConfig
+from grafu.asset.bodies_of_faces import BodiesOfFacesConfig
 from grafu.asset.body_kinds import BodyKindConfig
+from grafu.asset.cad_names import CadNamesConfig
 from grafu.asset.closed_side import ClosedSideConfig
 from grafu.asset.cutting import CutConfig
 from grafu.asset.door_frames import FramedDoorsConfig
@@ -37,6 +39,7 @@ from grafu.asset.lying_handles import LyingHandleConfig
 from grafu.asset.lying_windows import LyingWindowConfig
 from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.one_front import HeldTogetherConfig
+from grafu.asset.parted_surface import PartedSurfaceConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
 from grafu.asset.place_names import PlaceNamesConfig
@@ -256,7 +259,7 @@ IN_FUNCTIONS = {
     "pipeline": {"verdict.py": {1000: "millimetres of a metre"}, "triage.py": {}},
 }
 CONFIGS = (
-    AgreementConfig, AnimatedMotionConfig, BoardBehindConfig,
+    AgreementConfig, AnimatedMotionConfig, BoardBehindConfig, BodiesOfFacesConfig, CadNamesConfig, PartedSurfaceConfig,
     BodyKindConfig, BoxInCaseConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
     ClosedSideConfig,
     DoorRuleConfig,

@@ -76,6 +76,15 @@ def test_a_cushion_between_the_arms_of_a_sofa_is_no_drawer_and_an_open_one_in_a_
     assert why([*NO_TOP, cushion], is_held=True) == "", "a handle on it shows that it is one"
 
 
+def test_a_block_whose_case_is_drawn_into_it_is_a_drawer():
+    """Of parts that overlap, the bottom ends within the drawer: it is below it all the same."""
+    sides = [part for part in BASE_CASE if part.id in ("left", "right", "back")]
+    sunk = box("bottom", (0.02, 0.0, 0.596), (0.58, 0.5, 0.606)), box("lid", (0.0, 0.0, 0.795), (0.6, 0.55, 0.804))
+
+    assert why([*sides, *sunk, box("guess", LOW, HIGH)]) == ""
+    assert "solid block" in why([*sides, sunk[0], box("guess", LOW, HIGH)]), "it is open from above"
+
+
 def test_the_base_under_a_mattress_is_no_drawer_and_one_under_a_table_top_is():
     low, high = (-0.06, -0.08, 0.7), (0.66, 0.6, 0.82)
     assert "solid block" in why([TOP, *LEGS, box("guess", low, high)])

@@ -31,6 +31,7 @@ from grafu.joints.portholes import PortholeConfig
 from grafu.joints.pull_outs import PullOutConfig
 from grafu.joints.rack_guide_config import RackGuideConfig
 from grafu.joints.racks import RackConfig
+from grafu.joints.rail.in_case import InCaseConfig
 from grafu.joints.rail_config import (
     BehindConfig,
     BodyConfig,
@@ -161,7 +162,7 @@ CONFIGS = (
     ConcealedConfig,
     DrawerConfig, DrawnAcrossConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig,
     FoldConfig,
-    DrawnArmConfig, FootingConfig, HingeConfig, HungPartsConfig,
+    DrawnArmConfig, FootingConfig, HingeConfig, HungPartsConfig, InCaseConfig,
     LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
     BoxFlapConfig, OnLidConfig, ScreenConfig, SeatPairConfig, SlidingPaneConfig, SwivelConfig,
     PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RackGuideConfig, RailConfig, RailFootingConfig,

@@ -9,6 +9,7 @@ from typing import final
 
 import numpy as np
 
+from grafu.asset.cad_names import are_of_cad
 from grafu.asset.closed_side import faces_across, side_of_door
 from grafu.asset.labels import label_of
 from grafu.asset.lying_windows import lies_as_a_window
@@ -144,6 +145,9 @@ def _up(reading: Reading, options: LoadOptions, whole: Box) -> _Choice:
     if votes.stands_instead(other, convention.usual_up):
         against = f"against {convention.usual_up}, {convention.origin}"
         return _Choice(other, f"doors and panels would lie flat otherwise, {against}; --up changes it")
+    if are_of_cad(reading.parts):
+        of_cad = _Choice("+Z", "usual for CAD programs, which name bodies so; --up changes it")
+        return _by_rest(reading, votes, of_cad, whole)
     usual = _Choice(convention.usual_up, f"assumed by {convention.origin}; --up changes it")
     return _by_rest(reading, votes, usual, whole)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.asset.appliance_fronts import with_appliance_fronts
 from grafu.asset.boarded_drawers import with_boarded_drawers
+from grafu.asset.bodies_of_faces import with_bodies_of_faces
 from grafu.asset.boxes_in_cases import with_boxes_from_cases
 from grafu.asset.cutting import cut_where_fronts_appear
 from grafu.asset.door_frames import with_door_frames
@@ -27,6 +28,7 @@ from grafu.asset.named_fittings import with_named_fittings
 from grafu.asset.one_front import has_copies, joined_where_nameless, joined_where_one_name
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.part import IDENTITY_FRAME, Asset, Frame, Part
+from grafu.asset.parted_surface import is_parted_surface, with_boards
 from grafu.asset.pieces import with_joined_pieces
 from grafu.asset.place_names import with_place_names
 from grafu.asset.plausibility import with_blind_fronts, with_bodies, with_control_panels, with_plausible_labels
@@ -63,7 +65,7 @@ def settled(
     if options.parts == "loose":
         reading = _taken_apart(reading, path, options)
     elif not reading.grouped and reading.parts:
-        reading = _joined(reading)
+        reading = _joined(_mended(reading) if options.parts == "auto" else reading)
     if options.parts == "auto" and has_copies(reading):
         reading = joined_where_one_name(reading, settle_frame(reading, options, file))
     if options.parts == "auto" and not reading.grouped and reading.parts:
@@ -74,7 +76,11 @@ def settled(
     if options.parts == "auto" and reading.parts:
         hidden = options.labels == "none"  # of what is hidden nothing tells how the piece stands
         stands = settle_frame(_without_labels(reading) if hidden else reading, options, file)
-        reading = cut_where_fronts_appear(reading, stands, name)
+        if is_parted_surface(reading.parts):
+            note = "the objects are pieces of one surface: none is cut, and sheets become boards (--parts auto)"
+            reading = replace(reading, parts=with_boards(reading.parts), notes=(*reading.notes, note))
+        else:
+            reading = cut_where_fronts_appear(reading, stands, name)
         reading = joined_where_nameless(reading, stands)
         reading = with_shown_lid(with_boxes_from_cases(reading, stands), stands, name)
         reading = replace(reading, parts=with_appliance_fronts(reading.parts, stands))
@@ -121,6 +127,12 @@ def _taken_apart(reading: Reading, path: Path, options: LoadOptions) -> Reading:
         held |= {part for p in annotation.parts if p.carried_by for part in (p.id, p.carried_by)}
         annotation = replace(annotation, parts=loose_parts(annotation.parts, held, allow))
     return replace(reading, parts=parts, annotation=annotation, notes=(*reading.notes, note))
+
+
+def _mended(reading: Reading) -> Reading:
+    """Returns the reading with the faces of bodies joined that the file has as objects of their own."""
+    parts, notes = with_bodies_of_faces(reading.parts)
+    return replace(reading, parts=parts, notes=(*reading.notes, *notes))
 
 
 def _joined(reading: Reading) -> Reading:

@@ -60,6 +60,8 @@ class GuessedShapeConfig:
     """A side of a drawer is open where more of it is seen from outside (fraction) ..."""
     aside: float = 0.4
     """... and its left and right where this much is."""
+    sunk: float = 0.15
+    """A wall may be drawn into a drawer by this (fraction of its size): parts that were made apart overlap."""
     deep: float = 0.3
     """Inside a drawer is what is deeper than this below its top (fraction of its height) ..."""
     inside: float = 0.3
@@ -178,7 +180,7 @@ def _no_drawer(
             return "it is a strip, lower than fronts of drawers are"
         is_open = _is_open(mesh, lambda: rest, box, slide, config.front)
         return "it is open, and a front is closed" if is_open else ""
-    seen = _Seen.of(rest, box, slide)
+    seen = _Seen.of(rest, box, slide, config.sunk)
     if min(seen.back, seen.above) > config.seen and seen.aside >= config.aside:
         return "it is seen from behind, from above and from both sides: it is in no case"
     if _is_open(mesh, lambda: rest, box, _UP, config.bottom):
@@ -231,11 +233,18 @@ class _Seen(NamedTuple):
     above: float
 
     @classmethod
-    def of(cls, rest: RayCaster, box: Box, slide: SignedAxis) -> "_Seen":
+    def of(cls, rest: RayCaster, box: Box, slide: SignedAxis, sunk: float) -> "_Seen":
         """Returns what is seen of a drawer that slides level, past the `rest` of the object."""
         axis = slide // 2
-        back = open_ratios(rest, box, axis)[1 - slide % 2]
-        return cls(back, min(open_ratios(rest, box, 1 - axis)), *open_ratios(rest, box, 2))
+        back = _open_ratios(rest, box, axis, sunk)[1 - slide % 2]
+        return cls(back, min(_open_ratios(rest, box, 1 - axis, sunk)), *_open_ratios(rest, box, 2, sunk))
+
+
+def _open_ratios(rest: RayCaster, box: Box, axis: int, sunk: float) -> tuple[float, float]:
+    """Returns how open two sides are, from just before them or from a little within: walls may be drawn into it."""
+    size = box.size * (np.arange(3) == axis)
+    before, within = (open_ratios(rest, Box(box.low + i * size, box.high - i * size), axis) for i in (0.0, sunk))
+    return min(before[0], within[0]), min(before[1], within[1])
 
 
 def _is_open_block(box: Box, mesh: TriangleMesh, seen: _Seen, config: GuessedShapeConfig) -> bool:

@@ -44,6 +44,17 @@ class ClearanceConfig:
     through: float = 0.5
     """Along how much of a leaf's thickness its frame reaches at least (fraction): less where it lies on its frame."""
 
+    channel: float = 0.03
+    """How far a wall reaches into the channel of a drawer that is drawn into it, at most, where that is cut free
+    (extent): each of two parts that were made apart is off by about 0.01 of the piece, and a shape
+    that is sampled by as much again ..."""
+    rim: float = 0.03
+    """... and how much of the wall's surface may go that is seen while all is closed (fraction): the rim before which
+    the front lies is as wavy as the rest ..."""
+    sections: int = 64
+    """... into how many sections the drawer is parted along its way ..."""
+    points: int = 4000
+    """... and on how many points of the wall this is measured, besides its vertices."""
     seam: float = 0.3
     """Until it has turned so far, the free edge of a leaf may run into the leaf that it meets (radians)."""
     parallel: float = 0.999
@@ -53,4 +64,6 @@ class ClearanceConfig:
 
     def __post_init__(self) -> None:
         require_positive(self, "play", "enclosed", "beside", "shells", "sides", "lapped", "seam", "fitting")
+        require_positive(self, "sections", "points")
         require_ratios(self, "touching", "frame", "sliver", "slivers", "inside", "through", "parallel", "meeting")
+        require_ratios(self, "channel", "rim")

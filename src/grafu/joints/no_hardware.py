@@ -19,6 +19,7 @@ from grafu.joints.rack_guides import GUIDE, rack_guides
 from grafu.joints.racks import SOURCE as SHOWN
 from grafu.joints.racks import is_grid
 from grafu.joints.rail.body_region import is_shallow
+from grafu.joints.rail.in_case import is_in_case
 from grafu.joints.rail.search import DrawerSearch, slides_in_its_plane
 from grafu.joints.report import Placement
 from grafu.joints.support_block import nearest_part
@@ -96,8 +97,8 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
     """Returns the joint along the drawer's axis; None where it does not slide as far as a drawer should.
 
     It is None too for a single board, such as a front without a box, unless it is a sliding door; where hardware was
-    chosen, where the drawer would come away from all static parts, and where it has no handle, is no open box, and only
-    a guess states that it is a drawer: cases slide as freely.
+    chosen, where the drawer would come away from all static parts, and where it has no handle, is no open box, stands
+    in no case, and only a guess states that it is a drawer: cases slide as freely.
     """
     frame, config, part = search.frame, search.config, search.scene.parts[search.request.moving]
     is_board = slides_in_its_plane(part.mesh, frame.slide, config.drawer)
@@ -108,13 +109,14 @@ def drawer_without_hardware(search: DrawerSearch) -> Placement | None:
         return _rack(search)
     is_board = is_board or frame.width < config.no_hardware_width * frame.depth or is_shallow(frame, config.drawer)
     is_box = not is_board and is_open_box(search.scene.moving_mesh(part.id), config.no_hardware_open)
-    if is_board or not _is_sure(search, is_box):
+    stands = not is_board and not is_box and is_in_case(search.frame, search.static_rays)
+    if is_board or not (stands or _is_sure(search, is_box)):
         return None
     upper = search.travel(search.reach)
     wanted = min(search.request.reference or search.wanted, search.reach)
     if upper < config.restricted * wanted:
         return None
-    gap = config.no_hardware_box_gap if is_box else config.no_hardware_gap
+    gap = config.no_hardware_box_gap if is_box or stands else config.no_hardware_gap
     return _joint(search, search.axis, search.motion, upper, search.bodies_in_the_way(upper), gap)
 
 

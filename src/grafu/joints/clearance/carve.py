@@ -114,12 +114,12 @@ def carve(
     for count in _FEW_SOLIDS:
         if len(swept := swept.near([scene.parts[name].box for name in ids])) >= 2 * count:
             few = swept.solids(len(swept) // count)
-            ids = [name for name in ids if not _loses_too_much(_cut(scene.parts[name], few, config), scene, config)]
+            ids = [name for name in ids if not _loses_too_much(cut_by(scene.parts[name], few, config), scene, config)]
     solids = swept.near([scene.parts[name].box for name in ids]).solids()
     carved: list[Part] = []
     done: list[Change] = []
     for name in ids:
-        cut = _cut(scene.parts[name], solids, config)
+        cut = cut_by(scene.parts[name], solids, config)
         if cut.ratio == 0 or _loses_too_much(cut, scene, config, sure=0.0):
             continue
         surfaces = (subtract(s, cut.solids, left) for s, left in zip(cut.part.surfaces, cut.clipped, strict=True))
@@ -130,7 +130,7 @@ def carve(
 
 @final
 @dataclass(frozen=True, eq=False)
-class _Cut:
+class Cut:
     """What solids would take of a part: its surfaces without that, square metres in all and of each face, the ratio."""
 
     part: Part
@@ -141,18 +141,20 @@ class _Cut:
     ratio: float
 
 
-def _cut(part: Part, solids: Sequence[ConvexSolid], config: RealizationConfig) -> _Cut:
+def cut_by(part: Part, solids: Sequence[ConvexSolid], config: RealizationConfig) -> Cut:
+    """Returns what solids would take of a part."""
     near = tuple(solid for solid in solids if solid.box.overlaps(part.box))
     clipped, lost = zip(*(clip_by_faces(surface, near) for surface in part.surfaces), strict=True)
     area = sum(surface.mesh.area - left.mesh.area for surface, left in zip(part.surfaces, clipped, strict=True))
-    return _Cut(part, near, clipped, area, np.concatenate(lost), _lost_ratio(part, near, area, config))
+    return Cut(part, near, clipped, area, np.concatenate(lost), _lost_ratio(part, near, area, config))
 
 
-def _loses_too_much(cut: _Cut, scene: Scene, config: RealizationConfig, sure: float = _SURE) -> bool:
+def _loses_too_much(cut: Cut, scene: Scene, config: RealizationConfig, sure: float = _SURE) -> bool:
     """Whether a part loses more than it may, by more than `sure`: what a few solids take, more of them take as well."""
     if cut.ratio < config.max_carve + sure:
         return False
-    return cut.ratio >= config.max_carve_hidden + sure or not _is_hidden(scene, cut.part, cut.solids, config)
+    is_much = cut.ratio >= config.max_carve_hidden + sure
+    return is_much or not is_hidden(scene, cut.part, cut.solids, config.max_carve_seen)
 
 
 def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, config: RealizationConfig) -> float:
@@ -168,15 +170,18 @@ def _lost_ratio(part: Part, solids: Sequence[ConvexSolid], area: float, config: 
     return min(by_area, lost_volume(part, solids, (config.max_carve, config.max_carve_hidden)))
 
 
-def _is_hidden(scene: Scene, part: Part, solids: Sequence[ConvexSolid], config: RealizationConfig) -> bool:
-    """Whether hardly any of what the solids cut off is seen from outside, all closed; rails and hinges are not seen."""
+def is_hidden(scene: Scene, part: Part, solids: Sequence[ConvexSolid], most: float) -> bool:
+    """Whether hardly any of what the solids cut off is seen from outside, all closed; rails and hinges are not seen.
+
+    `most` is the fraction of the part's surface that counts as hardly any.
+    """
     if sense_of(part.source.name).is_fitting:
         return True
     points = sample_surface(part.mesh, _SAMPLES).points
     inside = points[in_any(solids, points)]
     drawn = (other.box for other in scene.parts.values() if len(other.mesh.faces))  # all parts are read, each time
     seen = outer_points(inside, scene.once(_caster), float(Box.enclosing(drawn).size.max()))
-    return bool(np.count_nonzero(seen) <= config.max_carve_seen * _SAMPLES)
+    return bool(np.count_nonzero(seen) <= most * _SAMPLES)
 
 
 def _caster(scene: Scene) -> RayCaster:
@@ -212,7 +217,7 @@ class _Swept:
 
 def _swept(scene: Scene, path: Path, ids: Sequence[str], play: float, config: RealizationConfig, most: int) -> _Swept:
     """Returns what covers the path of whatever of the moving body cuts into a blocker, with some play."""
-    poses = [path.motion(v) for v in np.linspace(0.0, path.reach, _steps(path) + 1)]
+    poses = [path.motion(v) for v in np.linspace(0.0, path.reach, steps_of(path) + 1)]
     corners: list[Points] = []
     for points in _cutting_pieces(scene, path, ids, play, config, most):
         posed = np.stack([transform_points(T, points) for T in poses])
@@ -220,7 +225,7 @@ def _swept(scene: Scene, path: Path, ids: Sequence[str], play: float, config: Re
     return _Swept(corners, play)
 
 
-def _steps(path: Path) -> int:
+def steps_of(path: Path) -> int:
     """Returns in how many convex steps a path is covered."""
     return max(1, int(np.ceil(path.reach / _TURN_STEP))) if path.is_turn else 1
 
@@ -236,7 +241,7 @@ def _cutting_pieces(
         piece = mesh.with_faces(numbers == number)
         faces = cutting[numbers[cutting] == number]
         hull = ConvexSolid.around(piece.vertices)
-        if hull is not None and (len(faces) * _steps(path) > most or _is_convex(piece, hull, play)):
+        if hull is not None and (len(faces) * steps_of(path) > most or _is_convex(piece, hull, play)):
             yield _grown(np.asarray(hull.vertices), play, path.axes)
         else:
             yield from (_grown(triangle, play, path.axes) for triangle in mesh.triangles[faces])

@@ -20,6 +20,7 @@ from grafu.geometry.transform import from_rotation
 from grafu.joints.clearance.adopt import adopt, adopt_fittings, adopt_pins
 from grafu.joints.clearance.behind import narrow_behind
 from grafu.joints.clearance.carve import Carving, Change, ClearanceStep, Path, box_in, carve, obstruction
+from grafu.joints.clearance.channel import carve_channel
 from grafu.joints.clearance.in_frame import GAPS, WIDE_GAPS
 from grafu.joints.clearance.separate import separate
 from grafu.joints.clearance.sunk import narrow_sunk
@@ -155,6 +156,7 @@ _STEPS: tuple[ClearanceStep, ...] = (
     partial(trim, at_back=True),
     carve,
     partial(narrow_behind, then=carve),
+    carve_channel,
     partial(carve, most=_FINELY),
     narrow_sunk,
 )
