@@ -178,6 +178,19 @@ def test_what_a_node_above_stretches_is_no_rigid_motion(tmp_path):
     assert any("the animation of door" in note for note in asset.notes)
 
 
+@pytest.mark.parametrize("levels", [1, 40])
+def test_what_is_hidden_by_scales_of_zero_states_no_motion(tmp_path, levels):
+    document, binary = animated_document()
+    below = next(k for k, node in enumerate(document["nodes"]) if node["name"] == "drawer")
+    document["scenes"][0]["nodes"].remove(below)
+    for _ in range(levels):
+        document["nodes"].append({"name": "gone", "children": [below], "scale": [0.0, 0.0, 0.0]})
+        below = len(document["nodes"]) - 1
+    document["scenes"][0]["nodes"].append(below)
+    asset = load_annotated(save_glb(tmp_path, *with_animation(document, binary, opening())))
+    assert list(joints_of(asset)) == [DOOR_ID]
+
+
 @pytest.mark.parametrize(
     "damage",
     [

@@ -28,6 +28,7 @@ from grafu.geometry.arrays import Mat4
 from grafu.geometry.transform import from_rotation, quaternion_matrix
 
 _LARGEST = 1e12  # of a number in a node's transform: products of some of them stay finite
+_HIDDEN = 1e-24  # determinant of a node's transform: nothing as small as its cube root is seen
 CONVENTION = Convention("the format (glTF: metres, Y up, front +Z)", up="+Y", front="+Z", unit=1.0)
 
 
@@ -106,12 +107,17 @@ def _annotation(file: GltfFile, shapes: Sequence[SceneNode], path: Path) -> tupl
     moves = {
         index: [[in_scene(above[index], T) for T in run] for run in runs]
         for index, runs in moved.items()
-        if index in above and not _is_hardware(file.item("nodes", index))
+        if index in above and _is_shown(above[index]) and not _is_hardware(file.item("nodes", index))
     }
     links = {index: _ours(file.item("nodes", index)).get("link") for index in moves}
     names = {index: link for index, link in links.items() if isinstance(link, str) and link}
     bodies, notes = animated_bodies(shapes, moves, path.name, names)
     return annotation_of_bodies(bodies, up=1) if bodies else None, notes
+
+
+def _is_shown(T_scene_above: Mat4) -> bool:
+    """Whether no scale of 0 above a node hides it (`_local`)."""
+    return bool(abs(np.linalg.det(T_scene_above[:3, :3])) > _HIDDEN)
 
 
 def _is_hardware(node: JsonObject) -> bool:
