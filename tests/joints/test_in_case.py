@@ -41,6 +41,17 @@ def test_a_block_stands_in_a_case(walls, expected):
     assert is_in_case(frame, RayCaster(merge_meshes([wall.mesh for wall in walls]))) is expected
 
 
+@pytest.mark.parametrize(("high", "expected"), [(0.01, False), (0.06, True)])
+def test_a_sheet_fills_no_case(high, expected):
+    block, top = (
+        box("drawer", (0.0, -0.4, 0.0), (0.4, 0.0, high)),
+        box("top", (0.0, -0.4, high), (0.4, 0.0, high + 0.02)),
+    )
+    walls = RayCaster(merge_meshes([wall.mesh for wall in (LEFT, RIGHT, BOTTOM, top)]))
+
+    assert is_in_case(drawer_frame(block.mesh, OUT), walls) is expected
+
+
 @pytest.mark.parametrize(("walls", "slides"), [((LEFT, RIGHT, BOTTOM), True), ((LEFT, BOTTOM), False)])
 def test_a_guessed_block_slides_without_rails_where_it_stands_in_a_case(walls, slides):
     asset = scene(BLOCK, *walls, joints=(sliding("drawer", (0.0, -1.0, 0.0)),))

@@ -125,12 +125,24 @@ def tub(name: str, low, high, thick: float = 0.02) -> Part:
     return replace(DRAWER, id=name, surfaces=(surface,), label=PartLabel.UNKNOWN, labelled_by="none")
 
 
-@pytest.mark.parametrize(("lid", "gap", "slides"), [(False, 0.004, True), (True, 0.004, False), (False, 0.02, False)])
-def test_what_is_only_guessed_to_be_a_drawer_is_one_without_rails_if_it_is_an_open_box_near_its_case(lid, gap, slides):
+@pytest.mark.parametrize(
+    ("lid", "gap", "walls", "slides"),
+    [
+        (False, 0.004, CASE, True),
+        (False, 0.004, CASE[:1], True),
+        (True, 0.004, CASE, True),
+        (True, 0.004, CASE[:1], False),
+        (False, 0.02, CASE, False),
+    ],
+    ids=["a box in a case", "a box at a wall", "a closed box in a case", "a closed box at a wall", "far from its case"],
+)
+def test_what_is_only_guessed_to_be_a_drawer_is_one_without_rails_if_it_is_an_open_box_or_stands_in_its_case(
+    lid, gap, walls, slides
+):
     body = tub("drawer", (gap, -0.4, gap), (0.4 - gap, -gap, 0.3 - gap))
     cover = box("cover", (gap, -0.4, 0.28 - gap), (0.4 - gap, -gap, 0.3 - gap)).surfaces if lid else ()
     asset = scene(
-        replace(body, surfaces=(*body.surfaces, *cover)), *CASE, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)
+        replace(body, surfaces=(*body.surfaces, *cover)), *walls, joints=(sliding("drawer", (0.0, -1.0, 0.0)),)
     )
     result = realize(plan_from_annotation(asset), asset, replace(GALLERY, rails=()), UNTRIMMED)
     assert set(skipped(result)) == (set() if slides else {"drawer"})

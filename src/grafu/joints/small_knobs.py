@@ -100,6 +100,11 @@ class Round:
         return self.high - self.low
 
 
+def turning(moving: str, axis: Axis, attached: tuple[str, ...] = ()) -> JointRequest:
+    """Returns the request of a part that turns without end about an axis, and takes others along."""
+    return JointRequest(moving, JointType.CONTINUOUS, axis, SOURCE, 2 * pi, attached=attached)
+
+
 def round_about(piece: Piece, k: int, config: SmallPartConfig) -> Round | None:
     """Returns a piece as a round one about its own axis `k`; None where its outline along it is no circle."""
     axes = part_axes(piece.mesh)
@@ -140,7 +145,7 @@ def knobs(
         if stand is not None and _turns(cluster, widest.axis, stand[1], joint_of, config):
             attached = tuple(name for name in names if name != widest.piece.name)
             axis = Axis(widest.axis.point, stand[0])
-            yield JointRequest(widest.piece.name, JointType.CONTINUOUS, axis, SOURCE, 2 * pi, attached=attached)
+            yield turning(widest.piece.name, axis, attached)
 
 
 def are_shaped_as_knobs(parts: Iterable[Part], whole: Box, config: SmallPartConfig) -> frozenset[str]:

@@ -19,7 +19,7 @@ from grafu.geometry.box import Box
 from grafu.joints.config import SmallPartConfig
 from grafu.joints.make_plan import request_of_joint
 from grafu.joints.plan import JointRequest, PlanConfig
-from grafu.joints.small_knobs import SOURCE, Piece, Round, knobs, largest_side, round_about, standing
+from grafu.joints.small_knobs import SOURCE, Piece, Round, knobs, largest_side, round_about, standing, turning
 from grafu.scene.border import part_axes
 from grafu.vocabulary import JointType, PartLabel
 
@@ -97,7 +97,7 @@ def _wheels(pieces: Sequence[Piece], config: SmallPartConfig) -> list[Round]:
 
 
 def _wheel(wheel: Round) -> JointRequest:
-    return JointRequest(wheel.piece.name, JointType.CONTINUOUS, wheel.axis, SOURCE, 2 * pi)
+    return turning(wheel.piece.name, wheel.axis)
 
 
 def _casters(wheels: Sequence[Round], still: Sequence[Piece], config: SmallPartConfig) -> Iterator[JointRequest]:
@@ -116,7 +116,7 @@ def _casters(wheels: Sequence[Round], still: Sequence[Piece], config: SmallPartC
         largest = max(parts, key=lambda piece: piece.largest).visual.name
         attached = (*(name for name in names if name != largest), *(wheel.piece.name for wheel in turned))
         axis = Axis(stem.center, _UP)
-        yield JointRequest(largest, JointType.CONTINUOUS, axis, SOURCE, 2 * pi, attached=attached)
+        yield turning(largest, axis, attached)
 
 
 def _fork(wheel: Round, still: Sequence[Piece], config: SmallPartConfig) -> list[str]:
@@ -159,7 +159,7 @@ def _turntables(still: Sequence[Piece], config: SmallPartConfig) -> Iterator[Joi
         )
         ring = tuple(name for name in dict.fromkeys(ring) if name not in taken)
         taken |= {piece.name, *ring}
-        yield JointRequest(piece.name, JointType.CONTINUOUS, Axis(table.axis.point, _UP), SOURCE, 2 * pi, attached=ring)
+        yield turning(piece.name, Axis(table.axis.point, _UP), ring)
 
 
 def _is_one_carousel(piece: Piece, table: Round, other: Piece, its: Round, config: SmallPartConfig) -> bool:

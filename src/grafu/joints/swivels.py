@@ -5,7 +5,6 @@ stands on such a part goes with it. A piece with doors or drawers above its colu
 """
 
 from collections.abc import Mapping, Sequence
-from math import pi
 from typing import Final, final
 
 import numpy as np
@@ -23,9 +22,8 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.touching import near_pairs, touching_pairs
 from grafu.joints.config import SmallPartConfig
 from grafu.joints.plan import JointRequest
-from grafu.joints.small_knobs import SOURCE, Piece, round_about
+from grafu.joints.small_knobs import Piece, round_about, turning
 from grafu.scene.scale import metre_on
-from grafu.vocabulary import JointType
 
 _UP: Final = 2
 _WORDS: Final = frozenset({"swivel", "swivelling", "swiveling", "revolving", "rotating"})
@@ -94,11 +92,7 @@ def _requests(meshes: Mapping[str, TriangleMesh], asset: Asset) -> tuple[JointRe
     largest = max(sorted(names), key=lambda name: float(np.prod(np.sort(meshes[name].box.size)[1:])))
     moving = called[0] if upper else largest
     attached = tuple(name for name in meshes if name in names and name != moving)
-    return (
-        JointRequest(
-            moving, JointType.CONTINUOUS, Axis(middle, vec3(0.0, 0.0, 1.0)), SOURCE, 2 * pi, attached=attached
-        ),
-    )
+    return (turning(moving, Axis(middle, vec3(0.0, 0.0, 1.0)), attached),)
 
 
 def _contacts(meshes: Mapping[str, TriangleMesh], config: SwivelConfig) -> dict[str, set[str]]:

@@ -29,9 +29,12 @@ class InCaseConfig:
     met: float = 0.7
     """... where as many of the rays meet it (fraction)."""
 
+    sheet: float = 0.05
+    """What is lower than this is a sheet, which fills no case (fraction of the smaller of its width and depth)."""
+
     def __post_init__(self) -> None:
         require_positive(self, "rays")
-        require_ratios(self, "margin", "near", "met")
+        require_ratios(self, "margin", "near", "met", "sheet")
 
 
 def is_in_case(frame: DrawerFrame, walls: RayCaster, config: InCaseConfig = InCaseConfig()) -> bool:
@@ -44,6 +47,8 @@ def is_in_case(frame: DrawerFrame, walls: RayCaster, config: InCaseConfig = InCa
         walls: what stays, prepared for rays.
         config: how close, and on how much of a side.
     """
+    if frame.height < config.sheet * min(frame.width, frame.depth):
+        return False
     half = np.array([frame.width, frame.depth, frame.height]) / 2
     middle = np.array([0.0, frame.depth / 2, 0.0])
     steps = np.linspace(-1.0, 1.0, config.rays) * (1.0 - config.margin)
