@@ -26,6 +26,7 @@ SAME_SIDE_PAIR = (
     0.015  # pairs whose doors both hang on one side: an error of modellers, or two single doors drawn as one
 )
 ROW_HABITS: dict[Habit, float] = {"outer": 0.86, "left": 0.07, "right": 0.07}  # doors side by side
+MIXED_HABITS: dict[Habit, float] = {"outer": 0.4, "left": 0.3, "right": 0.3}  # doors beside drawers or open bays
 LIKE_BELOW = 0.95  # a door above another one hangs on its side
 WALL_SIDE = 0.85  # beside a wall or a tall unit a door hangs there, so that it opens to the room
 SQUARE = pi / 2  # doors that hang beside another front open no further: their handles would strike
@@ -180,7 +181,7 @@ def _fit(fitter: _Fitter, layout: Layout, room: Rect, place: CellPlace) -> Layou
 
 def _fit_row(fitter: _Fitter, row: CellRow, room: Rect, place: CellPlace) -> CellRow:
     last = len(row.cells) - 1
-    habit = pick(fitter.rng, ROW_HABITS) if place.habit == "outer" else place.habit
+    habit = pick(fitter.rng, _habits(row)) if place.habit == "outer" else place.habit
     inner: Habit = "left" if chance(fitter.rng, 0.5) else "right"  # the side of doors between others
     cells = []
     for k, (cell, part) in enumerate(_divided(row, room)):
@@ -188,6 +189,11 @@ def _fit_row(fitter: _Fitter, row: CellRow, room: Rect, place: CellPlace) -> Cel
         own = habit if first_here or last_here or habit != "outer" else inner
         cells.append(_fit(fitter, cell, part, CellPlace(first_here, last_here, own)))
     return replace(row, cells=tuple(cells))
+
+
+def _habits(row: CellRow) -> dict[Habit, float]:
+    """Returns how often doors of this row hang where: with nothing but doors in it, they mostly mirror each other."""
+    return ROW_HABITS if all(isinstance(cell, Door | Pair) for cell in row.cells) else MIXED_HABITS
 
 
 def _fit_pair(fitter: _Fitter, pair: Pair, room: Rect) -> Pair | CellRow:
