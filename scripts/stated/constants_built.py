@@ -160,7 +160,12 @@ def joints() -> Iterator[Sentence]:
     yield page, "up to {} where that much is stated", (BUILT.rail.most_of_rail,)
     yield page, "| {} % of the side |", (per_cent(BUILT.max_trim),)
     yield page, "shrunk on all sides | {} % of its volume |", (per_cent(BUILT.max_carve),)
-    yield page, "cut out of a static part | {} % of its surface or volume |", (per_cent(BUILT.max_carve),)
+    carved = (per_cent(BUILT.max_carve), per_cent(BUILT.max_carve_last))
+    yield (
+        page,
+        "cut out of a static part | {} % of its surface or volume; {} % where no other step frees the path |",
+        carved,
+    )
     yield page, "in how many of {} poses", (ConnectivityConfig().poses,)
     yield "templates.md", "by more than {} % are refused", (per_cent(user._FIT),)
     yield "templates.md", "at most {:,} faces", (user._LIMITS.max_faces,)

@@ -112,6 +112,7 @@ RATIOS = [
     (RailFootingConfig, "wall"),
     (RealizationConfig, "least_opening"),
     (RealizationConfig, "max_carve"),
+    (RealizationConfig, "max_carve_last"),
     (RealizationConfig, "max_carve_hidden"),
     (ReliefConfig, "plane"),
     (RoomConfig, "walled"),

@@ -201,11 +201,24 @@ def test_an_obstacle_at_rest_is_asked_once_per_pose(monkeypatch):
 
 def test_cutting_faces_are_those_that_cut():
     body = cube_body(0.2)
-    faces = body.cutting_faces([WALL])
+    faces = body.cutting_faces([WALL], [True])
     mesh = box_mesh((0.0, 0.0, 0.0), (1.2, 1.0, 1.0))
     assert faces
     assert not any(mesh.face_normals[k][0] < -0.5 for k in faces)  # the far side is a metre away
-    assert cube_body(0.0).cutting_faces([WALL]) == set()
+    assert cube_body(0.0).cutting_faces([WALL], [True]) == set()
+    assert body.cutting_faces([WALL], [False]) == set()
+
+
+def test_a_wedged_body_cuts_into_what_it_comes_free_of_alone():
+    """It comes free of the left wall by a shift to the right, where the other wall stands."""
+    mesh = box_mesh((-1.5 * DEPTH, 0.0, 0.0), (1.0 + 0.5 * DEPTH, 1.0, 1.0))
+    body, left = SweptBody(mesh, DEPTH), MeshCollider(box_mesh((-1.0, -5.0, -5.0), (0.0, 5.0, 5.0)))
+    body.place(HOME)
+    assert body.penetrated([left, WALL]) == [0]
+    assert body.cutting_faces([left], [True]) == set()
+    faces = body.cutting_faces([left, WALL], [True, False])
+    assert faces
+    assert not any(mesh.face_normals[k][0] > 0.5 for k in faces)
 
 
 def test_a_body_is_at_no_distance_from_what_it_touches():

@@ -33,6 +33,7 @@ from small_scenes import DOOR, SIDE, box, drawer, hinged, scene, sliding
 
 KINDS = ("doors into the case", "inset door into the side", "drawer into both walls")
 NO_TRIM = RealizationConfig(trim=False)
+UNCARVED = RealizationConfig(max_carve=1e-6, max_carve_last=1e-6, max_carve_hidden=1e-6)
 
 
 def visuals(result) -> dict:
@@ -184,7 +185,7 @@ def test_the_sides_of_a_drawer_are_lowered_where_its_front_hides_them(sides_from
     tray = replace(asset.part("drawer"), surfaces=tuple(b.surfaces[0] for b in (front, floor, *sides)))
     rail = box("rail", (-0.21, -0.186, 0.162), (0.21, -0.16, 0.2))
     parts = tuple(tray if p.id == "drawer" else p for p in asset.parts)
-    result = realized(replace(asset, parts=(*parts, rail)), RealizationConfig(max_carve=1e-6, max_carve_hidden=1e-6))
+    result = realized(replace(asset, parts=(*parts, rail)), UNCARVED)
 
     done = installed(result)["drawer"].clearances if "drawer" in installed(result) else ()
     assert [c.part for c in done if c.kind == "trimmed"] == (["drawer"] if is_trimmed else [])
@@ -206,7 +207,7 @@ def test_the_body_of_a_drawer_is_lowered_behind_a_front_of_the_same_piece():
     tray = replace(asset.part("drawer"), surfaces=(Surface(TriangleMesh.from_trimesh(whole)),))
     bar = box("bar", (-0.21, -0.186, 0.16), (0.21, -0.16, 0.2))
     parts = tuple(tray if p.id == "drawer" else p for p in asset.parts)
-    result = realized(replace(asset, parts=(*parts, bar)), RealizationConfig(max_carve=1e-6, max_carve_hidden=1e-6))
+    result = realized(replace(asset, parts=(*parts, bar)), UNCARVED)
 
     outcome = installed(result)["drawer"]
     assert outcome.collision_share == 0.0
@@ -236,7 +237,7 @@ def test_a_thin_bottom_of_a_drawer_is_raised_rather_than_pressed_flat():
     tray = replace(asset.part("drawer"), surfaces=tuple(b.surfaces[0] for b in (front, floor, *sides)))
     shelf = box("shelf", (-0.21, -0.186, 0.0), (0.21, 0.2, 0.034))
     parts = tuple(tray if p.id == "drawer" else p for p in asset.parts)
-    result = realized(replace(asset, parts=(*parts, shelf)), RealizationConfig(max_carve=1e-6, max_carve_hidden=1e-6))
+    result = realized(replace(asset, parts=(*parts, shelf)), UNCARVED)
 
     assert installed(result)["drawer"].collision_share == 0.0
     raised = visuals(result)["drawer"].surfaces[1].mesh.box
@@ -277,6 +278,18 @@ def test_the_back_of_a_door_that_is_sunk_into_its_frame_is_pressed_back():
     faces = [visual.mesh.box.low[1] for name, visual in visuals(result).items() if name.startswith("stile")]
     assert len(faces) == 2
     assert -0.008 < after.high[1] < min(faces) < -0.002
+
+
+@pytest.mark.parametrize(("end", "last", "is_carved"), [(1.1, 0.1, True), (1.1, 1e-6, False), (0.8, 0.1, False)])
+def test_more_is_carved_where_nothing_else_frees_a_path(end, last, is_carved):
+    """A post before a door's upper edge loses 7 % to its path, or 16 %."""
+    door = box("door", (0.0, -0.02, 0.0), (0.4, 0.0, 0.6))
+    post = box("post", (0.1, -0.04, 0.57), (0.4, -0.021, end))
+    result = realized(scene(door, SIDE, post, joints=(hinged(),)), RealizationConfig(max_carve_last=last))
+
+    assert ("post" in {c.part for c in clearances(result) if c.kind == "carved"}) is is_carved
+    if is_carved:
+        assert installed(result)["door"].collision_share == 0.0
 
 
 def test_a_part_of_very_many_faces_is_not_carved():

@@ -12,7 +12,7 @@ from grafu.joints.config import RealizationConfig
 from judging import installed, realized
 from small_scenes import box, drawer
 
-NO_CARVING = RealizationConfig(max_carve=1e-6, max_carve_hidden=1e-6)
+NO_CARVING = RealizationConfig(max_carve=1e-6, max_carve_last=1e-6, max_carve_hidden=1e-6)
 
 
 def solid_of(*boxes) -> TriangleMesh:

@@ -11,6 +11,7 @@ import numpy as np
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.mesh import TriangleMesh
 
 
 @final
@@ -79,6 +80,24 @@ def face_area(box: Box) -> float:
     """Returns the area of the largest face of a box."""
     first, second = np.sort(box.size)[1:]
     return float(first * second)
+
+
+def is_plate(box: Box, most: float) -> bool:
+    """Whether a box is thin: its shortest side is no longer than `most` of its next one (fraction)."""
+    sides = np.sort(box.size)
+    return bool(sides[0] <= most * sides[1])
+
+
+def facing_axis(front: TriangleMesh, plate: float) -> int:
+    """Returns the axis that a front faces: across a plate (`is_plate`), else that which most of its surface faces.
+
+    A knob on a low front makes its box deep, but not this; of a frame without a panel most surface may face up.
+    """
+    if is_plate(front.box, plate):
+        return front.box.thin_axis
+    corners = front.triangles
+    doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return int(np.argmax(np.abs(doubled).sum(axis=0)))
 
 
 def _is_before(box: Box, plate: Box, around: Box) -> bool:

@@ -15,7 +15,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.behind_fronts import behind_fronts
-from grafu.asset.grips import face_area, pieces_before
+from grafu.asset.grips import face_area, facing_axis, is_plate, pieces_before
 from grafu.asset.labels import is_piece
 from grafu.asset.names import spoken
 from grafu.asset.part import Part
@@ -104,10 +104,10 @@ def with_joined_pieces(
         named = [p for p in parts if p.label is label]
         pieces = [p for p in named if is_piece(p.source.name)]
         if label is PartLabel.DRAWER:
-            faces, others = [(p, _faces(p)) for p in pieces if _is_front(p)], [p for p in named if p not in pieces]
-            size = whole.diagonal
+            faces = [(p, facing_axis(p.mesh, config.plate)) for p in pieces if _is_front(p)]
+            others, size = [p for p in named if p not in pieces], whole.diagonal
             pieces += behind_fronts(faces, others, config.touch * size, config.stand_out * size)
-        plates = [p for p in named if p not in pieces and _is_plate(p.box, config)] if pieces else []
+        plates = [p for p in named if p not in pieces and is_plate(p.box, config.plate)] if pieces else []
         for piece, host in _pairs(pieces, plates, label, whole.diagonal, config):
             hosts.setdefault(host.id, []).append(piece)
     taken = {piece.id for members in hosts.values() for piece in members}
@@ -154,7 +154,7 @@ def _pairs(
 ) -> list[tuple[Part, Part]]:
     """Returns each piece that belongs to a front, with it: to a piece that is one, or to a plate named as a whole."""
     own = [p for p in pieces if label is PartLabel.DOOR or _is_front(p)]
-    fronts = {p.id: _Host(p, _faces(p)) for p in (*own, *plates)}
+    fronts = {p.id: _Host(p, facing_axis(p.mesh, config.plate)) for p in (*own, *plates)}
     ranked = sorted(fronts.values(), key=lambda f: -face_area(f.part.box))
     pairs: list[tuple[Part, Part]] = []
     taken: set[str] = set()
@@ -178,7 +178,7 @@ def _held(parts: tuple[Part, ...], size: float, config: PieceConfig) -> dict[str
     """
     moving = [p for p in parts if p.label.is_movable]
     found: dict[str, str] = {}
-    for front in sorted((p for p in moving if _is_plate(p.box, config)), key=lambda p: -face_area(p.box)):
+    for front in sorted((p for p in moving if is_plate(p.box, config.plate)), key=lambda p: -face_area(p.box)):
         left = [p for p in moving if p.id not in found]
         sitting = pieces_before(front.box, [p.box for p in left], config.small, config.touch * size)
         found |= dict.fromkeys((left[k].id for k in sitting), front.id)
@@ -210,11 +210,6 @@ def _without_strays(piece: Part, config: PieceConfig) -> Part:
     return replace(piece, surfaces=(Surface(mesh.with_faces(~stray[number])),))
 
 
-def _is_plate(box: Box, config: PieceConfig) -> bool:
-    sides = np.sort(box.size)
-    return bool(sides[0] <= config.plate * sides[1])
-
-
 def _host(piece: Part, fronts: list[_Host], size: float, config: PieceConfig, touching: bool) -> Part | None:
     """Returns the front that covers the piece, the nearest of several, or None; it may have to touch the piece."""
     covering = [f for f in fronts if f.misses(piece) <= config.stand_out * size and _may_hold(f, piece, config)]
@@ -225,15 +220,8 @@ def _host(piece: Part, fronts: list[_Host], size: float, config: PieceConfig, to
 def _may_hold(front: _Host, piece: Part, config: PieceConfig) -> bool:
     """Whether a front may have such a piece: a door has none that is far larger, and no plate that stands across it."""
     box, is_door = piece.box, front.part.label is PartLabel.DOOR
-    across = _is_plate(box, config) and box.size[front.axis] > config.plate * box.size.max()
+    across = is_plate(box, config.plate) and box.size[front.axis] > config.plate * box.size.max()
     return not is_door or bool(not across and face_area(front.part.box) >= config.leaf * face_area(box))
-
-
-def _faces(front: Part) -> int:
-    """Returns the axis that most of a front's surface faces: a knob on a low front makes its box deep, but not this."""
-    corners = front.mesh.triangles
-    doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return int(np.argmax(np.abs(doubled).sum(axis=0)))
 
 
 def with_pieces(part: Part, members: Sequence[Part], joined: Mapping[str, str]) -> Part:

@@ -131,9 +131,12 @@ class SweptBody:
         self._latest = found
         return True
 
-    def cutting_faces(self, obstacles: Sequence[MeshCollider]) -> set[int]:
-        """Returns the numbers of the body's faces that, as posed, cut into the obstacles."""
-        met = self.penetrated(obstacles)
+    def cutting_faces(self, obstacles: Sequence[MeshCollider], counted: Sequence[bool]) -> set[int]:
+        """Returns the numbers of the body's faces that, as posed, cut into those obstacles that are counted.
+
+        The others count where the body is wedged between them and a counted one.
+        """
+        met = [k for k in self.penetrated(obstacles) if counted[k]]
         if not met:
             return set()
         self._shrunk.place(self._T)

@@ -208,10 +208,9 @@ class RealizationConfig(ShortRepr):
     max_trim: float = 0.02
     """Largest fraction of a side by which a moving part is made smaller."""
     max_hidden_trim: float = 0.013
-    """By how much a piece behind a drawer's front is made smaller at most, where that is more (metres): its
-    sides are not seen, and runners take as much."""
+    """The same of a piece behind a drawer's front, where that is more (metres): its sides are not seen."""
     max_back_trim: float = 0.005
-    """By how much a door's back, which lies on what it closes, is pressed at most, where that is more (metres)."""
+    """The same of a door's back, which lies on what it closes (metres)."""
     no_hardware_width: float = 0.25
     """What slides without rails is at least this wide over its depth: a drawer, and no side of one."""
     no_hardware_wide: float = 0.97
@@ -220,6 +219,8 @@ class RealizationConfig(ShortRepr):
     """What ends so far behind a drawer's front is hidden by it (metres)."""
     max_carve: float = 0.05
     """Largest fraction of a static part's volume or surface that is carved."""
+    max_carve_last: float = 0.1
+    """The same where nothing else frees a path."""
     max_carve_hidden: float = 0.6
     """The same of a part of which at most `max_carve_seen` of its surface goes that is seen from outside, while all is
     closed; and of a drawn rail, bearing or hinge, told by its name."""
@@ -282,18 +283,8 @@ class RealizationConfig(ShortRepr):
         require_positive(self, "hinge_bridge", "lid_opening", "no_hardware_gap", "rack_gap", "carved_faces")
         require_positive(self, "no_hardware_box_gap")
         require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
-        require_ratios(
-            self,
-            "level_axis",
-            "upright",
-            "sloping",
-            "rising",
-            "short",
-            "restricted",
-            "max_trim",
-            "max_carve",
-            "max_carve_hidden",
-        )
+        require_ratios(self, "level_axis", "upright", "sloping", "rising", "short", "restricted", "max_trim")
+        require_ratios(self, "max_carve", "max_carve_last", "max_carve_hidden")
         require_ratios(self, "max_carve_seen", "rail_ratio", "least_opening", "kept")
         require_ratios(self, "no_hardware_width", "no_hardware_wide", "no_hardware_open")
         if min(self.coarse_poses, self.fine_poses) < 2:

@@ -16,7 +16,6 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat3, Points, Scalars, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.components import part_numbers
-from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.raycast import RayCaster, outer_points
 from grafu.geometry.sampling import sample_surface
@@ -250,11 +249,13 @@ def _cutting_pieces(
 def _cutting_faces(scene: Scene, path: Path, ids: tuple[str, ...], config: RealizationConfig) -> np.ndarray:
     """Returns the numbers of the moving faces that cut into a blocker somewhere along the path."""
     body = scene.swept_body(path.moving, config.depth * scene.extent, path.axes)
-    obstacles = [MeshCollider(scene.parts[name].mesh) for name in ids]
+    swept = swept_box(scene.moving_mesh(path.moving).box, path.motion, path.reach)
+    near = in_the_way(scene.static_obstacles, swept)
+    obstacles, counted = [o.collider for o in near], [o.id in ids for o in near]
     found: set[int] = set()
     for value in opening_values(path.reach, config.fine_poses):
         body.place(path.motion(value))
-        found |= body.cutting_faces(obstacles)
+        found |= body.cutting_faces(obstacles, counted)
     return np.array(sorted(found), dtype=np.int64)
 
 

@@ -139,6 +139,13 @@ def _inset(part: Part, axes: Mat3, by: Vec3) -> Part:
     return replace(part, surfaces=tuple(s.transformed(T) for s in part.surfaces))
 
 
+def carve_more(
+    scene: Scene, path: Path, ids: Sequence[str], config: RealizationConfig
+) -> tuple[Scene, Sequence[Change]]:
+    """Carves like `carve`, up to `max_carve_last`."""
+    return carve(scene, path, ids, replace(config, max_carve=max(config.max_carve, config.max_carve_last)))
+
+
 _FINELY = 2000  # solids with which a path is cut by triangles where hulls would cut away too much
 _STEPS: tuple[ClearanceStep, ...] = (
     adopt,
@@ -159,4 +166,5 @@ _STEPS: tuple[ClearanceStep, ...] = (
     carve_channel,
     partial(carve, most=_FINELY),
     narrow_sunk,
+    carve_more,
 )
