@@ -1,5 +1,6 @@
 """Models as wholes: one opened from a folder of results, which one the sidebar shows, one taken out again."""
 
+import json
 from pathlib import Path
 
 import bpy
@@ -47,7 +48,7 @@ class GRAFU_OT_open_result(bpy.types.Operator):
         session = fill_slot(context.scene, free_slot(context.scene))
         session.source_file, session.fixed = str(found.source or ""), found.fixed
         objects.show_result(session, found.object, mathutils.Matrix.Translation(context.scene.cursor.location))
-        store(session, found.settings, found.report.model_dump_json(by_alias=True), "", found.object)
+        store(session, found.settings, json.dumps(found.report.to_json()), "", found.object)
         message = found.fixed or f"{len(found.report.joints)} joints, read from {self.directory}"
         session.status = visible(message)
         self.report({"INFO"}, session.status)

@@ -141,7 +141,7 @@ class Applies:
         if scene is None:
             raise work.Failed("the scene is gone")
         session = fill_slot(scene, self._slot)
-        before, after = report_of(session), Report.model_validate_json(self._run.text("report.json"))
+        before, after = report_of(session), Report.read_json(self._run.text("report.json"))
         unfit = "; ".join(self.unfit(before, after)) if before is not None else ""
         if unfit:
             return self._refused(context, unfit)

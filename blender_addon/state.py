@@ -181,7 +181,7 @@ def report_of(session):
     """Returns the report of the last run that stands, or None."""
     from grafu.pipeline.report_schema import Report
 
-    return Report.model_validate_json(session.report_json) if session.report_json else None
+    return Report.read_json(session.report_json) if session.report_json else None
 
 
 def compartments_of(session) -> list:

@@ -17,8 +17,6 @@ from pathlib import Path
 
 from docs_api import api_page
 from docs_synthetic import distributions_page, families_table, strategies_table
-from pydantic import BaseModel
-from pydantic.fields import FieldInfo
 from stated.configs import loss_choices, network_config, paper_departures, training_configs
 from stated.constants import told
 from stated.drawn import figures_page, results_page, tables, with_figures
@@ -31,6 +29,7 @@ from grafu.asset import options
 from grafu.dataset.figures import COLUMNS
 from grafu.export.formats import FORMATS
 from grafu.pipeline import inspection, report_schema
+from grafu.pipeline.report_record import ReportRecord, described
 from grafu.refusal import Reason
 
 DOCS = Path(__file__).parent.parent / "docs"
@@ -38,7 +37,7 @@ DOCS = Path(__file__).parent.parent / "docs"
 REPORT_HEAD = """\
 # report.json
 
-<!-- drawn by scripts/docs.py from src/grafu/pipeline/report_schema.py, report_record.py and inspection.py -->
+<!-- drawn by scripts/docs.py from src/grafu/pipeline/report_schema.py, report_standing.py and inspection.py -->
 
 Every result holds a `report.json` of the form `grafu.report/1`; `grafu inspect --json` prints `grafu.inspection/1`.
 Lengths are metres, angles radians; points and directions are in the output's frame ([conventions](conventions.md)). A
@@ -205,34 +204,33 @@ def branch(error: type[Exception], depth: int) -> list[str]:
     return [line, *(below for child in error.__subclasses__() for below in branch(child, depth + 1))]
 
 
-def records(top: type[BaseModel]) -> list[type[BaseModel]]:
+def records(top: type[ReportRecord]) -> list[type[ReportRecord]]:
     """Returns a record and those that its fields hold, each once, in order."""
     found = [top]
-    for field in top.model_fields.values():
-        found += [r for held in held_records(field.annotation) for r in records(held) if r not in found]
+    for annotation, _ in described(top).values():
+        found += [r for held in held_records(annotation) for r in records(held) if r not in found]
     return found
 
 
-def held_records(annotation: object) -> list[type[BaseModel]]:
+def held_records(annotation: object) -> list[type[ReportRecord]]:
     """Returns the records that an annotation names."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+    if isinstance(annotation, type) and issubclass(annotation, ReportRecord):
         return [annotation]
     return [record for inner in getattr(annotation, "__args__", ()) for record in held_records(inner)]
 
 
-def section(record: type[BaseModel]) -> str:
+def section(record: type[ReportRecord]) -> str:
     """Returns one record as a heading, its sentence and a table of its fields."""
     rows = "\n".join(
-        f"| `{field.serialization_alias or name}` | {spelled(field)} | {field.description} |"
-        for name, field in record.model_fields.items()
+        f"| `{name}` | {spelled(annotation)} | {meaning} |" for name, (annotation, meaning) in described(record).items()
     )
     title = f"## {record.__name__.removesuffix('Record')}"
     return f"{title}\n\n{record.__doc__}\n\n| field | type | meaning |\n|---|---|---|\n{rows}\n"
 
 
-def spelled(field: FieldInfo) -> str:
-    """Returns a field's type in words."""
-    return words(field.annotation).replace("|", "\\|")
+def spelled(annotation: object) -> str:
+    """Returns the type of a field in words."""
+    return words(annotation).replace("|", "\\|")
 
 
 def words(annotation: object) -> str:
@@ -240,7 +238,7 @@ def words(annotation: object) -> str:
     arguments = getattr(annotation, "__args__", ())
     if annotation is type(None):
         return "null"
-    if not arguments or (hasattr(annotation, "model_fields")):
+    if not arguments or held_records(annotation) == [annotation]:
         return getattr(annotation, "__name__", str(annotation)).removesuffix("Record")
     if arguments[-1] is Ellipsis:
         return f"list of {words(arguments[0])}"

@@ -66,7 +66,7 @@ def outcome(make: Callable[[], object]) -> object:
 
 
 @pytest.mark.parametrize("make", [made, made_with_a_sum])
-@pytest.mark.parametrize("options", SETS, ids=str)
+@pytest.mark.parametrize("options", [*SETS, {"kw_only": True}, {"kw_only": True, "slots": True}], ids=str)
 @given(args=st.lists(VALUES, max_size=4), kwargs=st.dictionaries(NAMES, VALUES))
 def test_it_takes_and_refuses_what_the_standard_library_does(
     make: Maker, options: dict[str, bool], args: list[object], kwargs: dict[str, object]

@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from dataclasses import dataclass as dataclass
 else:
 
-    def dataclass(cls=None, /, *, frozen=False, eq=True, repr=True, order=False, slots=False):  # noqa: A002
+    def dataclass(cls=None, /, *, frozen=False, eq=True, repr=True, order=False, slots=False, kw_only=False):  # noqa: A002
         """Makes a class a dataclass, or returns the decorator that does, as that of the standard library.
 
         Classes that are not frozen, or that are ordered, are compiled at once. A frozen value refuses every attribute,
         not only those of its fields. Fields of the kind `InitVar` are not supported.
         """
-        options = {"frozen": frozen, "eq": eq, "repr": repr, "order": order, "slots": slots}
+        options = {"frozen": frozen, "eq": eq, "repr": repr, "order": order, "slots": slots, "kw_only": kw_only}
 
         def made(cls):
             return _with_late_methods(cls, options) if frozen and not order else dataclasses.dataclass(**options)(cls)
@@ -41,7 +41,8 @@ else:
 def _with_late_methods(cls: type, options: dict[str, bool]) -> type:
     own = dict(cls.__dict__)
     derived = any(dataclasses.is_dataclass(base) for base in cls.__mro__[1:])
-    made: Any = dataclasses.dataclass(**_ALONE, frozen=derived, slots=options["slots"])(cls)
+    like = {name: options[name] for name in ("slots", "kw_only")}
+    made: Any = dataclasses.dataclass(**_ALONE, frozen=derived, **like)(cls)
     if "__init__" not in own:
         made.__init__, made.__signature__ = _late_init(made), _Signature()
     if options["repr"] and "__repr__" not in own:
@@ -78,10 +79,10 @@ def _late_init(made: type) -> Callable[..., None]:
 def _fill(self: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> bool:
     """Gives a value its fields, and returns whether it could: all that were given are fields, and none lacks."""
     fields = dataclasses.fields(self)
-    given = dict(zip((field.name for field in fields), args, strict=False))
+    given = dict(zip((field.name for field in fields if not field.kw_only), args, strict=False))
     count = len(args) + len(kwargs)
     given |= kwargs
-    if len(given) < count or not all(field.init and not field.kw_only for field in fields):
+    if len(given) < count or not all(field.init for field in fields):
         return False
     values = []
     for field in fields:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link
-from grafu.articulation.kinematics import REST, all_before, link_poses
+from grafu.articulation.kinematics import REST, all_before, link_poses, moved_poses
 from grafu.errors import ArticulationError
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
@@ -80,6 +80,10 @@ def test_each_link_is_carried_by_all_joints_above_it(tree):
     for link, pose in poses.items():
         np.testing.assert_allclose(pose, expected[link], atol=1e-12)
         assert (pose is REST) == np.array_equal(expected[link], np.eye(4))
+    moved = moved_poses(chain, values)
+    assert moved.keys() == {link for link, pose in poses.items() if pose is not REST}
+    for link, pose in moved.items():
+        np.testing.assert_array_equal(pose, poses[link])
 
 
 def test_an_unknown_joint_is_named():

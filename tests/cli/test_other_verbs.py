@@ -43,7 +43,7 @@ def test_inspect_prints_json_that_reads_back(tmp_path: Path, capsys: pytest.Capt
     assert main(["inspect", str(source), "--json", "--up", "+Z", "--front", "-Y", "--scale", "2"]) == 0
     data = json.loads(capsys.readouterr().out)
 
-    inspection = Inspection.model_validate(data)
+    inspection = Inspection.read(data)
     assert data["schema"] == "grafu.inspection/1"
     assert {part.source.name for part in inspection.parts} == set(CABINET)
     assert inspection.size == pytest.approx((1.2, 1.08, 1.64))

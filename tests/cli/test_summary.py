@@ -40,8 +40,8 @@ def test_joints_that_the_input_states_and_nobody_read_are_told(
     print_results([topless] * 2)
     assert "states" not in capsys.readouterr().out
 
-    motion = topless.report.motion.model_copy(update={"stated_joints": 2, "unused_joints": 2})
-    stating = replace(topless, report=topless.report.model_copy(update={"motion": motion}))
+    motion = topless.report.motion.with_changes(stated_joints=2, unused_joints=2)
+    stating = replace(topless, report=topless.report.with_changes(motion=motion))
     print_results([stating])
     assert "the input states 2 joints; --motion annotation builds them" in capsys.readouterr().out
     print_results([stating, topless])
@@ -51,9 +51,9 @@ def test_joints_that_the_input_states_and_nobody_read_are_told(
 def test_what_happened_to_the_input_is_told_but_not_without_end(
     topless: Succeeded, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    notes = ["body was cut into 2 fronts and the rest (--parts auto)", *(f"note {k}" for k in range(6))]
-    read = topless.report.input.model_copy(update={"notes": notes})
-    print_results([replace(topless, report=topless.report.model_copy(update={"input": read}))])
+    notes = ("body was cut into 2 fronts and the rest (--parts auto)", *(f"note {k}" for k in range(6)))
+    read = topless.report.input.with_changes(notes=notes)
+    print_results([replace(topless, report=topless.report.with_changes(input=read))])
     said = capsys.readouterr().out
 
     assert f"input: {notes[0]}\n" in said
@@ -62,7 +62,7 @@ def test_what_happened_to_the_input_is_told_but_not_without_end(
 
 def test_what_was_skipped_for_one_reason_is_told_once(topless: Succeeded, capsys: pytest.CaptureFixture[str]) -> None:
     skipped = tuple(SkippedRecord(request=f"part_{k}", reason=Reason.NO_ROOM, detail="narrow") for k in range(3))
-    print_results([replace(topless, report=topless.report.model_copy(update={"skipped": skipped}))])
+    print_results([replace(topless, report=topless.report.with_changes(skipped=skipped))])
     said = capsys.readouterr().out
 
     assert said.count("narrow") == 1
@@ -73,7 +73,7 @@ def test_a_part_that_the_user_fixed_is_listed_and_is_no_fault(
     topless: Succeeded, capsys: pytest.CaptureFixture[str]
 ) -> None:
     skip = SkippedRecord(request="door_9", reason=Reason.REJECTED, detail="it was decided")
-    stopped = replace(topless, report=topless.report.model_copy(update={"skipped": (skip,)}))
+    stopped = replace(topless, report=topless.report.with_changes(skipped=(skip,)))
     print_results([stopped])
     row = next(line for line in capsys.readouterr().out.splitlines() if "door_9" in line)
     assert row.split() == ["door_9", "fixed", "by", "the", "user"]

@@ -184,3 +184,16 @@ def test_a_change_leads_from_one_scene_to_the_other():
     elsewhere = change.of(FAR["a part"])
     assert elsewhere.parts["side"] == FAR["a part"].parts["side"]
     assert elsewhere.parts["board"] == after.parts["board"]
+
+
+def test_a_joint_changes_the_box_of_its_own_body_alone() -> None:
+    before = {name: PLAIN.body_box(name) for name in ("leaf", *MOVING)}
+    after = PLAIN.with_joint(
+        "leaf", motion(0.7), [visual("moves", (1.5, 0.0, 0.0))], [visual("stands", (0.2, 0.0, 0.0))]
+    )
+
+    assert after.body_box("leaf") == before["leaf"].union(cube((1.5, 0.0, 0.0)).box)
+    for name in MOVING:
+        assert after.body_box(name) is before[name]
+    door = PLAIN.replaced([part("door", (0.5, 0.0, 0.0))])
+    assert door.body_box("door") == cube((0.5, 0.0, 0.0)).box

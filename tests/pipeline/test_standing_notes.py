@@ -10,8 +10,8 @@ from grafu.asset.part import Asset
 from grafu.pipeline.functionalize import functionalize
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.report import report_of
-from grafu.pipeline.report_record import StabilityRecord
 from grafu.pipeline.report_schema import Report
+from grafu.pipeline.report_standing import StabilityRecord
 from grafu.pipeline.standing import stability_words, with_stability
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel

@@ -34,7 +34,7 @@ def plain() -> Report:
 
 def with_first(report: Report, **changes) -> Report:
     first, *rest = report.joints
-    return report.model_copy(update={"joints": (first.model_copy(update=changes), *rest)})
+    return report.with_changes(joints=(first.with_changes(**changes), *rest))
 
 
 def test_what_works_is_ok(plain):
@@ -60,7 +60,7 @@ def test_each_fault_has_its_level_and_its_words(plain, changes, level, words):
 
 
 def test_a_gap_counts_against_the_size_of_the_whole(plain):
-    wide = plain.model_copy(update={"size": (5.0, 1.0, 1.0)})
+    wide = plain.with_changes(size=(5.0, 1.0, 1.0))
     assert joint_states(with_first(wide, largest_gap=0.02))[0].level is Level.OK
 
 

@@ -134,7 +134,7 @@ def test_scripts_and_styles_stay_under_300_lines():
 
 def test_a_model_that_does_not_move_has_a_page(made):
     still = ArticulatedObject("still", "base", (Link("base", ()),))
-    report = made.report.model_copy(update={"joints": (), "added": ()})
+    report = made.report.with_changes(joints=(), added=())
     stills = Stills(b"", b"", b"")
 
     read = PageReader(model_page(made.result.asset, still, made.result.completion, report, stills))
@@ -144,8 +144,8 @@ def test_a_model_that_does_not_move_has_a_page(made):
 
 
 def test_the_page_says_that_the_input_states_joints_which_nobody_read(page, made):
-    motion = made.report.motion.model_copy(update={"stated_joints": 2, "unused_joints": 2})
-    report = made.report.model_copy(update={"motion": motion})
+    motion = made.report.motion.with_changes(stated_joints=2, unused_joints=2)
+    report = made.report.with_changes(motion=motion)
     stills = Stills(b"", b"", b"")
     said = model_page(made.result.asset, made.result.object, made.result.completion, report, stills)
 

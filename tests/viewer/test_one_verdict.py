@@ -20,7 +20,7 @@ PRAISE = ("Everything works", "Nothing was skipped", "all else that was asked fo
 
 
 def page_with(made, **changes):
-    return PageReader(page_of(type(made)(made.result, made.report.model_copy(update=changes))))
+    return PageReader(page_of(type(made)(made.result, made.report.with_changes(**changes))))
 
 
 def text_of(read):
@@ -29,19 +29,19 @@ def text_of(read):
 
 def colliding(made):
     first, *rest = made.report.joints
-    return {"joints": (first.model_copy(update={"collision_share": 0.76}), *rest)}
+    return {"joints": (first.with_changes(collision_share=0.76), *rest)}
 
 
 def silent(made):
     """The first moving body stands with the body, and no one states why."""
     first, *rest = made.report.joints
-    parts = (p.model_copy(update={"link": "body"}) if p.link == first.part else p for p in made.report.parts)
+    parts = (p.with_changes(link="body") if p.link == first.part else p for p in made.report.parts)
     return {"joints": tuple(rest), "parts": tuple(parts)}
 
 
 def shut(made):
     first, *rest = made.report.joints
-    return {"joints": (first.model_copy(update={"opening": 0.0, "upper": 0.0}), *rest)}
+    return {"joints": (first.with_changes(opening=0.0, upper=0.0), *rest)}
 
 
 @pytest.mark.parametrize("fault", [colliding, silent, shut])
@@ -54,7 +54,7 @@ def test_where_a_part_does_not_work_no_page_praises(made, fault):
 
 @pytest.mark.parametrize("fault", [colliding, silent, shut, lambda made: {}])
 def test_all_places_show_one_colour_and_the_same_line(made, fault, capsys, tmp_path):
-    report = made.report.model_copy(update=fault(made))
+    report = made.report.with_changes(**fault(made))
     verdict = verdict_of(report)
     page = page_with(made, **fault(made))
     [row] = functionalized_run("Run", [RunEntry("made", report)]).tables[0].rows
@@ -74,7 +74,7 @@ def test_a_front_that_is_static_has_the_line_that_moves_it_on_the_page_and_in_th
     part = made.report.joints[0].part
     changes = {**silent(made), "moves": {part: (f"--move {part}=left", f"--move {part}=fixed")}}
     read = page_with(made, **changes)
-    report = made.report.model_copy(update=changes)
+    report = made.report.with_changes(**changes)
     print_results([Succeeded(Job(Path("made.glb"), "made", JobOptions(tmp_path)), report, 1.0)])
 
     assert f"--move {part}=left" in [button["data-copy"] for button in read.all("button", class_="copy")]
@@ -96,25 +96,23 @@ def test_the_verdict_is_escaped(made):
     skip = SkippedRecord(request=attack, reason=NOT_ADDED, detail=attack)
     read = page_with(made, skipped=(skip,))
 
-    assert verdict_of(made.report.model_copy(update={"skipped": (skip,)})).lines[0].kind is FaultKind.NOT_BUILT
+    assert verdict_of(made.report.with_changes(skipped=(skip,))).lines[0].kind is FaultKind.NOT_BUILT
     assert [image for image in read.all("img") if "onerror" in image] == []
 
 
 def test_why_something_was_not_added_stands_in_a_sentence(made):
     skip = SkippedRecord(request="door", reason=NOT_ADDED, detail="no edge", what=Asked.GRASP, cause=Reason.TOO_SMALL)
-    rows = not_built_table(made.report.model_copy(update={"skipped": (skip,)}))
+    rows = not_built_table(made.report.with_changes(skipped=(skip,)))
     assert Reason.TOO_SMALL.sentence in rows
     assert "no edge" in rows
 
 
 def test_of_a_run_the_red_come_before_the_yellow_before_the_green(made):
     first, *rest = made.report.joints
-    yellow = made.report.model_copy(
-        update={"joints": tuple(joint.model_copy(update={"grasp": "none"}) for joint in made.report.joints)}
-    )
-    slightly = {"joints": (first.model_copy(update={"collision_share": 0.02}), *rest)}
+    yellow = made.report.with_changes(joints=tuple(joint.with_changes(grasp="none") for joint in made.report.joints))
+    slightly = {"joints": (first.with_changes(collision_share=0.02), *rest)}
     entries = [RunEntry("green", made.report), RunEntry("yellow", yellow)]
-    entries += [RunEntry("red", made.report.model_copy(update=slightly)), RunEntry("failed", None, "no mesh")]
+    entries += [RunEntry("red", made.report.with_changes(**slightly)), RunEntry("failed", None, "no mesh")]
     run = functionalized_run("Run", entries)
 
     assert [row.cells[1] for row in run.tables[0].worst_first] == ["failed", "red", "yellow", "green"]

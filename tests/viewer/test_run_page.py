@@ -101,9 +101,7 @@ def test_the_search_keeps_what_holds_the_word(browser, tmp_path):
 
 def test_reports_become_rows(made):
     report = made.report
-    bad = report.model_copy(
-        update={"joints": tuple(j.model_copy(update={"collision_share": 0.4}) for j in report.joints)}
-    )
+    bad = report.with_changes(joints=tuple(j.with_changes(collision_share=0.4) for j in report.joints))
     entries = [RunEntry("good", report, seconds=1.5), RunEntry("bad", bad), RunEntry("gone", None, "no mesh")]
     run = functionalized_run("Run", entries)
 
@@ -118,8 +116,7 @@ def test_what_somebody_stopped_is_no_fault(made):
     first, *rest = made.report.joints
     skips = {why: SkippedRecord(request=first.part, reason=why, detail="") for why in REASONS}
     entries = [
-        RunEntry(why, made.report.model_copy(update={"joints": tuple(rest), "skipped": (skip,)}))
-        for why, skip in skips.items()
+        RunEntry(why, made.report.with_changes(joints=tuple(rest), skipped=(skip,))) for why, skip in skips.items()
     ]
     rows = {row.cells[0]: row for row in functionalized_run("Run", entries).tables[0].rows}
     figures = {figure.what: figure.value for figure in functionalized_run("Run", entries).figures}

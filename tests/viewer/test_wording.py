@@ -37,22 +37,22 @@ def test_the_facts_say_what_moves_was_missing_and_was_added(made):
     ],
 )
 def test_stated_joints_that_nobody_read_are_said(made, unused, words):
-    motion = made.report.motion.model_copy(update={"stated_joints": 2, "unused_joints": unused})
-    assert unused_joints(made.report.model_copy(update={"motion": motion})) == words
+    motion = made.report.motion.with_changes(stated_joints=2, unused_joints=unused)
+    assert unused_joints(made.report.with_changes(motion=motion)) == words
 
 
 def test_a_report_of_nothing_says_so(made):
-    empty = made.report.model_copy(update={"joints": (), "added": (), "skipped": (), "deficiencies": ()})
+    empty = made.report.with_changes(joints=(), added=(), skipped=(), deficiencies=())
 
     assert facts(empty) == "Nothing moves. Nothing was missing in the input. Nothing was added."
 
 
 def test_the_boards_of_a_drawers_box_are_one_box(made):
     board = AddedRecord(part="a", category=PartLabel.MISC, why="", style="drawer box", link="drawer")
-    boards = tuple(board.model_copy(update={"part": name}) for name in "abcd")
+    boards = tuple(board.with_changes(part=name) for name in "abcd")
     top = AddedRecord(part="top", category=PartLabel.TOP_PANEL, why="", style="rectangle", link="body")
 
-    report = made.report.model_copy(update={"joints": (), "added": (*boards, top)})
+    report = made.report.with_changes(joints=(), added=(*boards, top))
     assert added(report) == ["1 top panel", "1 drawer box"]
 
 
@@ -61,10 +61,10 @@ def test_what_was_built_is_no_longer_lacking(made):
         DeficiencyRecord(kind=kind, part=made.report.joints[0].part, detail="") for kind in (DeficiencyKind.HINGE,)
     )
     top = DeficiencyRecord(kind=DeficiencyKind.TOP, part="", detail="")
-    report = made.report.model_copy(update={"deficiencies": (*lacks, top), "added": ()})
+    report = made.report.with_changes(deficiencies=(*lacks, top), added=())
 
     assert remaining_deficiencies(report) == (top,)
-    assert remaining_deficiencies(report.model_copy(update={"joints": ()})) == (*lacks, top)
+    assert remaining_deficiencies(report.with_changes(joints=())) == (*lacks, top)
 
 
 def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
@@ -74,7 +74,7 @@ def test_what_was_stopped_is_told_apart_and_lacks_nothing(made):
     changes = {"joints": made.report.joints[1:], "deficiencies": (lack,)}
 
     def said(reason):
-        return made.report.model_copy(update={**changes, "skipped": (skips[reason],)})
+        return made.report.with_changes(**changes, skipped=(skips[reason],))
 
     assert facts(said(Reason.REJECTED)).endswith(f"Fixed by the user: {door}.")
     assert remaining_deficiencies(said(Reason.REJECTED)) == ()
@@ -99,11 +99,8 @@ def test_directions_have_names(direction, said):
 def test_an_axis_says_where_it_lies(made):
     axis = AxisRecord(origin=(-0.25, 0.1, 5.0), direction=(0.0, 0.0, 1.0))
     joint = next(j for j in made.report.joints if j.type is JointType.REVOLUTE)
-    moved = joint.model_copy(
-        update={
-            "initial_axis": axis,
-            "rectified_axis": AxisRecord(origin=(-0.22, 0.14, 7.0), direction=(0.0, 0.0, 1.0)),
-        }
+    moved = joint.with_changes(
+        initial_axis=axis, rectified_axis=AxisRecord(origin=(-0.22, 0.14, 7.0), direction=(0.0, 0.0, 1.0))
     )
 
     assert axis_words(axis, JointType.REVOLUTE) == "+Z at x −25.0, y 10.0 cm"

@@ -73,7 +73,7 @@ def files_of(
                 partial(_page_of_words, made, report, settings, formats),
             )
         files = files.joined(drawn)
-        report = report.model_copy(update={"timings": {**report.timings, "page": round(perf_counter() - started, 4)}})
+        report = report.with_changes(timings={**report.timings, "page": round(perf_counter() - started, 4)})
     return Saved(files.joined(_json_files(made, report, settings)), report, picture)
 
 

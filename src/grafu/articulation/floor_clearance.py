@@ -11,7 +11,7 @@ import numpy as np
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
 from grafu.articulation.collision_clearance import Shapes, halved
 from grafu.articulation.collision_shapes import CollisionShape, corners_of
-from grafu.articulation.kinematics import link_poses
+from grafu.articulation.kinematics import moved_poses
 from grafu.articulation.sweep import rest_to_full
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4
@@ -121,8 +121,8 @@ def _poses(articulated: ArticulatedObject, config: FloorConfig) -> dict[str, lis
             continue
         require_time()
         for values in rest_to_full(articulated, joint.id, config.poses):
-            for link, T in link_poses(articulated, values).items():
-                if link in found and not np.allclose(T[2], np.eye(4)[2], atol=_NOTHING):
+            for link, T in moved_poses(articulated, values).items():
+                if not np.allclose(T[2], np.eye(4)[2], atol=_NOTHING):
                     found[link].append(T)
     return found
 

@@ -80,14 +80,23 @@ def link_poses(articulated: ArticulatedObject, values: Mapping[str, float], show
     Raises:
         ArticulationError: if `values` names a joint that the object does not have, or puts a coupled joint elsewhere.
     """
-    if unknown := sorted(name for name in values if name not in articulated.joints_by_id):
+    return dict.fromkeys(articulated.ids_from_root, REST) | moved_poses(articulated, values, shown)
+
+
+def moved_poses(articulated: ArticulatedObject, values: Mapping[str, float], shown: bool = False) -> dict[str, Mat4]:
+    """Returns the poses of those links alone that hang on a joint which moves: few of many, in most poses.
+
+    Everything else is as in `link_poses`.
+    """
+    if unknown := values.keys() - articulated.joints_by_id.keys():
         known = [joint.id for joint in articulated.joints]
-        raise ArticulationError(f"joint values must name joints of `{articulated.name}`: got {unknown}, it has {known}")
-    values, poses = with_coupled(articulated, values), dict.fromkeys(articulated.ids_from_root, REST)
-    for link in _moved(articulated, values, shown):  # few of many, in most poses
+        found = sorted(unknown)
+        raise ArticulationError(f"joint values must name joints of `{articulated.name}`: got {found}, it has {known}")
+    values, poses = with_coupled(articulated, values), dict[str, Mat4]()
+    for link in _moved(articulated, values, shown):
         joint = articulated.joint_of[link]
         motion = joint.shown_motion if shown else joint.motion
-        poses[link] = poses[joint.parent] @ motion(values.get(joint.id, 0.0))
+        poses[link] = poses.get(joint.parent, REST) @ motion(values.get(joint.id, 0.0))
     return poses
 
 

@@ -15,7 +15,7 @@ from grafu.articulation.collision_clearance import Shapes
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of
 from grafu.articulation.convex_pieces import hull_of
 from grafu.articulation.floor_clearance import carrying_links, floor_below, lowest_of
-from grafu.articulation.kinematics import REST, link_poses
+from grafu.articulation.kinematics import REST, moved_poses
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.stability import Stability, StabilityConfig, stability_of
 from grafu.articulation.sweep import rest_to_full
@@ -123,9 +123,8 @@ def _with_room_below(
     for joint in articulated.free_joints:
         require_time()
         for values in rest_to_full(articulated, joint.id, config.poses):
-            for link, T in link_poses(articulated, values).items():
-                if T is not REST and link in places:
-                    places[link].append(T)
+            for link, T in moved_poses(articulated, values).items():
+                places[link].append(T)
     near = [
         _low_bounds(shape, np.stack(places[link]), floor + config.hanging) for link in moving for shape in moving[link]
     ]

@@ -122,7 +122,7 @@ def _write(folder: Path, report: "CheckReport", clip: bytes) -> None:
     from grafu.simulation.words import COLUMNS, sentences, table_rows
     from grafu.viewer.check_page import with_check
 
-    contents = {CHECK_FILE: dump_json(report.model_dump(mode="json", by_alias=True)).encode()}
+    contents = {CHECK_FILE: dump_json(report.to_json()).encode()}
     if clip:
         contents[CLIP_FILE] = clip
     marker = read_marker(folder)

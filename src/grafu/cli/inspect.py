@@ -61,9 +61,9 @@ def run(options: argparse.Namespace) -> int:
 
     asset = load_asset(options.input, with_limits(load_options(options), options))
     budget = Budget.lasting(options.timeout) if options.timeout else UNLIMITED
-    inspection = inspect(asset, parse_graph(asset)).model_copy(update={"forecast": forecast(asset, budget)})
+    inspection = inspect(asset, parse_graph(asset)).with_changes(forecast=forecast(asset, budget))
     if options.json:
-        values = inspection.model_dump(mode="json", by_alias=True)
+        values = inspection.to_json()
         sys.stdout.write(json.dumps(values, indent=1) + "\n")  # ASCII: no name in it steers a terminal
         return 0
     if sys.stdout.isatty() and not options.no_picture:

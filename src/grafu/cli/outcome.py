@@ -63,7 +63,7 @@ def outcome_values(result: JobResult) -> dict[str, Any]:
     return {
         **said,
         "verdict": verdict.colour.value,
-        "reasons": [fault.model_dump(mode="json", exclude={"colour"}) for fault in verdict.lines],
+        "reasons": [{k: v for k, v in fault.to_json().items() if k != "colour"} for fault in verdict.lines],
         "joints": [
             {"part": j.part, "type": j.type.value, "lower": j.lower, "upper": j.upper} for j in result.report.joints
         ],

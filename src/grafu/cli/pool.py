@@ -92,7 +92,7 @@ def run_all(
             yield outcome.results[0] if outcome.ending is Ending.DONE else failed(item, outcome.ending)
 
 
-_SELDOM = 20_000, 20, 20  # hardly a value is in a circle of references: 5 % of the time were spent to look for such
+_SELDOM = 100_000, 20, 20  # hardly a value is in a circle of references: 5 % of the time were spent to look for such
 
 
 def _begin() -> None:

@@ -36,7 +36,7 @@ class LastBuild:
     @cached_property
     def report(self) -> Report:
         """The report."""
-        return Report.model_validate(self.state["report"])
+        return Report.read(self.state["report"])
 
     @cached_property
     def motions(self) -> dict[str, MotionChoice]:

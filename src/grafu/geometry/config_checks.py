@@ -1,6 +1,7 @@
 """Checks of the numbers in a config, which configs use when they are made, and configs for models in another scale."""
 
 from dataclasses import is_dataclass, replace
+from functools import lru_cache
 from math import inf, isfinite
 from typing import Any, TypeVar, cast
 
@@ -13,17 +14,20 @@ def at_scale(config: T, metre: float) -> T:
     The fields that `LENGTHS` of its class names, and those of configs in it, are multiplied: lengths in metres on
     furniture of usual size. Other such lengths are multiplied where they are used. It is to be asked for once.
     """
-    if metre == 1.0:
-        return config
-    whole, changed = cast(Any, config), dict[str, object]()
+    return config if metre == 1.0 else cast(T, _scaled(config, metre))
+
+
+@lru_cache(maxsize=256)  # one config is asked for once for each joint, and takes as long as a tenth of a joint
+def _scaled(config: Any, metre: float) -> Any:
+    changed = dict[str, object]()
     lengths = getattr(type(config), "LENGTHS", ())
-    for name in whole.__dataclass_fields__:
-        value = getattr(whole, name)
+    for name in config.__dataclass_fields__:
+        value = getattr(config, name)
         if is_dataclass(value):
             changed[name] = at_scale(value, metre)
         elif name in lengths:
             changed[name] = tuple(metre * v for v in value) if isinstance(value, tuple) else metre * value
-    return cast(T, replace(whole, **changed))
+    return replace(config, **changed)
 
 
 def require_positive(config: object, *names: str) -> None:

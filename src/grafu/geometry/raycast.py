@@ -111,7 +111,7 @@ class RayCaster:
 
     def along(self, origins: Points, direction: Vec3) -> Scalars:
         """Returns the distances of many origins along one unit direction."""
-        return self.distances(origins, np.broadcast_to(direction, origins.shape))
+        return self.distances(origins, _each_along(direction, len(origins)))
 
     def is_clear(self, origins: Points, direction: Vec3) -> Bool[np.ndarray, " n"]:
         """Returns for each origin whether no face lies along a unit direction, however far."""
@@ -120,7 +120,7 @@ class RayCaster:
         require_time()
         found = self._scene.run(
             np.ascontiguousarray(origins, dtype=np.float32),
-            np.ascontiguousarray(np.broadcast_to(direction, origins.shape), dtype=np.float32),
+            _each_along(direction, len(origins)),
             query="OCCLUDED",
         )
         return np.asarray(found != 0)
@@ -132,7 +132,7 @@ class RayCaster:
         require_time()
         found = self._scene.run(
             np.ascontiguousarray(origins, dtype=np.float32),
-            np.ascontiguousarray(np.broadcast_to(direction, origins.shape), dtype=np.float32),
+            _each_along(direction, len(origins)),
             query="INTERSECT",
             output=True,
         )
@@ -148,6 +148,13 @@ def embree_scene(vertices: Float32[np.ndarray, "n 3"], faces: Int32[np.ndarray, 
     else:
         EmbreeMesh(scene, vertices[faces])
     return scene
+
+
+def _each_along(direction: Vec3, count: int) -> Float32[np.ndarray, "n 3"]:
+    """Returns one direction for each of many rays; `numpy.broadcast_to` takes longer than the rays of a small mesh."""
+    directions = np.empty((count, 3), np.float32)
+    directions[:] = direction
+    return directions
 
 
 def _without_misses(found: np.ndarray) -> Scalars:

@@ -6,8 +6,8 @@ from typing import Final
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.articulation.catch_kind import CatchKind
 from grafu.articulation.physics import physics_known
-from grafu.pipeline.report_record import CaughtJointRecord, CaughtRecord
 from grafu.pipeline.report_schema import Report
+from grafu.pipeline.report_standing import CaughtJointRecord, CaughtRecord
 from grafu.pipeline.verdict import with_notes
 
 HOLDS: Final = ("model.xml",)
@@ -37,7 +37,7 @@ def with_caught(report: Report, articulated: ArticulatedObject, files: Collectio
         for joint in joints
     )
     held, lost = (tuple(name for name in names if name in files) for names in (HOLDS, CANNOT_HOLD))
-    stated = report.model_copy(update={"caught": CaughtRecord(joints=records, files=held, files_without=lost)})
+    stated = report.with_changes(caught=CaughtRecord(joints=records, files=held, files_without=lost))
     if held:
         return stated
     return with_notes(stated, "no file that was written has the catches of doors and drawers: add mjcf to --formats")

@@ -2,8 +2,6 @@
 
 from typing import Literal
 
-from pydantic import Field, FiniteFloat
-
 from grafu.asset.part import AnnotatedJoint, Asset, Part
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.pipeline.motion_source import MotionSource
@@ -17,7 +15,7 @@ from grafu.pipeline.records import (
     source_record,
     vector,
 )
-from grafu.pipeline.report_record import ReportRecord, schema_field
+from grafu.pipeline.report_record import FiniteFloat, Ratio, ReportRecord, stated
 from grafu.pipeline.report_schema import (
     AxisRecord,
     CouplingRecord,
@@ -25,7 +23,6 @@ from grafu.pipeline.report_schema import (
     FrameRecord,
     InputRecord,
     PieceRecord,
-    Ratio,
     SourceRecord,
     Vector,
 )
@@ -35,68 +32,70 @@ from grafu.vocabulary import JointType, PartLabel
 class InspectedPart(ReportRecord):
     """One part as it was read."""
 
-    id: str = Field(description="its id")
-    source: SourceRecord = Field(description="where it came from")
-    category: PartLabel = Field(description="its category")
-    labelled_by: str = Field(description="what the category rests on")
-    rides_on: str | None = Field(description="the moving part that carries it, where the input states it")
-    low: Vector = Field(description="the low corner of its box, metres")
-    high: Vector = Field(description="the high corner of its box, metres")
-    faces: int = Field(description="the number of triangles")
-    closed: bool = Field(description="whether its mesh encloses a volume")
+    id: str = stated(description="its id")
+    source: SourceRecord = stated(description="where it came from")
+    category: PartLabel = stated(description="its category")
+    labelled_by: str = stated(description="what the category rests on")
+    rides_on: str | None = stated(description="the moving part that carries it, where the input states it")
+    low: Vector = stated(description="the low corner of its box, metres")
+    high: Vector = stated(description="the high corner of its box, metres")
+    faces: int = stated(description="the number of triangles")
+    closed: bool = stated(description="whether its mesh encloses a volume")
 
 
 class StatedJoint(ReportRecord):
     """A joint that the input itself states; it is read by `--motion annotation` alone."""
 
-    part: str = Field(description="the moving part: its id with `--motion annotation`, where its pieces are one part")
-    type: JointType = Field(description="revolute or prismatic")
-    axis: AxisRecord = Field(description="the axis as stated, in the output's frame")
-    lower: FiniteFloat | None = Field(description="the lower limit as stated, radians or metres; null: none stated")
-    upper: FiniteFloat | None = Field(description="the upper limit as stated; null: none stated")
-    follows: CouplingRecord | None = Field(default=None, description="the joint that it follows; null: none")
+    part: str = stated(description="the moving part: its id with `--motion annotation`, where its pieces are one part")
+    type: JointType = stated(description="revolute or prismatic")
+    axis: AxisRecord = stated(description="the axis as stated, in the output's frame")
+    lower: FiniteFloat | None = stated(description="the lower limit as stated, radians or metres; null: none stated")
+    upper: FiniteFloat | None = stated(description="the upper limit as stated; null: none stated")
+    follows: CouplingRecord | None = stated(default=None, description="the joint that it follows; null: none")
 
 
 class ExpectedMotion(ReportRecord):
     """A part that a run by default would make move; whether there is room for it, the run finds."""
 
-    part: str = Field(description="the moving part")
-    type: JointType = Field(description="how it moves: revolute, prismatic, continuous")
-    confidence: Ratio | None = Field(
+    part: str = stated(description="the moving part")
+    type: JointType = stated(description="how it moves: revolute, prismatic, continuous")
+    confidence: Ratio | None = stated(
         description="the least confidence of the decisions that it rests on; null: its shape or name shows it"
     )
-    decided: tuple[str, ...] = Field(description="these decisions in words, each with its confidence and the runner-up")
+    decided: tuple[str, ...] = stated(
+        description="these decisions in words, each with its confidence and the runner-up"
+    )
 
 
 class StaticPart(ReportRecord):
     """A part that might move and would not."""
 
-    part: str = Field(description="the part")
-    reason: str = Field(description="the reason, from the [list of reasons](errors.md#reasons-not-errors)")
-    why: str = Field(description="what was found, in words")
+    part: str = stated(description="the part")
+    reason: str = stated(description="the reason, from the [list of reasons](errors.md#reasons-not-errors)")
+    why: str = stated(description="what was found, in words")
 
 
 class Forecast(ReportRecord):
     """What a run by default would make of it."""
 
-    source: MotionSource = Field(description="what states the motions: network, or rule without weights")
-    piece: PieceRecord | None = Field(default=None, description="what the whole piece is; null: not known")
-    motions: tuple[ExpectedMotion, ...] = Field(description="the parts that would move")
-    static: tuple[StaticPart, ...] = Field(description="the parts that might move and would not")
+    source: MotionSource = stated(description="what states the motions: network, or rule without weights")
+    piece: PieceRecord | None = stated(default=None, description="what the whole piece is; null: not known")
+    motions: tuple[ExpectedMotion, ...] = stated(description="the parts that would move")
+    static: tuple[StaticPart, ...] = stated(description="the parts that might move and would not")
 
 
 class Inspection(ReportRecord):
     """The whole inspection."""
 
-    schema_: Literal["grafu.inspection/1"] = schema_field("grafu.inspection/1")
-    input: InputRecord = Field(description="what was read")
-    frame: FrameRecord = Field(description="how coordinates were mapped")
-    size: Vector = Field(description="the size of the whole, metres")
-    parts: tuple[InspectedPart, ...] = Field(description="every part")
-    contacts: tuple[tuple[str, str], ...] = Field(description="pairs of parts that touch")
-    joints: tuple[StatedJoint, ...] = Field(description="the joints that the input states")
-    deficiencies: tuple[DeficiencyRecord, ...] = Field(description="what it lacks")
-    forecast: Forecast | None = Field(default=None, description="what a run would make of it; null: not asked for")
+    schema: Literal["grafu.inspection/1"] = stated(default="grafu.inspection/1", description="the form's name")
+    input: InputRecord = stated(description="what was read")
+    frame: FrameRecord = stated(description="how coordinates were mapped")
+    size: Vector = stated(description="the size of the whole, metres")
+    parts: tuple[InspectedPart, ...] = stated(description="every part")
+    contacts: tuple[tuple[str, str], ...] = stated(description="pairs of parts that touch")
+    joints: tuple[StatedJoint, ...] = stated(description="the joints that the input states")
+    deficiencies: tuple[DeficiencyRecord, ...] = stated(description="what it lacks")
+    forecast: Forecast | None = stated(default=None, description="what a run would make of it; null: not asked for")
 
 
 def inspect(asset: Asset, graph: FunctionalGraph) -> Inspection:

@@ -77,7 +77,7 @@ def report_of(result: Functionalized, name: str = "", other_timings: Mapping[str
         moves=move_options(result),
         timings={stage: round(seconds, 4) for stage, seconds in timings.items()},
     )
-    return report.model_copy(update={"verdict": verdict_of(report)})
+    return report.with_changes(verdict=verdict_of(report))
 
 
 def _shown_by_shape(result: Functionalized) -> frozenset[str]:
@@ -133,11 +133,8 @@ def _joint_records(result: Functionalized) -> tuple[JointRecord, ...]:
         for made in result.report.installed
     )
     return tuple(
-        record.model_copy(
-            update={
-                "small": record.part in small,
-                "grasp_frames": _grasp_records(result.object, joints[record.id].child),
-            }
+        record.with_changes(
+            small=record.part in small, grasp_frames=_grasp_records(result.object, joints[record.id].child)
         )
         for record in records
     )

@@ -1,76 +1,130 @@
-"""What all records of a report have in common, those of how the piece stands, and of catches."""
+"""What all records of a report have in common: they are written as JSON, and read from it again.
 
-from typing import Any
+Records are frozen dataclasses, whose fields are given by name. `pydantic`, which reads them, is imported when one is
+read: a run that writes a report spares a tenth of a second.
+"""
 
-from pydantic import AliasChoices, BaseModel, ConfigDict, Field
+from collections.abc import Callable
+from dataclasses import MISSING, field, fields, replace
+from enum import Enum
+from types import UnionType
+from typing import Annotated, Any, ClassVar, TypeVar, dataclass_transform, get_args, get_type_hints
 
-from grafu.articulation.base import BaseKind
-from grafu.articulation.catch_kind import CatchKind
+from grafu.dataclass import dataclass
 from grafu.visible import short_repr
 
+Record = TypeVar("Record", bound="ReportRecord")
+_READERS: dict[Any, Any] = {}
 
-class ReportRecord(BaseModel):
-    """Abstract base: frozen, and strict about unknown fields."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+def stated(*, description: str, default: Any = MISSING, default_factory: Any = MISSING) -> Any:
+    """Returns a field of a record; `description` states in docs/report.md what it means."""
+    if default_factory is not MISSING:
+        return field(default_factory=default_factory, metadata={"description": description})
+    return field(default=default, metadata={"description": description})
+
+
+class NumberFrom:
+    """In an annotation: a number that is read must be finite, and lie between two ends (None: it has none)."""
+
+    def __init__(self, least: int | None = None, most: int | None = None) -> None:
+        self.ends = {name: end for name, end in (("ge", least), ("le", most)) if end is not None}
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
+        """Returns what pydantic reads such a number by."""
+        finite = {"allow_inf_nan": False} if source is float else {}
+        return {**handler(source), **finite, **self.ends}
+
+
+FiniteFloat = Annotated[float, NumberFrom()]
+Ratio = Annotated[float, NumberFrom(0, 1)]
+Count = Annotated[int, NumberFrom(0)]
+
+
+@dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(stated,))
+class ReportRecord:
+    """Abstract base: every class below it is made a frozen dataclass; to read one is strict about unknown fields."""
+
+    __pydantic_config__ = {"extra": "forbid"}  # noqa: RUF012  # no field: without an annotation
+
+    _floats: ClassVar[tuple[str, ...]] = ()
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        dataclass(frozen=True, repr=False, kw_only=True)(cls)
+        cls._floats = _floats_of(cls)
+
+    def __post_init__(self) -> None:
+        for name in self._floats:
+            value = getattr(self, name)
+            if value is not None and type(value) is not float:  # whole numbers are written with their point, too
+                object.__setattr__(self, name, float(value))
 
     def __repr__(self) -> str:
-        return short_repr(type(self).__name__, ((name, getattr(self, name)) for name in type(self).model_fields))
+        return short_repr(type(self).__name__, ((one.name, getattr(self, one.name)) for one in fields(self)))  # type: ignore[arg-type]
 
     __str__ = __repr__
 
+    def with_changes(self: Record, **changes: Any) -> Record:
+        """Returns the record with other values of some fields."""
+        return replace(self, **changes)  # type: ignore[type-var]
 
-def schema_field(name: str) -> Any:
-    """Returns the field `schema_`, whose value is `name`; it is called `schema` in JSON, a word that pydantic keeps."""
-    alias = AliasChoices("schema", "schema_")
-    return Field(default=name, validation_alias=alias, serialization_alias="schema", description="the form's name")
+    def to_json(self) -> dict[str, Any]:
+        """Returns the JSON-ready dict."""
+        return {name: _plain(getattr(self, name)) for name in self.__dataclass_fields__}  # type: ignore[attr-defined]
 
+    @classmethod
+    def read(cls: type[Record], values: object) -> Record:
+        """Returns the record that plain values of JSON state.
 
-class StabilityRecord(ReportRecord):
-    """How safely the piece stands on its own with everything open."""
+        Raises:
+            pydantic.ValidationError: if a value is missing, unknown or wrong.
+        """
+        record: Record = cls._reader().validate_python(values)
+        return record
 
-    mass: float = Field(description="of the whole, kg")
-    margin: float = Field(
-        description="the least that the centre of mass is inside the polygon on which it stands, closed or open, metres"
-    )
-    closed_margin: float | None = Field(
-        default=None, description="the same with every joint closed; null: written by an earlier version"
-    )
-    tipping_force: float | None = Field(
-        description="the least pull at a grip that tips it, newtons; 0: it tips by itself; null: none does"
-    )
-    tipping_joint: str = Field(description="the joint of that grip, or empty")
-    weight_needed: float = Field(
-        description="kg at the far side of its base with which it bears 20 N at doors, 30 N at drawers; 0: none"
-    )
-    wall_force: float = Field(description="what a wall mount at its upper edge must bear instead, newtons")
+    @classmethod
+    def read_json(cls: type[Record], text: str | bytes) -> Record:
+        """Returns the record that a JSON file holds; raises as `read` does."""
+        record: Record = cls._reader().validate_json(text)
+        return record
 
+    @classmethod
+    def _reader(cls) -> Any:
+        """Returns pydantic's reader of the record; beartype cannot check its type."""
+        if cls not in _READERS:
+            from pydantic import TypeAdapter
 
-class BaseRecord(ReportRecord):
-    """What holds the piece in a simulator."""
-
-    kind: BaseKind = Field(description="free: nothing, fixed: to the world, wall: it hangs or leans on one")
-    why: str = Field(description="as asked for, by default, or the evidence that it hangs or leans on a wall")
-    stability: StabilityRecord | None = Field(
-        default=None, description="null: no format with masses was written, or it has no base to stand on"
-    )
+            _READERS[cls] = TypeAdapter(cls)
+        return _READERS[cls]
 
 
-class CaughtJointRecord(ReportRecord):
-    """A joint with a catch."""
-
-    joint: str = Field(description="the joint's id")
-    kind: CatchKind = Field(description="detent: held where it is closed; self-closing: pulled closed, and held there")
-    effort: float | None = Field(
-        description="the force towards closed, newtons; of a hinge newton metres; null: none, or no format with masses "
-        "was written"
-    )
-    reach: float | None = Field(description="the value of the joint, metres or radians, from which on there is none")
+def described(record: type[ReportRecord]) -> dict[str, tuple[Any, str]]:
+    """Returns by field of a record its type, without conditions, and what it means."""
+    types = get_type_hints(record)
+    return {one.name: (types[one.name], one.metadata["description"]) for one in fields(record)}  # type: ignore[arg-type]
 
 
-class CaughtRecord(ReportRecord):
-    """The catches of doors and drawers."""
+def _floats_of(record: type[ReportRecord]) -> tuple[str, ...]:
+    """Returns the fields of a record that hold a float, or a float and else nothing."""
+    types = {one.name: one.type for one in fields(record)}  # type: ignore[arg-type]
+    return tuple(name for name, held in types.items() if any(map(_is_float, (held, *_either(held)))))
 
-    joints: tuple[CaughtJointRecord, ...] = Field(description="the joints that have one")
-    files: tuple[str, ...] = Field(description="the files that were written in which simulators find their forces")
-    files_without: tuple[str, ...] = Field(description="those that were written and whose formats cannot hold them")
+
+def _either(held: Any) -> tuple[Any, ...]:
+    """Returns the types of which a value may have any."""
+    return get_args(held) if isinstance(held, UnionType) else ()
+
+
+def _is_float(held: Any) -> bool:
+    return held is float or getattr(held, "__origin__", None) is float
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, ReportRecord):
+        return value.to_json()
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    return [_plain(item) for item in value] if isinstance(value, tuple | list) else value

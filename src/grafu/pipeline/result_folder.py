@@ -83,7 +83,7 @@ def read_report(folder: Path) -> Report:
     """
     data = read_own(folder / REPORT, "a report of grafu")
     try:
-        return Report.model_validate_json(data)
+        return Report.read_json(data)
     except ValidationError as error:
         raise UnreadableAsset(f"{folder / REPORT} is no report of grafu: {_first_line(error)}") from None
 

@@ -12,8 +12,8 @@ from grafu.asset.wall_units import hangs_on_wall
 from grafu.pipeline.settings import Settings
 
 if TYPE_CHECKING:
-    from grafu.pipeline.report_record import BaseRecord, StabilityRecord
     from grafu.pipeline.report_schema import Report
+    from grafu.pipeline.report_standing import BaseRecord, StabilityRecord
 
 _DIGITS = 4
 
@@ -25,7 +25,7 @@ def base_of(asset: Asset, settings: Settings) -> BaseKind | None:
 
 def base_record(asset: Asset, articulated: ArticulatedObject) -> "BaseRecord":
     """Returns what holds a piece, and why."""
-    from grafu.pipeline.report_record import BaseRecord
+    from grafu.pipeline.report_standing import BaseRecord
 
     evidence, base = hangs_on_wall(asset), articulated.base
     if base is None:
@@ -45,8 +45,8 @@ def with_stability(report: "Report", articulated: ArticulatedObject) -> "Report"
     if physics is None or report.base is None:
         return report
     found = stability_of(articulated, physics.masses, physics.shapes)
-    record = report.base.model_copy(update={"stability": None if found is None else _record(found)})
-    stated = report.model_copy(update={"base": record})
+    record = report.base.with_changes(stability=None if found is None else _record(found))
+    stated = report.with_changes(base=record)
     if report.base.kind is BaseKind.FREE:
         return with_notes(stated, *_notes(record))
     leans = articulated.base is None and found is not None and found.closed_margin < 0
@@ -54,7 +54,7 @@ def with_stability(report: "Report", articulated: ArticulatedObject) -> "Report"
 
 
 def _record(found: Stability) -> "StabilityRecord":
-    from grafu.pipeline.report_record import StabilityRecord
+    from grafu.pipeline.report_standing import StabilityRecord
 
     return StabilityRecord(
         mass=round(found.mass, _DIGITS),

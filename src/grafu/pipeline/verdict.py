@@ -77,8 +77,8 @@ def verdict_of(report: Report, config: VerdictConfig = VerdictConfig()) -> Verdi
 
 def with_notes(report: Report, *notes: str) -> Report:
     """Returns a report with more notes of what was done in a simpler way, or left out, and the verdict on all."""
-    noted = report.model_copy(update={"notes": (*report.notes, *notes)})
-    return noted.model_copy(update={"verdict": verdict_of(noted)}) if notes else report
+    noted = report.with_changes(notes=(*report.notes, *notes))
+    return noted.with_changes(verdict=verdict_of(noted)) if notes else report
 
 
 def not_built(report: Report) -> tuple[SkippedRecord, ...]:

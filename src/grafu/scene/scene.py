@@ -205,8 +205,7 @@ class Scene:
     def is_near_static(self, mesh: TriangleMesh, within: float, of: Collection[str] = ()) -> bool:
         """Whether a mesh comes within so many metres of a static part (`of`: of one of these)."""
         collider = MeshCollider(mesh)
-        near = self.static_obstacles_of(of).near(mesh.box, within)
-        return any(collider.is_within(within, obstacle.collider) for obstacle in near)
+        return any(collider.is_within(within, o.collider) for o in self.static_obstacles_of(of).near(mesh.box, within))
 
     def hardware_of(self, moving_id: str) -> tuple[Visual, ...]:
         """Returns the hardware installed on a moving body."""
@@ -245,8 +244,7 @@ class Scene:
         """Returns the scene in which more parts move with moving bodies: of each pair the body, then the part."""
         moving_bodies = dict(self.moving_bodies)
         for moving_id, part_id in pairs:
-            moving = moving_bodies[moving_id]
-            moving_bodies[moving_id] = MovingBody(moving.id, (*moving.members, part_id))
+            moving_bodies[moving_id] = replace(moving := moving_bodies[moving_id], members=(*moving.members, part_id))
         return replace(self, moving_bodies=moving_bodies)
 
     def without_parts(self, gone: Collection[str]) -> "Scene":
@@ -262,10 +260,12 @@ class Scene:
     def with_joint(
         self, moving_id: str, joint_motion: JointMotion, dynamic: Iterable[Visual], static: Iterable[Visual]
     ) -> "Scene":
-        """Returns the scene with a path of the moving body, and hardware added to it and to the static body."""
+        """Returns the scene with a path and more hardware of a moving body, and of the static one; other boxes stay."""
         added = [(moving_id, v) for v in dynamic] + [("", v) for v in static]
         motions = with_items(self.joint_motions, {moving_id: joint_motion})
-        return replace(self, hardware=(*self.hardware, *added), joint_motions=motions)
+        made = replace(self, hardware=(*self.hardware, *added), joint_motions=motions)
+        made._known.update({k: box for k, box in self._known.items() if k[0] is _body_box and k[1] != (moving_id,)})
+        return made
 
     def static_mesh_near(self, box: Box, margin: float, of: Collection[str] = ()) -> TriangleMesh:
         """Returns the static triangles (`of`: of these parts alone) whose own boxes come within `margin` of a box."""

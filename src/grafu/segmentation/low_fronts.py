@@ -24,10 +24,13 @@ def with_low(
     row of kitchen units.
     """
     division = config.division
-    small = candidates(view, may, replace(config.candidates, least=division.lowest, most_narrow=division.flattest))
     taken = {shell for front in fronts for shell in front.all_shells}
-    covered = [overlaps(view, front.shells[0]) > 0 for front in fronts]
-    free = [k for k in small.tolist() if k not in taken and not any(mask[k] for mask in covered)]
+    left = may.copy()  # what is a front already, or lies before one, is not looked at again
+    left[[*taken]] = False
+    for front in fronts:
+        left &= overlaps(view, front.shells[0]) <= 0
+    sizes = replace(config.candidates, least=division.lowest, most_narrow=division.flattest)
+    free = candidates(view, left, sizes).tolist()
     shorter, extent = view.size[:, :2].min(axis=1), Scale.of(view).extent
     low = {k for k in free if view.size[k, 0] > view.size[k, 1] and shorter[k] >= division.low * extent[k]}
     plates = [front.shells[0] for front in fronts]

@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, cross, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, cross, freeze_arrays, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.raycast import RayCaster
@@ -102,10 +102,10 @@ class ShellsView(ArrayValue):
         """How near to the viewer that is (z)."""
         return self.rays.depth
 
-    @property
+    @cached_property
     def size(self) -> PointsOfShells:
         """The extents of the shells."""
-        return self.high - self.low
+        return frozen_array(self.high - self.low)
 
     def of_shells(self, shells: Indices) -> "ShellsView":
         """Returns the view of some shells, numbered in their order; what rays meet keeps its number."""
@@ -114,13 +114,18 @@ class ShellsView(ArrayValue):
 
     def window(self, shell: int) -> tuple[slice, slice]:
         """Returns the rows and columns of the rays within the outline of a shell's box, at least one of each."""
+        (left, bottom), (right, top) = self._windows[0][shell], self._windows[1][shell]
+        return slice(bottom, top + 1), slice(left, right + 1)
+
+    @cached_property
+    def _windows(self) -> tuple[list[list[int]], list[list[int]]]:
+        """The first and the last column and row of the rays within the outline of each shell's box."""
         origin, cell = self.rays.origin, self.rays.cell
-        first = np.ceil((self.low[shell, :2] - origin) / cell - 1e-9).astype(int)
-        last = np.floor((self.high[shell, :2] - origin) / cell + 1e-9).astype(int)
+        first = np.ceil((self.low[:, :2] - origin) / cell - 1e-9).astype(int)
+        last = np.floor((self.high[:, :2] - origin) / cell + 1e-9).astype(int)
         ends = np.array(self.rays.shape[::-1]) - 1  # a speck at the very border lies beyond the last ray
         first = np.clip(first, 0, ends)
-        last = np.clip(last, first, ends)
-        return slice(first[1], last[1] + 1), slice(first[0], last[0] + 1)
+        return first.tolist(), np.clip(last, first, ends).tolist()
 
 
 @final

@@ -79,7 +79,7 @@ def _explained(found: JointCheck, file: Path, report: Report, config: CheckConfi
     """Returns a joint with what explains that it does not open: in URDF nothing carries the weight of a lid."""
     level = {joint.id for joint in report.joints if motion_kind(joint.type).turns and abs(joint.axis[2]) < config.level}
     heavy = file.suffix == ".urdf" and found.joint in level and found.opened < config.opened
-    return found.model_copy(update={"hint": NO_SPRINGS}) if heavy else found
+    return found.with_changes(hint=NO_SPRINGS) if heavy else found
 
 
 def _is_driven(report: Report, joint: SimJoint) -> bool:

@@ -2,34 +2,32 @@
 
 from typing import Literal
 
-from pydantic import Field
-
-from grafu.pipeline.report_record import ReportRecord, schema_field
+from grafu.pipeline.report_record import ReportRecord, stated
 
 
 class JointCheck(ReportRecord):
     """One joint, pulled and pushed shut in one file."""
 
-    joint: str = Field(description="the joint's name")
-    force: float = Field(description="the greatest pull that was allowed, newtons")
-    opened: float = Field(description="how far it opened, fraction of its range")
-    closed: float = Field(description="where it was in the end, fraction of its range; 0 is closed")
-    moved: tuple[str, ...] = Field(description="other joints that moved with it, though nothing couples them")
-    carries: bool | None = Field(
+    joint: str = stated(description="the joint's name")
+    force: float = stated(description="the greatest pull that was allowed, newtons")
+    opened: float = stated(description="how far it opened, fraction of its range")
+    closed: float = stated(description="where it was in the end, fraction of its range; 0 is closed")
+    moved: tuple[str, ...] = stated(description="other joints that moved with it, though nothing couples them")
+    carries: bool | None = stated(
         default=None, description="whether a cube dropped into it rests there and is carried; null: it is not hollow"
     )
-    works: bool = Field(description="whether it opened, closed, moved alone, and carried the cube")
-    hint: str = Field(default="", description="what explains that it does not open; empty: nothing known does")
+    works: bool = stated(description="whether it opened, closed, moved alone, and carried the cube")
+    hint: str = stated(default="", description="what explains that it does not open; empty: nothing known does")
 
 
 class FileCheck(ReportRecord):
     """One file, loaded into MuJoCo."""
 
-    file: str = Field(description="model.xml or model.urdf")
-    error: str = Field(default="", description="why it could not be loaded or was unstable; empty: it was loaded")
-    joints: tuple[JointCheck, ...] = Field(description="every joint that moves by itself within limits")
-    stands: bool | None = Field(description="whether it stays at rest on a floor, closed; null: a wall holds it")
-    stands_open: bool | None = Field(description="the same with everything open at once")
+    file: str = stated(description="model.xml or model.urdf")
+    error: str = stated(default="", description="why it could not be loaded or was unstable; empty: it was loaded")
+    joints: tuple[JointCheck, ...] = stated(description="every joint that moves by itself within limits")
+    stands: bool | None = stated(description="whether it stays at rest on a floor, closed; null: a wall holds it")
+    stands_open: bool | None = stated(description="the same with everything open at once")
 
     @property
     def works(self) -> bool:
@@ -41,10 +39,10 @@ class FileCheck(ReportRecord):
 class CheckReport(ReportRecord):
     """The whole check."""
 
-    schema_: Literal["grafu.check/1"] = schema_field("grafu.check/1")
-    version: str = Field(description="the version of grafu")
-    mujoco: str = Field(description="the version of MuJoCo")
-    files: tuple[FileCheck, ...] = Field(description="the files that were there")
+    schema: Literal["grafu.check/1"] = stated(default="grafu.check/1", description="the form's name")
+    version: str = stated(description="the version of grafu")
+    mujoco: str = stated(description="the version of MuJoCo")
+    files: tuple[FileCheck, ...] = stated(description="the files that were there")
 
     @property
     def works(self) -> bool:
