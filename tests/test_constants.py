@@ -50,8 +50,11 @@ from grafu.asset.ring_seats import RingSeatConfig
 from grafu.asset.scale import ScaleConfig
 from grafu.asset.seen_side import SeenSideConfig
 from grafu.asset.shown_lids import ShownLidConfig
+from grafu.asset.split_fronts import SplitFrontConfig
 from grafu.asset.standing import FrontEvidenceConfig, HeadingConfig, UpEvidenceConfig
+from grafu.asset.standing_handles import StandingHandleConfig
 from grafu.asset.standing_out import StandingOutConfig
+from grafu.asset.straight_borders import StraightBordersConfig
 from grafu.completion.alike import AlikeConfig
 from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
@@ -261,7 +264,7 @@ IN_FUNCTIONS = {
 CONFIGS = (
     AgreementConfig, AnimatedMotionConfig, BoardBehindConfig, BodiesOfFacesConfig, CadNamesConfig, PartedSurfaceConfig,
     BodyKindConfig, BoxInCaseConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
-    ClosedSideConfig,
+    ClosedSideConfig, SplitFrontConfig, StandingHandleConfig, StraightBordersConfig,
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     AlikeConfig, CopiedBarsConfig, CoverageTestConfig, CushionConfig, DrawnGripConfig,

@@ -1,17 +1,20 @@
 """Inputs that are one scanned or generated surface, parted into objects by a program that tells parts apart.
 
 Such objects are open where they meet: their borders run through the same vertices, and are ragged. What is a front is
-one object, its handle with it or apart, so none is cut; sheets become boards, as a sheet has nothing to hang by. Names
-and labels are not asked.
+one object, its handle with it or apart, so none is cut into fronts. Sheets become boards, as a sheet has nothing to
+hang by, with straight borders where they are rectangular. Names and labels are not asked.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import final
 
 import numpy as np
 
 from grafu.asset.part import Part
+from grafu.asset.split_fronts import with_joined_fronts
+from grafu.asset.standing_handles import without_handles
+from grafu.asset.straight_borders import plane_of, with_straight_borders
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Indices, Vec3
@@ -61,10 +64,27 @@ def is_parted_surface(parts: Sequence[Part], config: PartedSurfaceConfig = Parte
 
 
 def with_boards(parts: tuple[Part, ...], config: PartedSurfaceConfig = PartedSurfaceConfig()) -> tuple[Part, ...]:
-    """Returns the parts of a parted surface with a back and a rim on each that is a sheet."""
+    """Returns the parts of a parted surface, each that is a sheet as a board: it gets a back and a rim.
+
+    Borders of fronts are made straight, and handles that are one piece with a front are parts of their own.
+    """
     meshes = [part.mesh for part in parts]
-    thick = config.thick * float(merge_meshes(meshes).box.size.max())
-    return tuple(_board(part, thick, config) for part in parts)
+    extent = float(merge_meshes(meshes).box.size.max())
+    thick = config.thick * extent
+    facing = tuple(None if mesh.is_watertight else _facing(mesh, config) for mesh in meshes)
+    parts, facing = with_joined_fronts(parts, facing, thick)
+    straight = with_straight_borders(parts, facing, thick)
+    taken = {part.id for part in parts}
+    made: list[Part] = []
+    for part, towards in zip(straight, facing, strict=True):
+        made += (part,) if towards is None else _front(part, towards, extent, thick, taken)
+    return tuple(made)
+
+
+def _front(part: Part, towards: Vec3, extent: float, thick: float, taken: Collection[str]) -> tuple[Part, ...]:
+    """Returns a sheet as a board, and the handles that are one piece with it."""
+    front, *handles = without_handles(part, towards, plane_of(part.mesh, towards), extent, taken)
+    return (_board(front, towards, thick), *handles)
 
 
 def _borders(meshes: Sequence[TriangleMesh]) -> tuple[Indices, Indices]:
@@ -79,16 +99,9 @@ def _borders(meshes: Sequence[TriangleMesh]) -> tuple[Indices, Indices]:
     return np.bincount(mesh, minlength=len(meshes)), np.bincount(mesh[several], minlength=len(meshes))
 
 
-def _board(part: Part, thick: float, config: PartedSurfaceConfig) -> Part:
+def _board(part: Part, towards: Vec3, thick: float) -> Part:
     mesh = part.mesh
-    towards = _facing(mesh, config)
-    if towards is None or mesh.is_watertight:
-        return part
-    depth = mesh.triangles.mean(axis=1) @ towards
-    ahead = mesh.face_normals @ towards > config.even
-    order = np.argsort(depth[ahead])
-    covered = np.cumsum(mesh.face_areas[ahead][order])
-    plane = float(depth[ahead][order][np.searchsorted(covered, covered[-1] / 2)])
+    plane = plane_of(mesh, towards)
     handle = float((mesh.vertices[np.unique(mesh.faces)] @ towards).max()) - plane
     back = back_of(mesh, towards, handle + thick)
     material = max(part.surfaces, key=lambda surface: surface.mesh.area).material
