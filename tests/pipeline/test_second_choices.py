@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import pytest
 
+from grafu.articulation.motion_kind import motion_kind
 from grafu.asset.part import Asset
 from grafu.completion.rule import complete_by_rule
 from grafu.errors import TooComplex
 from grafu.geometry.budget import UNLIMITED
-from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
-from grafu.graph.edges import Hinge, Rail
-from grafu.graph.edit import rehung
+from grafu.graph.completion import BY_BOTH, BY_RULE, Decision, GraphCompletion
+from grafu.graph.edges import Hinge, Rail, Slide
+from grafu.graph.edit import as_contacts, rehung, with_edges
 from grafu.graph.motion import opening_face
 from grafu.graph.parse import parse_graph
 from grafu.joints.plan import PlanConfig
@@ -22,6 +23,7 @@ from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.second_choices import second_choices
 from grafu.pipeline.stages import Stages, without_joints
+from grafu.pipeline.turned_doors import turned_doors
 from grafu.processes.cache import NO_CACHE
 from grafu.refusal import Reason, Refusal
 from grafu.synth.cabinets.cabinet import Cabinet, make_cabinet
@@ -147,6 +149,42 @@ def test_a_door_that_nothing_holds_hangs_on_its_other_side(likely: float, built_
     assert [refusal.reason for refusal in made.realized.report.skipped] == (
         [] if built_side == RIGHT else [Reason.NO_ROOM]
     )
+
+
+def closed_by_a_door(name: str, label: PartLabel) -> tuple[Asset, GraphCompletion]:
+    """A body with one leaf between two posts before it, which is to slide to the left."""
+    leaf = replace(box(name, (-0.2, -0.21, 0.05), (0.15, -0.18, 0.25)), label=label)
+    still = {
+        "body": ((-0.25, -0.178, 0.0), (0.25, 0.24, 0.3)),
+        "post_1": ((-0.25, -0.21, 0.0), (-0.205, -0.178, 0.3)),
+        "post_2": ((0.155, -0.21, 0.0), (0.25, -0.178, 0.3)),
+    }
+    boards = (replace(box(name, *ends), label=PartLabel.SIDE_PANEL) for name, ends in still.items())
+    asset = Asset("made", "", "made", (leaf, *boards))
+    right = complete_by_rule(parse_graph(asset))
+    graph = with_edges(as_contacts(right.completed), [Slide("body", name, 0)])
+    stated = Decision(name, "slide", LEFT, 0.56, RIGHT, 0.44, others=((RIGHT, 0.44),))
+    return asset, replace(right, completed=graph, decisions=(stated,))
+
+
+def test_a_door_that_cannot_slide_turns() -> None:
+    asset, sliding = closed_by_a_door("door", PartLabel.DOOR)
+    made = built(asset, sliding)
+    assert [hinge.child for hinge in made.completion.completed.hinges] == ["door"]
+    done = made.realized.report.installed
+    assert [motion_kind(one.type).turns for one in done] == [True]
+    assert made.completion.decision("door", "slide") is None
+    assert {d.by for d in made.completion.decisions} == {BY_RULE}
+    assert "towards the left (56%) it is blocked" in done[0].notes
+
+
+def test_only_doors_without_a_joint_turn_instead() -> None:
+    _, sliding = closed_by_a_door("door", PartLabel.DOOR)
+    assert turned_doors(sliding, []) is None
+    assert turned_doors(sliding, [Refusal("door", Reason.UNSUPPORTED)]) is None
+    assert turned_doors(sliding, [Refusal("door", Reason.BLOCKED)]) is not None
+    _, tray = closed_by_a_door("tray", PartLabel.MISC)
+    assert turned_doors(tray, [Refusal("tray", Reason.BLOCKED)]) is None
 
 
 def test_other_refusals_change_nothing(asset: Asset) -> None:

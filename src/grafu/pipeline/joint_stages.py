@@ -31,6 +31,7 @@ from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.second_choices import noted, second_choices
 from grafu.pipeline.shown_by_shape import shown_by_shape
 from grafu.pipeline.stages import Stages, nothing_before_joints, without_joints
+from grafu.pipeline.turned_doors import turned_doors
 from grafu.processes.cache import Cache
 from grafu.refusal import Refusal
 from grafu.templates.template import Gallery
@@ -64,25 +65,33 @@ class JointStages:
     def with_second_choices(self, completion: GraphCompletion) -> BuiltJoints:
         """Returns the joints of a completion, with another direction where the likeliest one is blocked.
 
-        What was stated is not chosen again. What was only guessed to move stays where it cuts into other parts.
+        A door that cannot slide turns. What was stated is not chosen again. What was only guessed to move stays where
+        it cuts into other parts.
         """
         first = best = self.built(completion)
         config = self.config.joints.plan
         for turn in range(0 if self.method.reads_annotation else config.other_directions):
             skipped = best.realized.report.skipped
             other = second_choices(best.completion, skipped, turn, config)
-            if other is None or self.stages.gave_up("realize"):
+            if other is None:
                 break
-            before, tried = self.stages.given_up(), self.built(other)
-            if len(tried.realized.report.installed) > len(best.realized.report.installed):
-                best = tried
-            else:
-                self.stages.take_back(before)
-        best = self._without_colliding(best)
+            best = self._better(best, other)
+        turned = None if self.method.reads_annotation else turned_doors(best.completion, best.realized.report.skipped)
+        best = self._without_colliding(best if turned is None else self._better(best, turned))
         if best is first:
             return first
         report = noted(best.realized.report, completion, best.completion, first.realized.report.skipped)
         return best._replace(realized=replace(best.realized, report=report))
+
+    def _better(self, best: BuiltJoints, other: GraphCompletion) -> BuiltJoints:
+        """Returns the joints of another completion where more of them could be built, else the best so far."""
+        if self.stages.gave_up("realize"):
+            return best
+        before, tried = self.stages.given_up(), self.built(other)
+        if len(tried.realized.report.installed) > len(best.realized.report.installed):
+            return tried
+        self.stages.take_back(before)
+        return best
 
     def _without_colliding(self, made: BuiltJoints) -> BuiltJoints:
         """Returns the joints in which what was only guessed to move stays where it cuts into other parts.
