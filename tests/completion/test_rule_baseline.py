@@ -201,6 +201,13 @@ def test_doors_that_meet_slide_where_one_stands_clearly_before_the_other(offset,
     assert len(complete_by_rule(graph).completed.slides) == slides
 
 
+def test_a_door_that_is_drawn_ajar_does_not_slide_past_its_closed_neighbour():
+    """The box of a door that stands open by a tenth of its width is deep: its middle is far from the other's plane."""
+    ajar = ([0.02, -0.06, 0], [0.499, 0.02, 1])
+    graph = scene(**case(), door_1=ajar, door_2=([0.501, 0.0, 0], [0.98, 0.02, 1]))
+    assert not complete_by_rule(graph).completed.slides
+
+
 def test_a_sliding_door_without_anything_above_or_below_is_refused():
     graph = scene(
         back=([0, 0.5, 0], [1, 0.52, 1]),

@@ -160,7 +160,10 @@ class RowConfig:
     planes: tuple[float, float] = (0.6, 3.0)
     """Distance of their planes: at least over the smaller thickness, at most over the larger."""
     in_two_planes: float = 1.2
-    """Distance over the thickness from which on doors that merely meet slide, and are no pair that swings."""
+    """Distance over the thickness from which on doors that merely meet slide, and are no pair that swings, ..."""
+    shared_depth: float = 0.5
+    """... if the depths of the two share at most this (fraction of the smaller thickness): the box of a door that is
+    drawn ajar is deep, and its middle is far from the plane of a closed door, which lies within that depth."""
     sheet: float = 1e-3
     """What is thinner is drawn without thickness (fraction of its largest side) ..."""
     thick: float = 0.01

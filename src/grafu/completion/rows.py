@@ -58,7 +58,8 @@ def _laps(door: PartNode, other: PartNode, config: RowConfig) -> bool:
     width = float(min(door.box.size[axis], other.box.size[axis]))
     least, most = config.lap
     laps = least * width <= lap <= most * width
-    meets = abs(lap) <= least * width and apart >= config.in_two_planes * thickness
+    beside = -float(door.box.axis_gaps(other.box)[thin]) <= config.shared_depth * thickness
+    meets = abs(lap) <= least * width and apart >= config.in_two_planes * thickness and beside
     return config.planes[0] * thickness <= apart <= farthest and (laps or meets)
 
 
