@@ -31,6 +31,7 @@ from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.framed_leaves import FramedLeafConfig
 from grafu.asset.grips import DrawnGripConfig
 from grafu.asset.handle_stands import HandleStandConfig
+from grafu.asset.handles_in_doors import HandlesInDoorsConfig
 from grafu.asset.lasso_cut import LassoConfig
 from grafu.asset.leaf_pieces import LeafPieceConfig
 from grafu.asset.link_groups import LinkGroupConfig
@@ -264,7 +265,7 @@ IN_FUNCTIONS = {
 CONFIGS = (
     AgreementConfig, AnimatedMotionConfig, BoardBehindConfig, BodiesOfFacesConfig, CadNamesConfig, PartedSurfaceConfig,
     BodyKindConfig, BoxInCaseConfig, CandidateConfig, CaseConfig, CatchConfig, CutConfig, DivisionConfig,
-    ClosedSideConfig, SplitFrontConfig, StandingHandleConfig, StraightBordersConfig,
+    ClosedSideConfig, HandlesInDoorsConfig, SplitFrontConfig, StandingHandleConfig, StraightBordersConfig,
     DoorRuleConfig,
     DracoConfig, DrawerRuleConfig,
     AlikeConfig, CopiedBarsConfig, CoverageTestConfig, CushionConfig, DrawnGripConfig,

@@ -47,6 +47,15 @@ def test_slivers_that_stretch_a_piece_keep_it_from_no_front(width, joins):
     assert (len(parts) == 1) is joins
 
 
+@pytest.mark.parametrize(("width", "joins"), [(0.1, True), (0.3, False)])
+def test_the_side_of_a_drawer_joins_its_front_with_pieces_of_the_runner_drawn_in_it(width, joins):
+    front, side, *_ = drawer("A", 0.6, 0.9)
+    runners = [part("runner", (0.0, y, 0.55), (width, y + 0.02, 0.57)) for y in (0.1, 0.2, 0.3)]
+    side = replace(side, surfaces=(*side.surfaces, *(surface for runner in runners for surface in runner.surfaces)))
+    parts, _ = with_joined_pieces((front, side), WHOLE)
+    assert (len(parts) == 1) is joins
+
+
 @pytest.mark.parametrize(("left", "joins"), [(0.1, True), (0.7, False)])
 def test_what_is_called_a_door_within_another_is_its_pane(left, joins):
     frame = part("Doors.003", (0, 0, 0), (1, 0.03, 1), PartLabel.DOOR)

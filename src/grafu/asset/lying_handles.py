@@ -68,13 +68,13 @@ def with_lying_handles(
     ]
     return tuple(
         replace(part, label=PartLabel.HANDLE, labelled_by="shape")
-        if lies and part.labelled_by == "none" and any(_is_handle_on(*front, part.box, config) for front in fronts)
+        if lies and part.labelled_by == "none" and any(lies_as_handle(*front, part.box, config) for front in fronts)
         else part
         for part, lies in zip(parts, lying, strict=True)
     )
 
 
-def _is_handle_on(front: Box, facing: int | None, box: Box, config: LyingHandleConfig) -> bool:
+def lies_as_handle(front: Box, facing: int | None, box: Box, config: LyingHandleConfig) -> bool:
     """Whether a box is a handle of a front, which looks along the axis `facing`; None: along its thinnest."""
     axis = front.thin_axis if facing is None else facing
     across = np.delete(np.arange(3), axis)

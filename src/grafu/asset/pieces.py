@@ -53,9 +53,9 @@ class PieceConfig:
     alike: float = 0.1
     """Gaps that differ by less are one: a door wins over a frame that the handle touches as closely (fraction of
     `reach`)."""
-    stray: float = 0.02
-    """Shells smaller than this are slivers of a piece (fraction of its area) ..."""
-    strays: float = 0.1
+    stray: float = 0.05
+    """Shells smaller than this are slivers of a piece, or pieces of a runner (fraction of its area) ..."""
+    strays: float = 0.2
     """... if all of them together are no more than this."""
     points: int = 300
     """Points of a handle that are measured, about ..."""

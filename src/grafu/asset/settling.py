@@ -13,7 +13,7 @@ from grafu.asset.appliance_fronts import with_appliance_fronts
 from grafu.asset.boarded_drawers import with_boarded_drawers
 from grafu.asset.bodies_of_faces import with_bodies_of_faces
 from grafu.asset.boxes_in_cases import with_boxes_from_cases
-from grafu.asset.cutting import cut_where_fronts_appear
+from grafu.asset.cutting import cut_where_fronts_appear, is_divided, turn_of
 from grafu.asset.door_frames import with_door_frames
 from grafu.asset.either_kind import with_either_kind
 from grafu.asset.folder import divide, looked_for_fronts
@@ -21,6 +21,7 @@ from grafu.asset.frame import settle_frame, straightened, turned_before, whole_b
 from grafu.asset.framed_leaves import with_framed_leaves
 from grafu.asset.furniture_pieces import FurniturePiece, told_apart
 from grafu.asset.handle_stands import with_handle_stands
+from grafu.asset.handles_in_doors import with_handles_of_doors
 from grafu.asset.leaf_pieces import with_leaf_pieces
 from grafu.asset.lid_names import with_lids_by_name
 from grafu.asset.loose import loose_parts, with_split_handles
@@ -85,6 +86,9 @@ def settled(
         reading = with_shown_lid(with_boxes_from_cases(reading, stands), stands, name)
         reading = replace(reading, parts=with_appliance_fronts(reading.parts, stands))
         reading = _with_split_handles(reading)
+        if is_divided(reading):
+            parts = with_handles_of_doors(reading.parts, turn_of(stands), labelled=not hidden)
+            reading = replace(reading, parts=parts)
     reading = replace(reading, parts=with_bodies(with_control_panels(reading.parts)))
     _check_parts(reading, path, options)
     if options.labels == "none":

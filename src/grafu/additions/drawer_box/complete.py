@@ -15,7 +15,7 @@ from grafu.additions.closed_scene import ClosedScene, closed_part, closed_scene
 from grafu.additions.drawer_box.boards import boards_in_room, boards_to_complete, has_walls
 from grafu.additions.drawer_box.config import BoxProbeConfig, DrawerBoxConfig
 from grafu.additions.drawer_box.loose import loose_boards
-from grafu.additions.drawer_box.room import Room, find_room
+from grafu.additions.drawer_box.room import Room, end_of_room, find_room
 from grafu.additions.drawer_box.verdict import BoardName, BoxVerdict, as_front_only, box_verdict
 from grafu.additions.likeness import surface_like
 from grafu.additions.step import (
@@ -114,9 +114,13 @@ def complete_drawers(
         if isinstance(made, Refusal):
             if drawn_with_the_case(verdict, request, closed, config):
                 verdicts[-1] = replace(verdict, kind="whole", missing=(), why=WITH_THE_CASE)
-            else:
+                continue
+            front = _as_thick_front(verdict, made, request, closed, config)
+            boxed = drawer_box(front, request, closed, config, known) if front else made
+            if front is None or isinstance(boxed, Refusal):
                 refused.append(made)
-            continue
+                continue
+            verdicts[-1], made = front, boxed
         additions += made
         known |= {addition.part.id for addition in made}
         closed = closed.with_parts(tuple(closed_part(a.part, request) for a in made))
@@ -147,6 +151,22 @@ def missing_box(request: JointRequest, closed: ClosedScene, config: DrawerBoxCon
         if behind > config.deeper * frame.depth:
             return as_front_only(verdict, frame, behind)
     return verdict
+
+
+def _as_thick_front(
+    verdict: BoxVerdict, refusal: Refusal, request: JointRequest, closed: ClosedScene, config: DrawerBoxConfig
+) -> BoxVerdict | None:
+    """Returns the verdict on a drawer as on a front where something stands in the way of the boards that it lacks.
+
+    None where no space lies behind it that is deep beside it. What is drawn of such a front looks like boards of a box:
+    a hollow block, flanges.
+    """
+    framed = closed.framed(request)
+    if verdict.kind != "incomplete" or refusal.reason is not Reason.IN_THE_WAY or framed is None:
+        return None
+    frame = framed[0]
+    behind = end_of_room(closed.triangles(request, frame)[0], frame, config) - frame.depth
+    return as_front_only(verdict, frame, behind) if behind > config.deeper * frame.depth else None
 
 
 def drawn_with_the_case(

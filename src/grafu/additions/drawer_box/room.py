@@ -57,7 +57,7 @@ def find_room(
         config: clearances and least sizes.
         limit: the y at which the box must end at the latest, metres.
     """
-    end = min(_end_of(still, frame, config), limit)
+    end = min(end_of_room(still, frame, config), limit)
     if end <= frame.depth:
         return Refusal("", Reason.NO_SUPPORT, "nothing stands behind the front that could carry a box")
     half = np.array([frame.width / 2, frame.height / 2]) - min(config.drawn_in, config.drawn_in_ratio * frame.height)
@@ -79,7 +79,7 @@ def find_room(
     return _with_clearance(free, frame, config)
 
 
-def _end_of(still: np.ndarray, frame: DrawerFrame, config: DrawerBoxConfig) -> float:
+def end_of_room(still: np.ndarray, frame: DrawerFrame, config: DrawerBoxConfig) -> float:
     """Returns the y up to which a box may reach: to a thing behind it, or under the rear edge of what is around it."""
     if not len(still):
         return 0.0
