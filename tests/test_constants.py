@@ -73,6 +73,8 @@ from grafu.completion.held_borders import HeldBorderConfig
 from grafu.completion.level_bars import LevelBarConfig
 from grafu.completion.lids_above import LidAboveConfig
 from grafu.completion.lone_fronts import LoneFrontConfig
+from grafu.completion.moving_links import MovingLinkConfig
+from grafu.completion.one_link import BodyLinkConfig
 from grafu.completion.oven_doors import OvenDoorConfig
 from grafu.completion.rehang import RehangConfig
 from grafu.completion.round_doors import RoundDoorConfig
@@ -276,8 +278,8 @@ CONFIGS = (
     FramedDoorsConfig, HandleSideConfig, HeldBorderConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig,
     LeafPieceConfig,
     BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
-    ControlPanelConfig, LidAboveConfig, RingSeatConfig,
-    LevelBarConfig, LoneFrontConfig, LyingHandleConfig, LyingWindowConfig, OvenDoorConfig,
+    BodyLinkConfig, ControlPanelConfig, LidAboveConfig, RingSeatConfig,
+    LevelBarConfig, LoneFrontConfig, MovingLinkConfig, LyingHandleConfig, LyingWindowConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, MisnamedConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,

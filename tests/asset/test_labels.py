@@ -231,6 +231,7 @@ def test_ten_languages_give_labels(label, name):
 def test_words_behind_the_noun_that_nobody_knows_blur_a_name():
     assert sense_of("drawer_sprocket").is_blurred
     assert not sense_of("drawer_2_main").is_blurred
+    assert not sense_of("front_drawer_c0_r2").is_blurred  # column and row
     assert not sense_of("frieze_drawer").is_blurred
     assert sense_of("sweethome3d_opening_on_hinge_1_door_sprocket").is_blurred
     assert sense_of("sweethome3d_opening_on_rail_2_door_glass").is_piece

@@ -46,3 +46,19 @@ def test_gltf_meshes_that_stand_on_y_are_y_up(tmp_path, suffix, up):
         mesh.apply_translation(middle)
         mesh.export(folder / f"{name}.{suffix}")
     assert load_asset(folder).frame.up == up
+
+
+PULL = """<robot name="made"><link name="case">{case}</link><link name="upper_tray">{tray}</link>
+<joint name="j" type="fixed"><parent link="case"/><child link="upper_tray"/></joint></robot>"""
+
+
+def test_a_urdf_of_boxes_is_a_robot_and_its_links_are_parts(tmp_path):
+    folder = tmp_path / "m"
+    folder.mkdir()
+    tray = boxes("0.9 0.4 0.02", "0.9 0.02 0.2").replace("part_", "board_")
+    (folder / "mobility.urdf").write_text(PULL.format(case=boxes("1.2 0.5 0.6", "1.2 0.4 0.02"), tray=tray))
+    asset = load_asset(folder)
+    assert (asset.kind, asset.name) == ("urdf", "m")
+    assert [part.source.link for part in asset.parts].count("upper_tray") == 1
+    (folder / "semantics.txt").write_text("")
+    assert load_asset(folder).kind == "partnet-mobility"

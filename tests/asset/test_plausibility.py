@@ -231,3 +231,9 @@ def test_where_a_door_has_no_handle_either_fronts_are_drawers():
 def test_a_plain_front_elsewhere_is_a_drawer():
     beside = part("drawer_front_9", (1.1, -0.02, 0.1), (1.5, 0.0, 0.3))
     assert drawers((*sink_base("drawer_front_0", "drawer_front_1"), beside)) == {"drawer_front_9"}
+
+
+@pytest.mark.parametrize(("name", "is_static"), [("console", True), ("plank", False)])
+def test_a_console_with_a_screen_on_it_is_static(name, is_static):
+    front, screen = part(name, *LEAF), part("screen", (0.5, -0.025, 0.5), (0.7, -0.02, 0.6))
+    assert (labels(part("dryer", *CASE), front, screen)[name] is PartLabel.MISC) is is_static

@@ -104,3 +104,21 @@ def test_what_the_user_or_a_label_states_overrules_what_it_rests_on():
     assert settle_frame(Reading("glb", parts, GLTF), LoadOptions(up="+Y")).up == "+Y"
     side = replace(parts[0], label=PartLabel.SIDE_PANEL, labelled_by="name")
     assert settle_frame(Reading("glb", (side, *parts[1:]), GLTF), LoadOptions()).up == "+Y"
+
+
+def refrigerator(*below: Part) -> tuple[Part, ...]:
+    """Returns a case that ends above the floor, with two doors and upright handles before it."""
+    doors = [box(f"d{x}", (x, -0.42, 0.06), (x + 0.45, -0.35, 1.79)) for x in (-0.46, 0.01)]
+    bars = [box(f"b{x}", (x, -0.46, 0.6), (x + 0.02, -0.42, 1.5)) for x in (-0.06, 0.04)]
+    walls = [box(f"w{x}", (x, -0.34, 0.03), (x + 0.05, 0.3, 1.79)) for x in (-0.46, 0.41)]
+    boards = [box(f"s{z}", (-0.41, -0.34, z), (0.41, 0.3, z + 0.05)) for z in (0.03, 1.74)]
+    return (*walls, *boards, box("back", (-0.41, 0.25, 0.08), (0.41, 0.3, 1.74)), *doors, *bars, *below)
+
+
+def test_a_piece_whose_grille_alone_reaches_the_floor_stands_on_it():
+    grille = box("g", (-0.45, -0.35, 0.0), (0.45, -0.32, 0.03))
+    upright = in_pose(refrigerator(grille), "+Z", "-X")
+    assert stands_on_another_side(upright, "+Z", "+Y") is None
+    # a row of handles along a border is none: between them nothing is
+    row = [box(f"h{x}", (x, -0.35, 0.0), (x + 0.12, -0.33, 0.03)) for x in (-0.45, -0.06, 0.33)]
+    assert stands_on_another_side(in_pose(refrigerator(*row), "+Z", "-X"), "+Z", "+Y") == "+Y"

@@ -161,6 +161,16 @@ def test_a_side_is_stated_as_it_was_before_the_network_added_a_handle_itself() -
     assert (completion.added, border.choice, border.by) == (("handle_added_1",), "0", "")
     assert border.score == pytest.approx(ratio_of(lean, 4), abs=1e-4)
     assert ratio_of(SURE, 4) > 0.9  # what it states with its handle
+
+    fresh = replace(told(), kinds=said.kinds, parents={}, added=[[(PartLabel.HANDLE, box_of("knob"), "door")]])
+    again = fresh.about(graph)
+
+    def drops_with_its_own_handle(features: GraphFeatures) -> Scores:
+        scores, is_seen = again(features), len(features.labels) > len(names)
+        return replace(scores, border=scores.border[..., [2, 1, 0, 3]]) if is_seen else scores
+
+    seen = complete_by_network(graph, drops_with_its_own_handle, FEW, ONCE).decision("door", "border")
+    assert seen.choice == "0"  # the handle that it added turns no door to a border that it had ruled out
     shown = complete(cupboard(), replace(told(), added=[[(PartLabel.HANDLE, KNOB, "drawer")]]))
     assert shown.decision("door", "border").score == pytest.approx(ratio_of(SURE, 4), abs=1e-4)
 

@@ -307,3 +307,15 @@ def test_a_cushion_on_a_closed_seat_is_no_lid(hollow, kept):
     )
     asset, completion = made([cushion, body], "cushion", Hinge("base", "cushion", 0, 1))
     assert (shape_against(completion.completed.node("cushion"), asset, completion.completed) == "") is kept
+
+
+@pytest.mark.parametrize(
+    ("depth", "is_held", "is_static"), [(0.15, True, False), (0.15, False, True), (0.45, True, True)]
+)
+def test_a_door_with_a_handle_may_have_bins_behind_it(depth, is_held, is_static):
+    """Nearly half as deep as wide; a drawer, which reaches far back, and a block without a handle are no doors."""
+    asset, completion = made(
+        [*BASE_CASE, box("guess", (0.0, -0.02, 0.1), (0.35, depth, 0.8))], "guess", Hinge("left", "guess", 0, 1)
+    )
+    said = shape_against(completion.completed.node("guess"), asset, completion.completed, is_held)
+    assert ("too thick" in said) is is_static

@@ -150,3 +150,37 @@ def test_a_wide_front_with_a_level_bar_at_its_edge_turns_about_the_other_one(z, 
 def test_other_doors_with_level_bars_hang_as_predicted(door, handle):
     before, after = hung(door, [handle], LEFT)
     assert after is before
+
+
+def in_one(door, *more):
+    return replace(door, surfaces=(*door.surfaces, *(surface for part in more for surface in part.surfaces)))
+
+
+def test_a_grip_that_is_drawn_in_one_with_its_door_tells_the_side():
+    low, high = (-0.34, -0.042, 0.3), (-0.31, -0.03, 0.5)
+    _, after = hung(in_one(DOOR, box("grip", low, high)), [], LEFT)
+    assert border_to_face(1, after.completed.hinges[0].border) == RIGHT
+
+
+def test_a_bar_and_its_posts_in_one_with_a_wide_front_are_one_handle():
+    wide = box("door", (-0.35, -0.03, 0.1), (0.35, 0.0, 0.5))
+    bar_and_posts = [
+        box("bar", (-0.1, -0.07, 0.13), (0.1, -0.06, 0.14)),
+        *(box(f"post_{x}", (x, -0.062, 0.131), (x + 0.006, -0.03, 0.139)) for x in (-0.08, 0.074)),
+    ]
+    _, after = hung(in_one(wide, *bar_and_posts), [], LEFT)
+    assert border_to_face(1, after.completed.hinges[0].border) == TOP
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        [box("bin", (-0.34, 0.0, 0.3), (-0.24, 0.03, 0.5))],
+        [box(f"moulding_{x}", (x, -0.042, 0.12), (x + 0.02, -0.03, 0.68)) for x in (-0.3, 0.28)],
+        [box("plate", (-0.34, -0.033, 0.3), (-0.24, -0.03, 0.4))],
+    ],
+    ids=["behind the leaf", "mouldings at both sides", "a flat plate"],
+)
+def test_other_shells_of_a_door_tell_no_side(more):
+    _, after = hung(in_one(DOOR, *more), [], LEFT)
+    assert border_to_face(1, after.completed.hinges[0].border) == LEFT

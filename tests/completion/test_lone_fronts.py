@@ -198,3 +198,16 @@ BROAD = box("front", (-0.48, -0.02, 0.3), (0.48, 0.0, 0.85))
 def test_a_broad_front_that_is_higher_than_what_is_behind_it_is_deep_drops_or_lifts(front, handle, face):
     """The whole is 0.4 m deep behind it: a dishwasher, a cabinet for shoes."""
     assert turned(front=front, handle=handle) == face
+
+
+@pytest.mark.parametrize(
+    ("kind", "depth", "turns"), [("urdf", 0.35, True), ("glb", 0.35, False), ("urdf", 0.02, False)]
+)
+def test_a_front_alone_is_no_drawer_where_another_link_has_the_box_of_one(kind, depth, turns):
+    other = replace(box("other", (-0.48, -0.02, 0.1), (0.48, depth, 0.38)), label=PartLabel.DRAWER)
+    asset = Asset("made", "", kind, (BODY, replace(PLATE, label=PartLabel.DRAWER), other))
+    graph = parse_graph(asset)
+    edges = [Rail("body", name, FRONT) for name in ("front", "other")]
+    told = (Decision("front", "label", "drawer", 0.9, "door", 0.1), Decision("front", "slide", str(FRONT), 0.8))
+    after = with_lone_fronts(GraphCompletion(graph, with_edges(graph, edges), "network", decisions=told), asset)
+    assert (after.completed.node("front").label is PartLabel.DOOR) is turns

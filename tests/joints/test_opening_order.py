@@ -117,3 +117,10 @@ def test_a_seat_does_not_wait_for_a_lid_that_hardly_opens():
     order = stacked(30.0)
     assert order.after == ()
     assert order.upper < np.radians(5)
+
+
+@pytest.mark.parametrize(("opens", "after"), [(55.0, ("lid",)), (40.0, ())])
+def test_what_hardly_opens_below_a_closed_lid_waits_for_it_though_that_opens_half(opens, after):
+    order = stacked(opens)
+    assert order.after == after
+    assert bool(np.degrees(order.upper) > 40.0) is bool(after)

@@ -152,3 +152,32 @@ def test_a_grid_is_mostly_open_from_above_and_from_its_sides():
     assert not is_grid(DOOR.mesh)
     assert not is_grid(merge_meshes([DOOR.mesh, BAR.mesh]))
     assert not is_grid(box("tray", (0.0, 0.0, 0.0), (0.5, 0.5, 0.01)).mesh)
+
+
+def loose_rack(name, label=PartLabel.SHELF):
+    """A rack whose upper ring of wires is drawn above its grid and touches nothing."""
+    grid = [box("w", (x, 0.03, 0.3), (x + 0.004, 0.5, 0.304)) for x in (0.03, 0.3, 0.566)]
+    grid += [box("w", (0.03, y, 0.3), (0.57, y + 0.004, 0.304)) for y in (0.03, 0.496)]
+    ring = [box("w", (x, 0.03, 0.4), (x + 0.004, 0.5, 0.404)) for x in (0.03, 0.566)]
+    surfaces = tuple(surface for wire in (*grid, *ring) for surface in wire.surfaces)
+    return replace(box(name, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), surfaces=surfaces, label=label)
+
+
+def test_a_rack_that_is_one_link_is_one_though_its_wires_are_apart():
+    rack = loose_rack("lower_rack")
+    assert racks(rack) == {}
+
+    def of_robot(link):
+        parts = [replace(part, source=replace(part.source, link="body")) for part in (DOOR, *BASE_CASE)]
+        mine = replace(rack, source=replace(rack.source, link=link))
+        asset = replace(scene(*parts, mine), kind="urdf")
+        return with_racks(RealizationPlan((request(),), ()), asset, parse_graph(asset)).joints[1:]
+
+    assert [one.moving for one in of_robot("lower")] == ["lower_rack"]
+    assert of_robot("body") == ()
+
+
+def test_the_rails_on_the_walls_stay_as_a_rack_slides():
+    rails = [box(f"rack_rail_{k}", (x, 0.03, 0.3), (x + 0.005, 0.5, 0.31)) for k, x in enumerate((0.02, 0.575))]
+    ((name, found),) = racks(basket("basket", 0.3, x=(0.025, 0.575)), *rails).items()
+    assert (name, found.attached) == ("basket", ())

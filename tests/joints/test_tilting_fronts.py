@@ -182,3 +182,14 @@ def test_a_front_without_a_label_that_is_called_tilting_tilts():
     slide = JointRequest("tilt_front", JointType.PRISMATIC, Axis(front.box.center, vec3(0.0, -1.0, 0.0)), "network")
     (made,) = with_shown_tilts(RealizationPlan((slide,), ()), asset, parse_graph(asset)).joints
     assert (made.type, float(made.axis.direction[0])) == (JointType.REVOLUTE, pytest.approx(1.0))
+
+
+@pytest.mark.parametrize(
+    ("piece", "depth", "tilts"), [("shoe_rack_3", 0.17, True), ("cabinet", 0.17, False), ("shoe_rack_3", 0.38, False)]
+)
+def test_what_is_higher_than_deep_in_a_shoe_cabinet_tilts(piece, depth, tilts):
+    front = replace(box("compartment", (-0.39, -0.3, 0.2), (0.39, -0.3 + depth, 0.6)), label=PartLabel.UNKNOWN)
+    asset = replace(scene(front, box("side", (-0.4, -0.28, 0.0), (-0.391, 0.1, 0.86))), name=piece)
+    slide = JointRequest("compartment", JointType.PRISMATIC, Axis(front.box.center, vec3(0.0, -1.0, 0.0)), "network")
+    (made,) = with_shown_tilts(RealizationPlan((slide,), ()), asset, parse_graph(asset)).joints
+    assert (made.type is JointType.REVOLUTE) is tilts

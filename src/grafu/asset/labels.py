@@ -182,7 +182,7 @@ def _sense(said: tuple[str, ...]) -> Sense:
 def _as_moving(said: tuple[str, ...], moving: tuple[int, int, PartLabel]) -> Sense | None:
     """Returns what a name with a door or drawer in it states, None where another noun is its head."""
     start, end, label = moving
-    tail = said[end:]
+    tail = tuple(word for word in said[end:] if len(word) > 1)  # `drawer_r0_c2`: the letters of a row and a column
     if (tail or end - start > 1) and set(said[:start]) & _HARDWARE:
         return None  # `hinge_door_leaf`: the leaf of the hinge that is on the door
     if _leads(said[:start], label):

@@ -24,7 +24,7 @@ from grafu.asset.reading import Convention, Furniture, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.standing import spelled
 from grafu.asset.urdf import CONVENTION as URDF_CONVENTION
-from grafu.asset.urdf import UrdfBodies, read_bodies
+from grafu.asset.urdf import UrdfBodies, read_bodies, read_urdf
 from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface
@@ -212,13 +212,22 @@ def read_partnet_mobility(folder: Path, options: LoadOptions, files: ModelFiles 
         visuals = tuple(v for body in bodies for v in body.visuals)
         found = UrdfBodies(tuple(bodies), visuals, tuple(notes), (0.0, 1.0, 0.0))
     else:
-        found = _bodies_from_urdf(folder, files)
+        stated = read_bodies(folder / "mobility.urdf", files, mesh_frame=True)
+        if _is_robot(stated, folder):
+            return read_urdf(folder / "mobility.urdf", options, files)
+        found = _named(stated, folder, files)
     parts = parts_of_drafts(drafts_of_visuals(found.visuals))
     convention = _convention(found, parts)
     up = "XYZ".index((convention.up or convention.usual_up)[1])
     annotation = annotation_of_bodies(list(found.bodies), up)
     said = tuple(dict.fromkeys(found.notes))
     return Reading("partnet-mobility", parts, convention, annotation, _furniture(folder, files), said)
+
+
+def _is_robot(found: UrdfBodies, folder: Path) -> bool:
+    """Whether another maker's URDF has that name: it stands on Z and has boxes or cylinders, not only meshes."""
+    is_drawn_in_shapes = any(not visual.file for visual in found.visuals)
+    return is_drawn_in_shapes and found.up[2] > StandingConfig().along and not (folder / "semantics.txt").is_file()
 
 
 def _convention(found: UrdfBodies, parts: tuple[Part, ...], config: StandingConfig = StandingConfig()) -> Convention:
@@ -253,8 +262,7 @@ def _furniture(folder: Path, files: ModelFiles) -> Furniture | None:
     return _KINDS.get(category, "storage" if "storage" in category else None)
 
 
-def _bodies_from_urdf(folder: Path, files: ModelFiles) -> UrdfBodies:
-    found = read_bodies(folder / "mobility.urdf", files, mesh_frame=True)
+def _named(found: UrdfBodies, folder: Path, files: ModelFiles) -> UrdfBodies:
     names = _link_names(folder, files)
     bodies = []
     for body in found.bodies:

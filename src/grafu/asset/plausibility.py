@@ -22,7 +22,8 @@ from grafu.vocabulary import PartLabel
 
 BODY: Final = PartLabel.SIDE_PANEL
 """What a body in one piece is labelled, as in what the network was trained on: it carries hinges and rails."""
-_CONTROLS = word_set("button buttons switch dial display")
+_CONTROLS = word_set("button buttons switch dial display screen lcd keypad clock timer")
+_PANELS = frozenset({"panel", "console"})
 _BUTTONS = ("button", "buttons")
 
 
@@ -139,7 +140,7 @@ def _of_controls(part: Part, controls: list[Box], scene: _Scene) -> Part:
         return part
     held = sum(part.box.overlaps(box, scene.config.touch * scene.extent) for box in controls)
     is_band = held > 1 and float(np.sort(part.box.size)[1]) <= scene.config.band * scene.extent
-    is_panel = held and (is_band or "panel" in spoken(part.source.name))
+    is_panel = held and (is_band or not _PANELS.isdisjoint(spoken(part.source.name)))
     return replace(part, label=PartLabel.MISC, labelled_by="name") if is_panel else part
 
 

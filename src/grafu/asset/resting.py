@@ -53,6 +53,12 @@ class RestConfig:
     """How far from two sides of the outline legs in its corners stand at most (fraction of these sides) ..."""
     long: float = 0.05
     """... and how long they are at least: handles stand out less far (fraction of the largest side)."""
+    kick: float = 0.8
+    """A plinth or a grille in front reaches over this much of one side of the outline at least (fraction) ..."""
+    border: float = 0.25
+    """... within this of the border (fraction of the other side) ..."""
+    spans: int = 12
+    """... in each of so many spans of that side: the handles of a row of fronts leave spans free."""
     over_handles: float = 0.5
     """Area within that length of an end from which on what lies at it are no legs but handles on fronts (fraction of
     the outline's box)."""
@@ -72,6 +78,8 @@ class _End:
     """Whether it lies in all four corners and nowhere else, with nothing between for the length of a leg."""
     area_beside: float = 0.0
     """The area of what lies within the length of a leg from that end."""
+    is_plinth: bool = False
+    """Whether it lies along one border of the outline: a plinth or a grille, and the bottom ends right above it."""
 
 
 def stands_on_another_side(
@@ -92,7 +100,8 @@ def stands_on_another_side(
     """
     points = sample_surface(merge_meshes([part.mesh for part in parts]), config.points).points
     ends = {direction: _end(points, direction, config) for direction in DIRECTIONS}
-    is_poor = ends[_opposite(stated)].extent < config.poor
+    below = ends[_opposite(stated)]
+    is_poor = below.extent < config.poor and not (below.is_plinth and below.area_beside >= config.broad)
     on_legs = [up for up in DIRECTIONS if up != stated and _is_on_legs(ends[_opposite(up)], ends[up], config)]
     if len(on_legs) == 1:
         on_handles = _has_handles(ends[_opposite(on_legs[0])], config)
@@ -144,7 +153,15 @@ def _end(points: Points, direction: str, config: RestConfig) -> _End:
     )
     in_corners = bool(outer.all()) and len(corners) == 4 and is_long
     area_beside = _area((beside - low[others]) / np.maximum(size[others], 1e-12), config)
-    return _End(area, float(extent) / config.cells**2, in_corners, area_beside)
+    return _End(area, float(extent) / config.cells**2, in_corners, area_beside, _is_plinth(ratio, config))
+
+
+def _is_plinth(ratio: _Places, config: RestConfig) -> bool:
+    """Whether places, fractions of both sides of the outline, lie along nearly the whole of one of its borders."""
+    low, high = extremes(ratio)
+    at_border = (high <= config.border) | (low >= 1.0 - config.border)
+    spans = [len(np.unique((along * config.spans).astype(np.int64))) for along in np.minimum(ratio, 0.999).T]
+    return bool(((np.array(spans) >= config.kick * config.spans) & at_border[::-1]).any())
 
 
 def _cells(ratio: _Places, config: RestConfig) -> _Cells:

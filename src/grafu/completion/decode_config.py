@@ -203,6 +203,9 @@ class DecodeConfig:
     """Below this probability of every hinge the rule decides how a door hangs: with sides missing from real cabinets
     the network was right about 2 of 22 such doors, the rule about all. On whole furniture it is above 0.9."""
 
+    unseen: float = 0.2
+    """An added handle hangs no door on a border less likely before than this (fraction of the likeliest)."""
+
     slides: float = 0.5
     """A door slides in its own plane from this probability of a slide on, if that of a hinge is lower."""
     other_motion: float = 0.5
@@ -288,6 +291,7 @@ class DecodeConfig:
             self.strip,
             self.button,
             self.other_motion,
+            self.unseen,
         )
         if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.slides, self.nested, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")

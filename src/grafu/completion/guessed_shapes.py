@@ -54,6 +54,9 @@ class GuessedShapeConfig:
     have a box."""
     thick: float = 0.36
     """A door is thinner than this (fraction of the shorter of its other sides). Of 69 real ones the most is 0.22."""
+    shallow: float = 0.35
+    """A door with a handle may be thicker, as with the bins of a refrigerator behind it, and takes no more than this of
+    the object's depth there (fraction): drawers and cases reach farther back."""
     grip: float = 0.08
     """What stands out of a front and is drawn in one with it, as a knob is, has less of its surface (fraction)."""
     seen: float = 0.35
@@ -103,7 +106,8 @@ def shape_against(
     With a handle on it a front may be round, and a drawer drawn as a block.
     """
     mesh, box = asset.part(node.id).mesh, node.box
-    if node.label is PartLabel.DOOR and is_thick(mesh, config):
+    is_shallow = is_held and float(box.size[box.thin_axis]) <= config.shallow * float(asset.box.size[box.thin_axis])
+    if node.label is PartLabel.DOOR and not is_shallow and is_thick(mesh, config):
         return "it is too thick for a door"
     if node.label is PartLabel.DOOR and not is_held and _is_of_post(node, graph, config):
         return "it is a board of a post, which holds nothing"

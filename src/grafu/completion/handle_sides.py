@@ -9,6 +9,7 @@ from typing import final
 import numpy as np
 
 from grafu.asset.part import Asset
+from grafu.completion.drawn_grips import grips_in
 from grafu.completion.level_bars import are_level_bars
 from grafu.completion.rehang import hung_on, stands_on_a_level_border, upright_borders
 from grafu.dataclass import dataclass
@@ -58,7 +59,7 @@ def with_handle_sides(
 
     That are doors that would hang on the handle's side, flaps with an upright handle, and wide fronts with a level bar
     at their upper or lower edge, and lids that would hang on the border at which their handle is. Leaves that fold stay
-    as they are predicted.
+    as they are predicted. Where a door has no handle, a grip that is drawn in one with it counts.
     """
     given = {part.id for part in asset.parts}
     graph = completion.completed
@@ -67,7 +68,10 @@ def with_handle_sides(
         if hinge.child not in given or hinge.coupling is not None:
             continue
         is_lid = graph.node(hinge.child).box.thin_axis == _UP
-        side = (_side_of_lid if is_lid else _stated_side)(hinge, graph, given, config)
+        handles = given_handles(hinge.child, graph, given)
+        if not handles and not is_lid:
+            handles = grips_in(asset.part(hinge.child).mesh, asset.box)
+        side = (_side_of_lid if is_lid else _stated_side)(hinge, graph, handles, config)
         if side is not None and side != hinge.border:
             found[hinge.child] = side
     return hung_on(completion, found)
@@ -79,9 +83,10 @@ def given_handles(door: str, graph: FunctionalGraph, given: set[str]) -> list[Bo
     return [node.box for node in nodes if node.label is PartLabel.HANDLE]
 
 
-def _stated_side(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: HandleSideConfig) -> HingeBorder | None:
+def _stated_side(
+    hinge: Hinge, graph: FunctionalGraph, handles: list[Box], config: HandleSideConfig
+) -> HingeBorder | None:
     """Returns the border that the handles of a door state; None where they state none."""
-    handles = given_handles(hinge.child, graph, given)
     if not handles:
         return None
     box = graph.node(hinge.child).box
@@ -98,9 +103,11 @@ def _stated_side(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: 
     return upright_borders(box.thin_axis)[0 if off > 0 else 1]
 
 
-def _side_of_lid(hinge: Hinge, graph: FunctionalGraph, given: set[str], config: HandleSideConfig) -> HingeBorder | None:
+def _side_of_lid(
+    hinge: Hinge, graph: FunctionalGraph, handles: list[Box], config: HandleSideConfig
+) -> HingeBorder | None:
     """Returns the border opposite to that of a lid if its handles are at the latter; else None."""
-    handles, box = given_handles(hinge.child, graph, given), graph.node(hinge.child).box
+    box = graph.node(hinge.child).box
     axis, is_high = divmod(border_to_face(box.thin_axis, hinge.border), 2)
     if not handles or box.size[axis] <= 0:
         return None

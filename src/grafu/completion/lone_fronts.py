@@ -2,7 +2,8 @@
 
 A shelf or a divider stands close behind its middle, as in a secretary: a drawer would run into it. Or it is higher by
 far than wide, as the doors of lockers are, begins above the eyes of a person, or has its handle at a side. It is wide
-and higher than what is behind it is deep, as the fronts of shoe cabinets and dishwashers are.
+and higher than what is behind it is deep, as the fronts of shoe cabinets and dishwashers are. In a robot description
+whose other drawers have boxes, a front alone is none.
 """
 
 from collections.abc import Mapping, Set
@@ -11,7 +12,7 @@ from typing import Final, final
 
 import numpy as np
 
-from grafu.asset.part import Asset
+from grafu.asset.part import ROBOTS, Asset
 from grafu.completion.boards_behind import BoardBehindConfig, is_board_behind
 from grafu.completion.rehang import upright_borders
 from grafu.completion.ways_out import rest_of
@@ -62,12 +63,15 @@ class LoneFrontConfig:
     """... and from this width on (m): narrower ones may be pull-outs for bottles and spices."""
     deep: float = 1.2
     """What is higher than this, in depths of the whole behind it, is no drawer ..."""
+    boxed: float = 0.4
+    """Where another drawer of a robot description reaches this far back (fraction of the depth of the whole), boxes are
+    drawn behind fronts, and a front alone is no drawer."""
     broad: float = 0.75
     """... if it is as wide as this (in heights): narrower ones may be pull-outs."""
 
     def __post_init__(self) -> None:
         require_positive(self, "wide", "tall", "high", "narrow", "deep", "broad")
-        require_ratios(self, "plate", "box", "edge", "off", "squat")
+        require_ratios(self, "plate", "box", "edge", "off", "squat", "boxed")
 
 
 def with_lone_fronts(
@@ -82,6 +86,11 @@ def with_lone_fronts(
     rails = [edge for edge in graph.motions if isinstance(edge, Rail) and edge.child in guessed]
     fronts = [r for r in rails if r.axis == _FRONT and r.coupling is None and is_alone(r.child, graph, config)]
     given = frozenset(node.id for node in completion.input.nodes)
+    draws_boxes = asset.kind in ROBOTS and any(
+        graph.node(rail.child).box.size[_DEPTH] >= config.boxed * graph.box.size[_DEPTH]
+        for rail in graph.rails
+        if rail.child in given
+    )
     found: dict[Rail, HingeBorder] = {}
     for rail in fronts:
         side = _side_of_tall(rail.child, graph, given, config)
@@ -90,8 +99,10 @@ def with_lone_fronts(
             found[rail] = side
         elif (box := graph.node(rail.child).box).low[_UP] - graph.box.low[_UP] >= config.high:
             found[rail] = _border(rail.child, graph, config, lifts=True)
-        elif _is_higher_than_deep(box, graph.box, config) or is_board_behind(
-            box, graph.box, rest_of(asset, rail.child, graph), boards
+        elif (
+            draws_boxes
+            or _is_higher_than_deep(box, graph.box, config)
+            or is_board_behind(box, graph.box, rest_of(asset, rail.child, graph), boards)
         ):
             found[rail] = _border(rail.child, graph, config)
     return as_doors(completion, found) if found else completion

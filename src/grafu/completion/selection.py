@@ -157,9 +157,12 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene, agreed: Scal
     motion = np.einsum("k,kbs->bs", mounts, motions)
     leaned = leaned_motion(door, motion, view.config.outward, scene)
     weights = leaned.sum(axis=1) * agreed
+    before = view.borders.get(door.id, motion.sum(axis=1))
+    if door.id in view.borders:
+        weights = np.where(before >= view.config.unseen * before.max(), weights, 0.0)
     own = chosen_of(BORDERS, motion.sum(axis=1), weights)
     flap = _plain_flap(door, own.choice, scene)
-    border = flap or chosen_of(BORDERS, view.borders.get(door.id, motion.sum(axis=1)), weights)
+    border = flap or chosen_of(BORDERS, before, weights)
     sign = chosen_of(SIGNS, motion[border.choice], leaned[border.choice])
     on = None if flap is None else _flap_mount(door, flap.choice, view, scene)
     mount = on or ranking_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])

@@ -203,6 +203,9 @@ class RealizationConfig(ShortRepr):
     """How far short of a collision a limit stays (fraction of the opening that was asked for)."""
     restricted: float = 0.7
     """An opening below this fraction of the reference is reported as restricted."""
+    waits: float = 0.5
+    """A joint that opens less beside an open neighbour still waits for it where that is this fraction of the reference
+    at least, and before the closed one it opens by no more than this fraction of that."""
     trim: bool = True
     """Whether material may be taken away to give clearance."""
     max_trim: float = 0.02
@@ -283,7 +286,7 @@ class RealizationConfig(ShortRepr):
         require_positive(self, "hinge_bridge", "lid_opening", "no_hardware_gap", "rack_gap", "carved_faces")
         require_positive(self, "no_hardware_box_gap")
         require_not_negative(self, "max_hidden_trim", "max_back_trim", "thinnest_front")
-        require_ratios(self, "level_axis", "upright", "sloping", "rising", "short", "restricted", "max_trim")
+        require_ratios(self, "level_axis", "upright", "sloping", "rising", "short", "restricted", "waits", "max_trim")
         require_ratios(self, "max_carve", "max_carve_last", "max_carve_hidden")
         require_ratios(self, "max_carve_seen", "rail_ratio", "least_opening", "kept")
         require_ratios(self, "no_hardware_width", "no_hardware_wide", "no_hardware_open")

@@ -1,8 +1,8 @@
 """Which joint must be open before which: a drawer behind a door, a door under another's overlap. It builds no hardware.
 
-A joint that runs into a closed neighbour waits for it, if the neighbour, open, lets it open far enough and does not
-itself wait; else its opening ends where the neighbour begins, and the report states it. Beyond a quarter turn a door
-opens only as far as it blocks no open neighbour, unless a wider opening was chosen.
+A joint that runs into a closed neighbour waits for it, if the neighbour, open, lets it open far enough, or much
+farther than closed, and does not itself wait; else its opening ends where the neighbour begins, and the report states
+it. Beyond a quarter turn a door opens only as far as it blocks no open neighbour, unless a wider opening was chosen.
 """
 
 from collections.abc import Mapping, Sequence
@@ -61,11 +61,14 @@ def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: Realization
             other = by_id.get(name)
             waits_for_us = joint.moving in all_before(name, waits)
             beyond = 0.0 if other is None or waits_for_us else _beside_open(joint, other, scene, config)
-            if beyond >= config.restricted * joint.upper:
-                after.append(name)
-                upper = min(upper, beyond)
-            else:
-                upper = min(upper, _until(joint, scene.moving_mesh(name), scene, config))
+            until = joint.upper
+            if beyond < config.restricted * joint.upper:
+                until = _until(joint, scene.moving_mesh(name), scene, config)
+            waits_for = beyond >= config.restricted * joint.upper or (
+                beyond >= config.waits * joint.upper and until <= config.waits * beyond
+            )
+            after += [name] if waits_for else []
+            upper = min(upper, beyond if waits_for else until)
         waits[joint.moving] = set(after)
         orders[joint.moving] = OpeningOrder(tuple(after), upper)
     return orders

@@ -6,7 +6,8 @@ from typing import final
 
 import numpy as np
 
-from grafu.asset.part import Asset
+from grafu.asset.labels import sense_of
+from grafu.asset.part import ROBOTS, Asset, Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale, require_positive, require_ratios
@@ -18,6 +19,7 @@ from grafu.graph.functional_graph import FunctionalGraph, joined_groups
 from grafu.joints.behind_fronts import groups_within, is_within_outline, sliding_out, static_boxes
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.scale import metre_on
+from grafu.vocabulary import PartLabel
 
 SOURCE = "rule"
 """`JointRequest.source` of a rack: its shape and the door before it show that it slides."""
@@ -100,7 +102,8 @@ def _drops(request: JointRequest, door: Box, config: RackConfig) -> bool:
 def _racks(
     door: Box, static: Mapping[str, Box], asset: Asset, graph: FunctionalGraph, config: RackConfig
 ) -> list[JointRequest]:
-    inside = [name for name, box in static.items() if is_within_outline(box, door, config.clear)]
+    within = {name for name, box in static.items() if is_within_outline(box, door, config.clear)}
+    inside = sorted(name for name in within if not _is_runner_of_body(asset.part(name), within, graph))
     found = []
     for group in groups_within(inside, graph):
         parts = [asset.part(name) for name in group]
@@ -108,9 +111,22 @@ def _racks(
         wide = box.size[0] >= config.wide * door.size[0]
         deep = box.size[_DEPTH] >= config.deep * asset.box.size[_DEPTH]
         mesh = merge_meshes([part.mesh for part in parts])
-        if wide and deep and is_grid(mesh, config) and hangs_together(mesh, config):
+        is_one = (len(parts) == 1 and _is_link(parts[0], asset)) or hangs_together(mesh, config)
+        if wide and deep and is_grid(mesh, config) and is_one:
             found.append(sliding_out(parts, SOURCE))
     return found
+
+
+def _is_runner_of_body(part: Part, within: set[str], graph: FunctionalGraph) -> bool:
+    """Whether a part is called a rail or the like and touches what is no rack's, such as a wall: it stays there."""
+    return sense_of(part.source.name).is_fitting and not within >= set(graph.neighbours[part.id])
+
+
+def _is_link(part: Part, asset: Asset) -> bool:
+    """Whether a part is all of one link of a robot description, which is rigid: its wires may be drawn apart."""
+    link = part.source.link
+    others = (p for p in asset.parts if p is not part and p.label is not PartLabel.HANDLE)
+    return asset.kind in ROBOTS and bool(link) and all(other.source.link != link for other in others)
 
 
 def hangs_together(mesh: TriangleMesh, config: RackConfig = RackConfig()) -> bool:

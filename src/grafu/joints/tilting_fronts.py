@@ -27,7 +27,7 @@ from grafu.scene.border import pitched_border_frame
 from grafu.scene.scale import metre_on
 from grafu.vocabulary import PartLabel
 
-_WORDS = frozenset({"tilt", "tilting", "tiltout", "kippfront", "kippklappe"})
+_WORDS = frozenset({"tilt", "tilting", "tiltout", "tip", "tipout", "kippfront", "kippklappe"})
 _OF_PIECES = frozenset({"shoe", "shoes", "schuhschrank", "schuhkipper", "chaussures", "zapatero", "scarpiera"})
 _TILTED = MotionChoice(Moves.TILTS, Side.BOTTOM)
 _UP, _DEPTH = 2, 1
@@ -66,6 +66,8 @@ class TiltConfig:
     """How far behind the front a bin's near end lies at most (metres)."""
     low: float = 1.1
     """Greatest height of a front that was taken for a door at a side, and has a bin (fraction of its width)."""
+    steep: float = 1.2
+    """Least height of what tilts with its own bin in a shoe cabinet, over its depth (ratio): drawers are deeper."""
     tall: float = 0.5
     """Least height of that bin (fraction of the front's)."""
     beyond: float = 0.02
@@ -97,6 +99,7 @@ def with_shown_tilts(
 
     So does a low front right before a basin: no drawer has room behind it.
 
+    What is higher than deep in a piece that is called a shoe cabinet tilts with the bin in its own mesh.
     A front that was taken for a door at a side has a bin behind it where that fits no other motion: it is as high as
     half of the front at least, and nothing of it is farther from the lower edge than the front's upper edge is.
     """
@@ -121,12 +124,15 @@ def _is_shown(
     is_front = part.label.is_movable or front.thin_axis == _DEPTH
     if is_front and _WORDS & set(spoken(part.source.name)):
         return True
+    own = {part.id, *request.attached}
+    if is_front and _OF_PIECES & set(spoken(asset.name)) and front.size[_UP] >= config.steep * front.size[_DEPTH]:
+        boxes = [front, *(asset.part(name).box for name in request.attached)]
+        return _has_bin(_as_tilting(request, asset), front, boxes, config)
     if not part.label.is_movable:
         return False
     low = front.thin_axis == _DEPTH and front.size[_UP] <= config.low * front.size[0]
     if not (low and request.kind.turns) or float(np.linalg.norm(request.axis.direction[:_UP])) > 1 - config.level:
         return False
-    own = {part.id, *request.attached}
     found = _bin(front, own, static, asset, graph, config)
     points = np.vstack([asset.part(name).mesh.vertices for name in found]) if found else np.zeros((0, 3))
     tilted = _as_tilting(request, asset)

@@ -6,7 +6,7 @@ Which edges stated joints stand for is decided in `grafu.graph.annotated`. It bu
 from dataclasses import replace
 from pathlib import Path
 
-from grafu.asset.part import Asset
+from grafu.asset.part import Asset, Part
 from grafu.completion.control_panels import with_panels_of_controls
 from grafu.completion.controls import without_controls
 from grafu.completion.copied_bars import with_copied_bars
@@ -17,7 +17,9 @@ from grafu.completion.handle_sides import with_handle_sides
 from grafu.completion.held_borders import with_held_borders
 from grafu.completion.leaning_fronts import with_leaning_fronts
 from grafu.completion.lone_fronts import with_lone_fronts
+from grafu.completion.moving_links import links_that_move
 from grafu.completion.network import complete_by_network
+from grafu.completion.one_link import with_rigid_links
 from grafu.completion.oven_doors import with_oven_doors
 from grafu.completion.round_doors import with_round_doors
 from grafu.completion.rule import complete_by_rule
@@ -31,8 +33,9 @@ from grafu.geometry.sampling import sample_surfaces
 from grafu.graph.annotated import annotated_edges
 from grafu.graph.completion import GraphCompletion, decision_of
 from grafu.graph.edges import Attached
-from grafu.graph.edit import with_edges, without_names
+from grafu.graph.edit import relabelled, with_edges, without_names
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.vocabulary import PartLabel
 
 
 def complete_by_annotation(asset: Asset, graph: FunctionalGraph, source: str = "annotation") -> GraphCompletion:
@@ -62,12 +65,27 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     (`with_lone_fronts`), as below a panel with knobs (`with_oven_doors`) or where it leans (`with_leaning_fronts`); a
     front with a window and a bar along its upper edge drops (`with_window_doors`); what is only guessed to be a door or
     drawer stays static where it cannot be one (`with_static_guesses`), as a panel with buttons beside a door
-    (`with_panels_of_controls`). A shelf that is a board is fixed (`with_fixed_shelves`), and knobs of appliances are
-    controls (`without_controls`).
+    (`with_panels_of_controls`), or what is on the link of the body while other links have doors and drawers
+    (`with_rigid_links`). A shelf that is a board is fixed (`with_fixed_shelves`), and knobs of appliances are controls
+    (`without_controls`). A link of its own that plainly moves (`links_that_move`) is a door, and all is asked again.
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
     """
+    found = _complete_by_weights(asset, graph, weights)
+    links = links_that_move(found, asset)
+    if not links:
+        return found
+    named = dict.fromkeys(links, PartLabel.DOOR)
+    marked = replace(asset.with_labels(named), parts=tuple(_by_shape(p, links) for p in asset.with_labels(named).parts))
+    return replace(_complete_by_weights(marked, relabelled(graph, named), weights), input=relabelled(graph, named))
+
+
+def _by_shape(part: Part, links: tuple[str, ...]) -> Part:
+    return replace(part, labelled_by="shape") if part.id in links else part
+
+
+def _complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | None) -> GraphCompletion:
     network = open_network(weights or SHIPPED_WEIGHTS)
     clouds = sample_surfaces([asset.part(node.id).mesh for node in graph.nodes], network.features.points)
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
@@ -78,7 +96,8 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     predicted = with_lone_fronts(with_drawers_above_doors(drawn, asset), asset)
     ovens = with_oven_doors(with_fixed_shelves(with_leaning_fronts(predicted, asset), asset))
     moved = with_window_doors(_shaped(ovens, asset), asset)
-    found = without_controls(with_static_guesses(with_panels_of_controls(moved, asset), asset), asset)
+    settled = with_static_guesses(with_rigid_links(with_panels_of_controls(moved, asset), asset), asset)
+    found = without_controls(settled, asset)
     names = {node.id: node.source_name for node in graph.nodes}
     bare = tuple(
         replace(node, points=None, source_name=names.get(node.id, node.source_name)) for node in found.completed.nodes
