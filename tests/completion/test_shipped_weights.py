@@ -1,5 +1,6 @@
 """The weights that come with the package: they are what their card states, and they work."""
 
+import sys
 from hashlib import sha256
 from pathlib import Path
 
@@ -10,13 +11,19 @@ from grafu.completion.features import FeatureConfig
 from grafu.completion.network import complete_by_network
 from grafu.completion.session import SHIPPED_WEIGHTS, open_network
 from grafu.data.corruption.corrupt import asked_pairs
-from grafu.data.pair import specimen_pair
+from grafu.data.pair import GraphPair, specimen_pair
 from grafu.geometry.box import Box
+from grafu.graph.edges import Contact, ends_of
+from grafu.graph.edit import with_edges
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.metrics.graph_accuracy import GraphAccuracy, graph_accuracy, total_accuracy
 from grafu.synth.generate import make_specimen
 from grafu.vocabulary import PartLabel
 from network_answers import of_doors_and_drawers
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "scripts"))
+
+from judge_network import is_undecided
 
 pytestmark = pytest.mark.slow  # for what `accuracies` computes once per process
 
@@ -37,7 +44,14 @@ def accuracies() -> dict[str, GraphAccuracy]:
             completion = complete_by_network(pair.input, network, network.features)
             found.setdefault(variant, []).append(graph_accuracy(completion, of_doors_and_drawers(pair.target)))
             found.setdefault(f"{variant}, all", []).append(graph_accuracy(completion, pair.target))
+            found.setdefault(f"{variant}, decided", []).append(graph_accuracy(completion, of_decided_doors(pair)))
     return {variant: total_accuracy(ones) for variant, ones in found.items()}
+
+
+def of_decided_doors(pair: GraphPair) -> FunctionalGraph:
+    """The truth with the hinges alone of the doors whose handle, shown and off the middle, states where they hang."""
+    undecided = [hinge for hinge in pair.target.hinges if hinge.child not in pair.input or is_undecided(hinge, pair)]
+    return with_edges(pair.target, [Contact(*ends_of(hinge)) for hinge in undecided])
 
 
 def test_they_are_those_of_the_card_and_small_enough() -> None:
@@ -52,9 +66,11 @@ def test_they_see_what_parts_are_sampled_for() -> None:
 
 
 def test_doors_and_drawers_of_made_furniture_move_as_they_should(accuracies: dict[str, GraphAccuracy]) -> None:
-    # 0.86 before one case in eight was made in one part: fronts before those often show no handle, nor where they hang
-    assert accuracies["natural"].joint.value >= 0.84
+    # Doors that show no handle off the middle may hang on either side: 32 of 70 here
+    assert accuracies["natural, decided"].joint.value >= 0.97
+    assert accuracies["natural"].joint.value >= 0.8
     assert accuracies["natural"].slide.value >= 0.97
+    assert accuracies["masked, decided"].joint.value >= 0.95
     assert accuracies["masked"].joint.value >= 0.8
     assert accuracies["masked"].slide.value >= 0.93
 

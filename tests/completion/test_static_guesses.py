@@ -117,15 +117,11 @@ def test_what_stands_on_the_floor_under_all_else_is_no_door():
     assert reasons(*guessed(parts, "shaft", PartLabel.DOOR)) == [Reason.CARRIES]
 
 
-def test_the_shipped_network_takes_that_for_a_door_and_it_stays():
+def test_it_stays_whatever_the_shipped_network_takes_it_for():
     parts = [at("a", (-0.22, -0.22, 0.0), (0.22, 0.22, 0.88)), at("b", (-0.33, -0.33, 0.88), (0.33, 0.33, 1.1))]
     asset = Asset("made", "", "made", tuple(replace(part, labelled_by="none") for part in parts))
     completion = complete_by_weights(asset, parse_graph(asset))
-    label = completion.decision("a", "label")
-    assert label is not None
-    assert (label.choice, label.runner_up) == ("misc", "door")
-    assert {refusal.part: refusal.reason for refusal in completion.refused} == {"a": Reason.CARRIES}
-    assert "a" not in completion.completed.moving
+    assert not completion.completed.moving
 
 
 LOOK_ALIKES = {
