@@ -113,51 +113,6 @@ def test_a_chest_whose_fronts_are_all_called_doors_has_drawers():
     assert found == {f"door_{k}": (DRAWER, "prismatic") for k in range(4)}
 
 
-PLATE = ((0.003, -0.02, 0.005), (0.597, 0.0, 0.795))
-BAR = ((0.54, -0.05, 0.3), (0.552, -0.02, 0.5))
-FRAME = PartLabel.FACE_FRAME
-
-
-def called(label, odds, front=PLATE, handle=BAR, also=()):
-    """Returns what a front of a case with a handle is, which is called `label` and by the network likely a door."""
-    parts = (*CASE, board("front", *front, label), board("bar", *handle, PartLabel.HANDLE), *also)
-    graph = parse_graph(Asset("made", "", "made", parts))
-    said = Answers(labels={"front": {DOOR: odds + 8.0, label: 8.0}})
-    names = [part.id for part in parts]
-    found = complete_by_network(graph, said.about(graph), FEW, named=names)
-    return found, with_corrected_fronts(Asset("made", "", "made", parts), found)
-
-
-@pytest.mark.parametrize("label", [FRAME, PartLabel.SIDE_PANEL, MISC])
-def test_a_plate_with_a_handle_that_is_called_a_part_that_stays_is_a_door_where_the_network_is_sure(label):
-    found, asset = called(label, odds=4.0)
-    assert found.completed.node("front").label is DOOR
-    assert [hinge.child for hinge in found.completed.hinges] == ["front"]
-    assert (asset.part("front").label, asset.part("front").labelled_by) == (DOOR, "prediction")
-    assert asset.notes == (
-        f"front is called a {label}, but is a door by its shape (98%): --move front=fixed keeps it still",
-    )
-
-
-NEXT = board("door", (0.603, -0.02, 0.005), (1.2, 0.0, 0.795), DOOR)
-
-
-@pytest.mark.parametrize(
-    "other",
-    [
-        {"odds": 1.5},  # 0.82: not sure enough
-        {"front": ((0.003, -0.2, 0.005), (0.597, 0.0, 0.795)), "handle": ((0.54, -0.23, 0.3), (0.552, -0.2, 0.5))},
-        {"handle": ((0.2, 0.1, 0.82), (0.4, 0.12, 0.85))},  # on the top
-        {"handle": ((0.59, -0.05, 0.3), (0.61, -0.02, 0.5)), "also": (NEXT,)},  # of the door beside it
-    ],
-    ids=["unsure", "a block", "no handle", "another's handle"],
-)
-def test_what_is_called_a_part_that_stays_stays_otherwise(other):
-    found, asset = called(FRAME, **{"odds": 4.0, **other})
-    assert found.completed.node("front").label is FRAME
-    assert asset.part("front").labelled_by == "name"
-
-
 def test_what_the_user_moves_is_what_the_user_calls_it():
     found = labels_built(fronts(DOOR, 4, 0.19), motions={"door_0": MotionChoice(Moves.TURNS, Side.LEFT)})
     assert found["door_0"] == (DOOR, "revolute")

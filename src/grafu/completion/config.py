@@ -175,31 +175,6 @@ class RowConfig:
 
 @final
 @dataclass(frozen=True, slots=True)
-class MisnamedConfig:
-    """When a network's answer overrules what a part is by its name alone.
-
-    Raises:
-        ValueError: if a number is not above 0, or above 1.
-    """
-
-    front: float = 0.8
-    """What is only named a door is a drawer from this probability on, and the other way round. Of 300 synthetic pieces
-    it corrects 4 of 5 misnamed fronts, of 250 real ones 20, and no other; the highest that is wrong has 0.69."""
-    still: float = 0.9
-    """What is only named a part that stays, such as a face frame, is a door from this probability on if it is a plate,
-    and a handle touches it and no door or drawer. Of 900 synthetic pieces it finds 7 doors and nothing else; of 130
-    real ones none has one: the likeliest is 0.78, and stays."""
-    plate: float = 0.2
-    """Smallest over middle side of such a plate, at most."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, *self.__dataclass_fields__)
-        if max(self.front, self.still, self.plate) > 1.0:
-            raise ValueError(f"the numbers of a MisnamedConfig must be at most 1: got {self}")
-
-
-@final
-@dataclass(frozen=True, slots=True)
 class RuleConfig(ShortRepr):
     """The thresholds of the rule-based baseline."""
 

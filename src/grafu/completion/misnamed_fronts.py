@@ -1,15 +1,13 @@
-"""Parts whose names are of another part, where the network is sure of it.
+"""Doors that are called drawers, and drawers that are called doors, where the network is sure of it.
 
-Data sets call every front a door, or a flap the front of a drawer; now and then a door with its handle is called a
-part that stays. Other labels from names are kept: where the network contradicts those of real furniture it is as often
-wrong as right.
+Data sets call every front a door, or a flap the front of a drawer. Other labels from names are kept: where the network
+contradicts those of real furniture it is as often wrong as right, even where a handle seems to sit on a board.
 """
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from grafu.asset.part import Asset
-from grafu.completion.config import MisnamedConfig
 from grafu.completion.probabilities import Probabilities
 from grafu.graph.arrays import LABELS
 from grafu.graph.completion import Decision, GraphCompletion
@@ -17,49 +15,35 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import PartLabel
 
 _FRONTS = (PartLabel.DOOR, PartLabel.DRAWER)
-_NOT_STILL = (*_FRONTS, PartLabel.HANDLE, PartLabel.UNKNOWN)
+_CODES = [LABELS.index(label) for label in _FRONTS]
 
 
-def has_named(graph: FunctionalGraph, named: Collection[str], config: MisnamedConfig) -> bool:
-    """Whether the network may overrule the name of a part, which `named` states; motions that are stated are kept."""
-    return any(_is_open(node, graph, named) or _is_pulled(node, graph, named, config) for node in graph.nodes)
+def has_named(graph: FunctionalGraph, named: Collection[str]) -> bool:
+    """Whether a part is a door or drawer by its name alone, which `named` states, and its motion is not stated."""
+    return any(_is_open(node, graph, named) for node in graph.nodes)
 
 
 def corrected_fronts(
-    graph: FunctionalGraph, probabilities: Probabilities, named: Collection[str], config: MisnamedConfig
+    graph: FunctionalGraph, probabilities: Probabilities, named: Collection[str], least: float
 ) -> tuple[Decision, ...]:
-    """Returns for each misnamed front the decision that it is a drawer and no door, or a door and not what it is named.
+    """Returns for each misnamed front the decision that it is a drawer and no door, or a door and no drawer.
 
-    `named` are the parts whose labels rest on their names alone.
+    `named` are the parts whose labels rest on their names alone, `least` is the least probability that corrects one.
     """
     found = []
     for k, node in enumerate(graph.nodes):
-        if _is_open(node, graph, named):
-            other, least = _FRONTS[1 - _FRONTS.index(node.label)], config.front
-        elif _is_pulled(node, graph, named, config):
-            other, least = PartLabel.DOOR, config.still
-        else:
+        if not _is_open(node, graph, named):
             continue
-        own, score = (float(probabilities.label[k, LABELS.index(label)]) for label in (node.label, other))
-        if score >= least:
-            found.append(Decision(node.id, "label", other.value, score, node.label.value, own))
+        own = _FRONTS.index(node.label)
+        scores = probabilities.label[k, _CODES]
+        if float(scores[1 - own]) >= least:
+            other, score = _FRONTS[1 - own].value, float(scores[1 - own])
+            found.append(Decision(node.id, "label", other, score, node.label.value, float(scores[own])))
     return tuple(found)
 
 
 def _is_open(node: PartNode, graph: FunctionalGraph, named: Collection[str]) -> bool:
     return node.label in _FRONTS and node.id in named and node.id not in graph.moving
-
-
-def _is_pulled(node: PartNode, graph: FunctionalGraph, named: Collection[str], config: MisnamedConfig) -> bool:
-    """Whether a part that stays by its name alone is a plate with a handle that touches no door or drawer."""
-    if node.label in _NOT_STILL or node.id not in named:
-        return False
-    smallest, middle, _ = sorted(node.box.size.tolist())
-    return smallest <= config.plate * middle and any(
-        graph.node(name).label is PartLabel.HANDLE
-        and not any(graph.node(other).label in _FRONTS for other in graph.neighbours[name])
-        for name in graph.neighbours[node.id]
-    )
 
 
 def _misnamed_fronts(completion: GraphCompletion) -> Sequence[Decision]:
@@ -71,7 +55,7 @@ def _misnamed_fronts(completion: GraphCompletion) -> Sequence[Decision]:
         if decision.question == "label"
         and decision.part in given
         and label_of[decision.part] in _FRONTS
-        and given.node(decision.part).label.value == decision.runner_up
+        and given.node(decision.part).label in set(_FRONTS) - {label_of[decision.part]}
     ]
 
 
@@ -88,14 +72,11 @@ def with_corrected_fronts(asset: Asset, completion: GraphCompletion) -> Asset:
     return replace(asset, parts=parts, notes=(*asset.notes, *(_note(decision, asset) for decision in found)))
 
 
-_KEEPS = {  # words of `--move`
-    PartLabel.DOOR: "left moves it as a door",
-    PartLabel.DRAWER: "slides moves it as a drawer",
-}
+_KEEPS = {PartLabel.DOOR: "left", PartLabel.DRAWER: "slides"}  # words of `--move`
 
 
 def _note(decision: Decision, asset: Asset) -> str:
     part = asset.part(decision.part)
     seen = f"is a {decision.choice} by its shape ({decision.score:.0%})"
-    keeps = f"--move {part.id}={_KEEPS.get(part.label, 'fixed keeps it still')}"
+    keeps = f"--move {part.id}={_KEEPS[part.label]} moves it as a {part.label}"
     return f"{part.id} is called a {part.label}, but {seen}: {keeps}"
