@@ -35,7 +35,9 @@ def hung(name: str, side: int, *others, height: float = 0.58, by: str = "name"):
 
 
 @pytest.mark.parametrize("side", [LEFT, RIGHT])
-@pytest.mark.parametrize("name", ["oven", "Dishwasher.001", "ofen", "B2_ovendoor", "oven_door_2", "Dishwasher Door"])
+@pytest.mark.parametrize(
+    "name", ["oven", "Dishwasher.001", "ofen", "B2_ovendoor", "oven_door_2", "Dishwasher Door", "dish_washer_door"]
+)
 def test_the_door_of_an_oven_drops(name, side):
     assert hung(name, side) == BOTTOM
 

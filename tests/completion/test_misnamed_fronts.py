@@ -5,7 +5,7 @@ from math import log
 
 import pytest
 
-from grafu.asset.part import Asset
+from grafu.asset.part import Asset, PartSource
 from grafu.completion.features import FeatureConfig
 from grafu.completion.misnamed_fronts import with_corrected_fronts
 from grafu.completion.network import complete_by_network
@@ -111,6 +111,13 @@ def labels_built(parts, **settings):
 def test_a_chest_whose_fronts_are_all_called_doors_has_drawers():
     found = labels_built(fronts(DOOR, 4, 0.19))
     assert found == {f"door_{k}": (DRAWER, "prismatic") for k in range(4)}
+
+
+def test_what_is_called_the_door_of_a_dishwasher_is_no_drawer():
+    lowest, *others = fronts(DOOR, 4, 0.19)
+    found = labels_built([replace(lowest, source=PartSource("dish_washer_door")), *others])
+    assert found["door_0"] == (DOOR, "revolute")
+    assert found["door_3"] == (DRAWER, "prismatic")
 
 
 def test_what_the_user_moves_is_what_the_user_calls_it():

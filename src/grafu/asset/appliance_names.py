@@ -17,7 +17,9 @@ def appliances(name: str) -> frozenset[str]:
 def is_dropping_door(name: str) -> bool:
     """Whether a name is that of the door of an oven or a dishwasher, which drops."""
     said = [singular(word) for word in spoken(name)]
-    return len(said) > 1 and said[-1] == "door" and said[-2] in _DROPPING and "microwave" not in said
+    if len(said) < 2 or said[-1] != "door" or "microwave" in said:
+        return False
+    return said[-2] in _DROPPING or "".join(said[-3:-1]) in _DROPPING  # `dish_washer_door`
 
 
 def is_drop_down(name: str) -> bool:

@@ -6,6 +6,7 @@ Which edges stated joints stand for is decided in `grafu.graph.annotated`. It bu
 from dataclasses import replace
 from pathlib import Path
 
+from grafu.asset.appliance_names import is_dropping_door
 from grafu.asset.part import Asset, Part
 from grafu.completion.control_panels import with_panels_of_controls
 from grafu.completion.controls import without_controls
@@ -91,7 +92,7 @@ def _complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | N
     pointed = tuple(replace(node, points=cloud) for node, cloud in zip(graph.nodes, clouds, strict=True))
     hidden = {part.id for part in asset.parts if part.labelled_by == "hidden"}
     seen = without_names(replace(graph, nodes=pointed), hidden)
-    named = {part.id for part in asset.parts if part.labelled_by in ("name", "shape")}
+    named = {p.id for p in asset.parts if p.labelled_by in ("name", "shape") and not is_dropping_door(p.source.name)}
     drawn = with_thick_doors(complete_by_network(seen, network, network.features, named=named), asset)
     predicted = with_lone_fronts(with_drawers_above_doors(drawn, asset), asset)
     ovens = with_oven_doors(with_fixed_shelves(with_leaning_fronts(predicted, asset), asset))
