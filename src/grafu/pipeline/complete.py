@@ -78,8 +78,9 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     if not links:
         return found
     named = dict.fromkeys(links, PartLabel.DOOR)
-    marked = replace(asset.with_labels(named), parts=tuple(_by_shape(p, links) for p in asset.with_labels(named).parts))
-    return replace(_complete_by_weights(marked, relabelled(graph, named), weights), input=relabelled(graph, named))
+    labelled, asked = asset.with_labels(named), relabelled(graph, named)
+    marked = replace(labelled, parts=tuple(_by_shape(part, links) for part in labelled.parts))
+    return replace(_complete_by_weights(marked, asked, weights), input=asked)
 
 
 def _by_shape(part: Part, links: tuple[str, ...]) -> Part:
