@@ -58,7 +58,7 @@ from grafu.asset.standing_out import StandingOutConfig
 from grafu.asset.straight_borders import StraightBordersConfig
 from grafu.completion.alike import AlikeConfig
 from grafu.completion.boards_behind import BoardBehindConfig
-from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, RowConfig, RuleConfig
+from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, MisnamedConfig, RowConfig, RuleConfig
 from grafu.completion.control_panels import ControlPanelConfig
 from grafu.completion.copied_bars import CopiedBarsConfig
 from grafu.completion.cushions import CushionConfig
@@ -282,7 +282,7 @@ CONFIGS = (
     LevelBarConfig, LoneFrontConfig, MovingLinkConfig, LyingHandleConfig, LyingWindowConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,
-    MemberConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
+    MemberConfig, MisnamedConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
     RehangConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
     PolygonConfig, ScaleConfig, SeenSideConfig, SegmentationConfig, ShownLidConfig,
     StandingConfig, StandingOutConfig, StaticGuessConfig,

@@ -9,6 +9,7 @@ from grafu.asset.part import Asset, PartSource
 from grafu.completion.features import FeatureConfig
 from grafu.completion.misnamed_fronts import with_corrected_fronts
 from grafu.completion.network import complete_by_network
+from grafu.completion.static_guesses import with_static
 from grafu.graph.edges import Hinge
 from grafu.graph.edit import with_edges
 from grafu.graph.parse import parse_graph
@@ -17,6 +18,7 @@ from grafu.pipeline.motion_choices import MotionChoice, Moves, Side
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
 from grafu.pipeline.settings import Settings
+from grafu.refusal import Reason, Refusal
 from grafu.templates.gallery import builtin_gallery
 from grafu.vocabulary import PartLabel
 from network_answers import Answers
@@ -118,6 +120,67 @@ def test_what_is_called_the_door_of_a_dishwasher_is_no_drawer():
     found = labels_built([replace(lowest, source=PartSource("dish_washer_door")), *others])
     assert found["door_0"] == (DOOR, "revolute")
     assert found["door_3"] == (DRAWER, "prismatic")
+
+
+PLATE = ((0.003, -0.02, 0.005), (0.597, 0.0, 0.795))
+BAR = ((0.54, -0.05, 0.3), (0.552, -0.02, 0.5))
+FRAME = PartLabel.FACE_FRAME
+
+
+def called(label, odds, seen=DOOR, front=PLATE, handle=BAR, also=()):
+    """Returns what a front of a case with a handle is, which is called `label` and by the network likely is `seen`."""
+    parts = (*CASE, board("front", *front, label), board("bar", *handle, PartLabel.HANDLE), *also)
+    graph = parse_graph(Asset("made", "", "made", parts))
+    said = Answers(labels={"front": {seen: odds + 8.0, label: 8.0}})
+    names = [part.id for part in parts]
+    found = complete_by_network(graph, said.about(graph), FEW, named=names)
+    return found, with_corrected_fronts(Asset("made", "", "made", parts), found)
+
+
+@pytest.mark.parametrize("seen", [DOOR, DRAWER])
+@pytest.mark.parametrize("label", [FRAME, PartLabel.SIDE_PANEL, MISC])
+def test_what_has_a_bar_and_is_called_a_part_that_stays_is_what_the_network_is_sure_of(label, seen):
+    found, asset = called(label, 4.0, seen)
+    assert found.completed.node("front").label is seen
+    assert [edge.child for edge in found.completed.motions] == ["front"]
+    assert (asset.part("front").label, asset.part("front").labelled_by) == (seen, "prediction")
+    assert asset.notes == (
+        f"front is called a {label}, but is a {seen} by its shape (98%): --move front=fixed keeps it still",
+    )
+
+
+NEXT = board("door", (0.603, -0.02, 0.005), (1.2, 0.0, 0.795), DOOR)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"odds": 1.5},  # 0.82: not sure enough
+        {"handle": ((0.54, -0.05, 0.38), (0.57, -0.02, 0.42))},
+        {"handle": ((0.2, 0.1, 0.82), (0.4, 0.12, 0.85))},  # on the top
+        {"handle": ((0.59, -0.05, 0.3), (0.61, -0.02, 0.5)), "also": (NEXT,)},  # of the door beside it
+    ],
+    ids=["unsure", "a knob", "no handle", "another's handle"],
+)
+def test_what_is_called_a_part_that_stays_stays_otherwise(other):
+    found, asset = called(FRAME, **{"odds": 4.0, **other})
+    assert found.completed.node("front").label is FRAME
+    assert asset.part("front").labelled_by == "name"
+
+
+def test_a_front_that_shape_keeps_still_keeps_its_name():
+    found, _ = called(FRAME, 4.0)
+    still = with_static(found, [Refusal("front", Reason.UNLIKELY, "it lies on a wall")])
+    assert still.completed.node("front").label is FRAME
+    assert still.decision("front", "label") is None
+    assert [refusal.part for refusal in still.refused] == ["front"]
+    assert not still.completed.motions
+
+
+def test_a_door_that_is_called_a_face_frame_opens_unless_the_user_fixes_it():
+    parts = [board("front", *PLATE, FRAME), board("bar", *BAR, PartLabel.HANDLE)]
+    assert labels_built(parts) == {"front": (DOOR, "revolute")}
+    assert labels_built(parts, motions={"front": MotionChoice(Moves.FIXED)}) == {}
 
 
 def test_what_the_user_moves_is_what_the_user_calls_it():

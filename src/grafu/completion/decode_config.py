@@ -2,6 +2,7 @@
 
 from typing import final
 
+from grafu.completion.config import MisnamedConfig
 from grafu.dataclass import dataclass
 from grafu.geometry.config_checks import require_positive
 from grafu.visible import ShortRepr
@@ -260,9 +261,8 @@ class DecodeConfig:
     no_parent: float = 0.8
     """A handle is decoration from this probability of no parent on, if no edge states otherwise."""
 
-    misnamed: float = 0.8
-    """What is only named a door is a drawer from this probability on, and the other way round. Of 300 synthetic pieces
-    it corrects 4 of 5 misnamed fronts, of 250 real ones 20, and no other; the highest that is wrong has 0.69."""
+    misnamed: MisnamedConfig = MisnamedConfig()
+    """Of names that the network overrules."""
     some_parent: float = 0.05
     """The chance of being a handle's parent that remains to each door and drawer, where no edge states it."""
 
@@ -291,7 +291,6 @@ class DecodeConfig:
             self.strip,
             self.button,
             self.other_motion,
-            self.misnamed,
             self.unseen,
         )
         if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.slides, self.nested, self.no_parent)):

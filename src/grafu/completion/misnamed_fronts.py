@@ -1,13 +1,15 @@
-"""Doors that are called drawers, and drawers that are called doors, where the network is sure of it.
+"""Parts whose names are of another part, where the network is sure of it.
 
-Data sets call every front a door, or a flap the front of a drawer. Other labels from names are kept: where the network
-contradicts those of real furniture it is as often wrong as right, even where a handle seems to sit on a board.
+Data sets call every front a door, or a flap the front of a drawer, and now and then what a handle pulls is called a
+part that stays. Other labels from names are kept: where the network contradicts those of real furniture it is as often
+wrong as right.
 """
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from grafu.asset.part import Asset
+from grafu.completion.config import MisnamedConfig
 from grafu.completion.probabilities import Probabilities
 from grafu.graph.arrays import LABELS
 from grafu.graph.completion import Decision, GraphCompletion
@@ -15,35 +17,55 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.vocabulary import PartLabel
 
 _FRONTS = (PartLabel.DOOR, PartLabel.DRAWER)
-_CODES = [LABELS.index(label) for label in _FRONTS]
+_NOT_STILL = (*_FRONTS, PartLabel.HANDLE, PartLabel.UNKNOWN)
 
 
-def has_named(graph: FunctionalGraph, named: Collection[str]) -> bool:
-    """Whether a part is a door or drawer by its name alone, which `named` states, and its motion is not stated."""
-    return any(_is_open(node, graph, named) for node in graph.nodes)
+def has_named(graph: FunctionalGraph, named: Collection[str], config: MisnamedConfig) -> bool:
+    """Whether the network may overrule the name of a part, which `named` states; motions that are stated are kept."""
+    return any(_is_open(node, graph, named) or _is_pulled(node, graph, named, config) for node in graph.nodes)
 
 
 def corrected_fronts(
-    graph: FunctionalGraph, probabilities: Probabilities, named: Collection[str], least: float
+    graph: FunctionalGraph, probabilities: Probabilities, named: Collection[str], config: MisnamedConfig
 ) -> tuple[Decision, ...]:
-    """Returns for each misnamed front the decision that it is a drawer and no door, or a door and no drawer.
+    """Returns for each misnamed front the decision that it is a door or drawer, and not what it is named.
 
-    `named` are the parts whose labels rest on their names alone, `least` is the least probability that corrects one.
+    `named` are the parts whose labels rest on their names alone.
     """
     found = []
     for k, node in enumerate(graph.nodes):
-        if not _is_open(node, graph, named):
+        if _is_open(node, graph, named):
+            least = config.front
+        elif _is_pulled(node, graph, named, config):
+            least = config.still
+        else:
             continue
-        own = _FRONTS.index(node.label)
-        scores = probabilities.label[k, _CODES]
-        if float(scores[1 - own]) >= least:
-            other, score = _FRONTS[1 - own].value, float(scores[1 - own])
-            found.append(Decision(node.id, "label", other, score, node.label.value, float(scores[own])))
+        scores = {label: float(probabilities.label[k, LABELS.index(label)]) for label in {node.label, *_FRONTS}}
+        other = max(_FRONTS, key=scores.__getitem__)
+        if other is not node.label and scores[other] >= least:
+            found.append(Decision(node.id, "label", other.value, scores[other], node.label.value, scores[node.label]))
     return tuple(found)
 
 
 def _is_open(node: PartNode, graph: FunctionalGraph, named: Collection[str]) -> bool:
     return node.label in _FRONTS and node.id in named and node.id not in graph.moving
+
+
+def _is_pulled(node: PartNode, graph: FunctionalGraph, named: Collection[str], config: MisnamedConfig) -> bool:
+    """Whether a bar that touches no door or drawer touches a part that stays by its name alone."""
+    if node.label in _NOT_STILL or node.id not in named or node.id in graph.moving:
+        return False
+    near = graph.neighbours[node.id]
+    return any(_is_bar(graph.node(name), config) and not _is_of_a_front(name, graph) for name in near)
+
+
+def _is_bar(node: PartNode, config: MisnamedConfig) -> bool:
+    _, wide, long = sorted(node.box.size.tolist())
+    return node.label is PartLabel.HANDLE and long >= config.bar * wide
+
+
+def _is_of_a_front(handle: str, graph: FunctionalGraph) -> bool:
+    return any(graph.node(other).label in _FRONTS for other in graph.neighbours[handle])
 
 
 def _misnamed_fronts(completion: GraphCompletion) -> Sequence[Decision]:
@@ -55,7 +77,7 @@ def _misnamed_fronts(completion: GraphCompletion) -> Sequence[Decision]:
         if decision.question == "label"
         and decision.part in given
         and label_of[decision.part] in _FRONTS
-        and given.node(decision.part).label in set(_FRONTS) - {label_of[decision.part]}
+        and given.node(decision.part).label not in (PartLabel.UNKNOWN, label_of[decision.part])
     ]
 
 
@@ -72,11 +94,14 @@ def with_corrected_fronts(asset: Asset, completion: GraphCompletion) -> Asset:
     return replace(asset, parts=parts, notes=(*asset.notes, *(_note(decision, asset) for decision in found)))
 
 
-_KEEPS = {PartLabel.DOOR: "left", PartLabel.DRAWER: "slides"}  # words of `--move`
+_KEEPS = {  # words of `--move`
+    PartLabel.DOOR: "left moves it as a door",
+    PartLabel.DRAWER: "slides moves it as a drawer",
+}
 
 
 def _note(decision: Decision, asset: Asset) -> str:
     part = asset.part(decision.part)
     seen = f"is a {decision.choice} by its shape ({decision.score:.0%})"
-    keeps = f"--move {part.id}={_KEEPS[part.label]} moves it as a {part.label}"
+    keeps = f"--move {part.id}={_KEEPS.get(part.label, 'fixed keeps it still')}"
     return f"{part.id} is called a {part.label}, but {seen}: {keeps}"

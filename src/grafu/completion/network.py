@@ -188,7 +188,7 @@ def complete_by_network(
 
     `features` states how many points the network takes. Nodes should have points; those without are sampled on their
     boxes. Scores of decisions are the network's probabilities, renormalised over what could be chosen. `named` are the
-    parts whose labels rest on their names alone: of these the network corrects doors and drawers.
+    parts whose labels rest on their names alone: of these the network corrects some (`MisnamedConfig`).
 
     Raises:
         TooComplex: if there are more pairs of parts than the budget in force allows.
@@ -249,7 +249,8 @@ def label_parts(
 
     With it comes the forward pass on that graph, where there was one. `named` is as in `complete_by_network`.
     """
-    if all(node.label is not PartLabel.UNKNOWN for node in graph.nodes) and not has_named(graph, named):
+    has_unknown = any(node.label is PartLabel.UNKNOWN for node in graph.nodes)
+    if not has_unknown and not has_named(graph, named, config.misnamed):
         return graph, (), None
     known = forward(graph, network, features)
     corrections = corrected_fronts(graph, known[1], named, config.misnamed)

@@ -84,17 +84,20 @@ def with_static_guesses(
 def with_static(completion: GraphCompletion, doubtful: Sequence[Refusal]) -> GraphCompletion:
     """Returns the completion in which the parts that are refused stay static; what hangs on them still moves.
 
-    Each was guessed to be a door or drawer, and becomes a part of no category.
+    Each was guessed to be a door or drawer, and becomes what its name says, or a part of no category.
     """
     still, graph = {refusal.part for refusal in doubtful}, completion.completed
+    stated = {node.id: node.label for node in completion.input.nodes if node.label is not PartLabel.UNKNOWN}
+    called = {name: label for name, label in stated.items() if not label.is_movable}
     gone = {e.child for e in graph.attachments if e.parent in still and e.child in completion.added}
     moved = {frozenset(ends_of(edge)) for edge in graph.motions if edge.child in still}
-    as_parts = relabelled(graph, dict.fromkeys(still, PartLabel.MISC))
+    as_parts = relabelled(graph, {name: called.get(name, PartLabel.MISC) for name in still})
     rest = without_edges(as_parts, [edge for edge in as_parts.edges if frozenset(ends_of(edge)) in moved])
 
     def is_kept(decision: Decision) -> bool:
         is_moot = decision.part in gone or (decision.question == "parent" and decision.choice in still)
-        return not is_moot and (decision.part not in still or decision.question == "label")
+        is_guess = decision.question == "label" and decision.part not in called
+        return not is_moot and (decision.part not in still or is_guess)
 
     return replace(
         completion,

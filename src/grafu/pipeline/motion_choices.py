@@ -112,8 +112,11 @@ def with_moving(
 
 
 def _moved(part: Part, choice: MotionChoice | None, labels: Mapping[str, PartLabel], drawers: DrawerConfig) -> Part:
-    if choice is None or choice.moves is Moves.FIXED:
+    if choice is None:
         return part
+    if choice.moves is Moves.FIXED:
+        is_called_still = part.labelled_by == "name" and not part.label.is_movable
+        return replace(part, labelled_by="user") if is_called_still else part  # no network overrules it
     label = label_of_motion(part, choice, drawers)
     if labels.get(part.id, label) is not label:
         raise OptionError(f"`{part.id}` {choice.moves} and so is a {label}: its category must not be {part.label}")
