@@ -32,6 +32,7 @@ from grafu.asset.framed_leaves import FramedLeafConfig
 from grafu.asset.grips import DrawnGripConfig
 from grafu.asset.handle_stands import HandleStandConfig
 from grafu.asset.handles_in_doors import HandlesInDoorsConfig
+from grafu.asset.inner_pieces import InnerPieceConfig
 from grafu.asset.lasso_cut import LassoConfig
 from grafu.asset.leaf_pieces import LeafPieceConfig
 from grafu.asset.link_groups import LinkGroupConfig
@@ -278,7 +279,7 @@ CONFIGS = (
     FramedDoorsConfig, HandleSideConfig, HeldBorderConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig,
     LeafPieceConfig,
     BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
-    BodyLinkConfig, ControlPanelConfig, LidAboveConfig, RingSeatConfig,
+    BodyLinkConfig, ControlPanelConfig, LidAboveConfig, RingSeatConfig, InnerPieceConfig,
     LevelBarConfig, LoneFrontConfig, MovingLinkConfig, LyingHandleConfig, LyingWindowConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,

@@ -16,6 +16,7 @@ import numpy as np
 
 from grafu.asset.behind_fronts import behind_fronts
 from grafu.asset.grips import face_area, facing_axis, is_plate, pieces_before
+from grafu.asset.inner_pieces import with_sitting_pieces
 from grafu.asset.labels import is_piece
 from grafu.asset.names import spoken
 from grafu.asset.part import Part
@@ -115,8 +116,7 @@ def with_joined_pieces(
         hosts.setdefault(host.id, []).append(piece)
     joined = {piece.id: host for host, members in hosts.items() for piece in members}
     kept = tuple(with_pieces(p, hosts.get(p.id, []), joined) for p in parts if p.id not in joined)
-    held = _held(kept, whole.diagonal, config)
-    kept = tuple(replace(p, label=PartLabel.HANDLE, carried_by=held[p.id]) if p.id in held else p for p in kept)
+    kept = with_sitting_pieces(kept, _held(kept, whole.diagonal, config), whole)
     notes = [f"{in_words(members)} joined to {host}" for host, members in hosts.items()]
     left = _left_over(kept, hosts)
     if left:
