@@ -71,6 +71,31 @@ def test_a_door_turns_about_the_border_that_has_its_hinges():
     assert after.mounts == ()
 
 
+def row(*hung, planned="left"):
+    """The pins of three doors side by side, all planned to hang on one side, whose barrels stand at `hung`."""
+    leaves = [box(f"door_{k}", (0.41 * k, -0.02, 0.0), (0.41 * k + 0.4, 0.0, 0.6)) for k in range(3)]
+    off, up = (0.0, -1.0) if planned == "left" else (0.4, 1.0)
+    lines = [Axis(vec3(0.41 * k + off, 0.0, 0.0), vec3(0.0, 0.0, up)) for k in range(3)]
+    joints = tuple(hinged(leaf.id, axis=line) for leaf, line in zip(leaves, lines, strict=True))
+    barrels = [knuckle for x in hung for knuckle in knuckles(x)]
+    case = (box("side", (-0.02, 0.0, -0.02), (0.0, 0.4, 0.62)), box("end", (1.22, 0.0, -0.02), (1.24, 0.4, 0.62)))
+    asset = scene(*leaves, *case, *barrels, joints=joints)
+    return [request.axis.point[0] for request in with_drawn_hinges(plan_from_annotation(asset), asset).joints]
+
+
+@pytest.mark.parametrize(("hung", "planned"), [((-0.004, 0.405, 0.815), "right"), ((0.405, 0.815, 1.224), "left")])
+def test_doors_in_a_row_that_hang_on_one_side_have_each_their_own_barrels(hung, planned):
+    assert np.allclose(row(*hung, planned=planned), hung)
+
+
+def test_barrels_between_two_doors_of_which_none_has_others_are_of_both():
+    assert np.allclose(row(0.405)[:2], (0.405, 0.41))  # the right one is planned there
+
+
+def test_doors_stay_as_planned_where_all_have_barrels_along_two_borders():
+    assert np.allclose(row(-0.004, 0.405, 0.815, 1.224), (0.0, 0.41, 0.82))
+
+
 def dowels(z):
     """What joins the bottom to both sides, on one level line behind the door's lower border."""
     return [cylinder(f"dowel_{x}", ((x - 0.015, 0.03, z), (x + 0.015, 0.03, z)), radius=0.004) for x in (0.0, 0.4)]

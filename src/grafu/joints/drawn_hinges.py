@@ -3,53 +3,29 @@
 They carry the door, and tell which border it turns about, whatever the source of motions takes it for.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cache
 from typing import TypeAlias, final
 
 import numpy as np
 
-from grafu.asset.part import Asset, Part
+from grafu.asset.part import Asset
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Points, median, vec3
+from grafu.geometry.arrays import Points, vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
-from grafu.geometry.components import connected_parts
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.edges import Hinge
+from grafu.joints.barrels import Barrel, HingeModel, barrels_near, hinge_line, hinge_model, line_at
 from grafu.joints.config import RealizationConfig
-from grafu.joints.drawn_config import DrawnConfig
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.nesting import bodies_of
 from grafu.joints.plan import JointRequest, RealizationPlan
 from grafu.scene.border import SNAP, BorderFrame, border_frame, part_axes
 from grafu.scene.scene import Scene
-from grafu.shapes import Float
-from grafu.vocabulary import PartLabel
 
-_Shells: TypeAlias = Callable[[str], Sequence[TriangleMesh]]
-_ALONG = 9  # points of a pin, from end to end, that are looked for in boards
-_POINT = 1e-4  # metres: half the side of the cube that stands for the end of a rod
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Barrel:
-    """The barrel of a drawn hinge, or a rod, of a part: its pin at (x, y) of a border frame (metres)."""
-
-    part: str
-    x: float
-    y: float
-    low: float
-    high: float
-    radius: float
-
-    @property
-    def length(self) -> float:
-        """Its length along the border, metres."""
-        return self.high - self.low
+_Line: TypeAlias = tuple[BorderFrame, Sequence[Barrel]]
 
 
 @final
@@ -61,24 +37,6 @@ class DrawnPin:
     parts: frozenset[str]
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class _Model:
-    """A scene, the config in its scale, and the shells of its parts; each part is taken apart once."""
-
-    scene: Scene
-    config: RealizationConfig
-    shells: _Shells
-
-    @property
-    def drawn(self) -> DrawnConfig:
-        return self.config.hinge.drawn
-
-
-def _model(scene: Scene, config: RealizationConfig) -> _Model:
-    return _Model(scene, config, cache(lambda part: connected_parts(scene.parts[part].mesh)))
-
-
 def drawn_pin(search: DoorSearch) -> DrawnPin | None:
     """Returns the common pin of round barrels along the door's border, shells of the door or of static parts.
 
@@ -87,15 +45,15 @@ def drawn_pin(search: DoorSearch) -> DrawnPin | None:
     """
     if str(search.request.choice):
         return None
-    model = _model(search.scene, search.config)
-    line = _line(search.frame, search.request, model)
+    model = hinge_model(search.scene, search.config)
+    line = line_at(search.frame, search.request, model)
     return DrawnPin(search.frame.axis_at(line[0].x, line[0].y), frozenset(b.part for b in line)) if line else None
 
 
 def barrels_at(frame: BorderFrame, request: JointRequest, scene: Scene, config: RealizationConfig) -> list[Barrel]:
     """Returns the barrels on one line that are spread along a border of a moving body; `config` is in its scale."""
-    model = _model(scene, config)
-    return _hinge_line(frame, list(_barrels(frame, request.moving, model)), model.drawn)
+    model = hinge_model(scene, config)
+    return hinge_line(frame, list(barrels_near(frame, request.moving, model)), model.drawn)
 
 
 def with_drawn_hinges(
@@ -103,25 +61,59 @@ def with_drawn_hinges(
 ) -> RealizationPlan:
     """Returns the plan in which doors turn about the border along which the model has hinges for them.
 
-    Barrels count where they lie along one border of a door and no other. A rod along the lower border of an upright
-    leaf, which ends at static parts, makes a flap of whatever stands on it, be it planned to turn elsewhere or to
-    slide. Joints on moving parts, coupled ones, and those for which hardware was chosen stay as they are.
+    Barrels count where they lie along one border of a door and no other; those of a door beside it that has no others
+    are that one's. A rod along the lower border of an upright leaf, which ends at static parts, makes a flap of
+    whatever stands on it, be it planned to turn elsewhere or to slide. Joints on moving parts, coupled ones, and those
+    for which hardware was chosen stay as they are.
     """
     scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, bodies_of(plan.joints), asset.extent)
-    model = _model(scene, at_scale(config, scene.metre))
-    return replace(plan, joints=tuple(_on_drawn(request, model) for request in plan.joints))
+    model = hinge_model(scene, at_scale(config, scene.metre))
+    found = _without_neighbours([_lines_of(request, model) for request in plan.joints], model.drawn.line)
+    told = zip(plan.joints, found, strict=True)
+    return replace(plan, joints=tuple(_on_drawn(r, lines[0], model) if len(lines) == 1 else r for r, lines in told))
 
 
-def _on_drawn(request: JointRequest, model: _Model) -> JointRequest:
+def _lines_of(request: JointRequest, model: HingeModel) -> list[_Line]:
+    """Returns the borders of a part along which barrels lie that may carry it, with these; none for other joints."""
     is_settled = str(request.choice) or request.parent or request.coupling or request.drawn_at
     if is_settled or request.moving not in model.scene.parts:
-        return request
+        return []
     leaf = model.scene.parts[request.moving].mesh
     frames = [border_frame(leaf, axis) for axis in _border_axes(leaf)]
-    found = [(frame, line) for frame in frames if (line := _line(frame, request, model))]
-    if len(found) != 1:
-        return request
-    frame, line = found[0]
+    return [(frame, line) for frame in frames if (line := line_at(frame, request, model))]
+
+
+def _without_neighbours(found: list[list[_Line]], near: float) -> list[list[_Line]]:
+    """Returns the lines of each part without those of another part that has no other line, until none is left out.
+
+    In a row of doors that all hang on the left, each has the barrels of the next one along its right border.
+    """
+    kept = list(found)
+    while True:
+        single = [(k, _middles(lines[0])) for k, lines in enumerate(kept) if len(lines) == 1]
+        before = [len(lines) for lines in kept]
+        for k, lines in enumerate(kept):
+            own = [line for line in lines if not any(j != k and _meet(_middles(line), m, near) for j, m in single)]
+            if own:
+                kept[k] = own
+        if [len(lines) for lines in kept] == before:
+            return kept
+
+
+def _middles(line: _Line) -> Points:
+    """Returns the middles of those barrels of a line that are as high as the part itself, in the object frame."""
+    frame, barrels = line
+    points = [vec3(b.x, b.y, (b.low + b.high) / 2) for b in barrels]
+    return frame.to_object(np.array([p for p in points if abs(p[2]) <= frame.length / 2]).reshape(-1, 3))
+
+
+def _meet(some: Points, others: Points, near: float) -> bool:
+    return bool((np.linalg.norm(some[:, None] - others[None], axis=2) <= near).any())
+
+
+def _on_drawn(request: JointRequest, found: _Line, model: HingeModel) -> JointRequest:
+    frame, line = found
+    leaf = model.scene.parts[request.moving].mesh
     request = _without_barrels(request, line, model)
     if request.kind.turns and _is_same_border(border_frame(leaf, request.axis), frame):
         return request
@@ -132,7 +124,7 @@ def _on_drawn(request: JointRequest, model: _Model) -> JointRequest:
     return made if opens > 0 else replace(made, axis=made.axis.reversed())
 
 
-def _without_barrels(request: JointRequest, line: Sequence[Barrel], model: _Model) -> JointRequest:
+def _without_barrels(request: JointRequest, line: Sequence[Barrel], model: HingeModel) -> JointRequest:
     """Returns the request without parts that are barrels of its hinges, where others of these are static: all are."""
     if all(barrel.part in model.scene.moving_ids for barrel in line):
         return request
@@ -154,137 +146,3 @@ def _border_axes(mesh: TriangleMesh) -> Iterator[Axis]:
 
 def _is_same_border(a: BorderFrame, b: BorderFrame) -> bool:
     return bool(a.rotation[:, 0] @ b.rotation[:, 0] > SNAP)
-
-
-def _line(frame: BorderFrame, request: JointRequest, model: _Model) -> list[Barrel]:
-    """Returns the barrels, or the rod, that carry a part at a border; empty where there are none.
-
-    What slides needs more than barrels near it, which may be its neighbours'.
-    """
-    barrels = list(_barrels(frame, request.moving, model))
-    hinges = _hinge_line(frame, barrels, model.drawn) if request.kind.turns else []
-    return hinges or [barrel for barrel in barrels if _is_rod(barrel, frame, model)][:1]
-
-
-def _hinge_line(frame: BorderFrame, barrels: Sequence[Barrel], config: DrawnConfig) -> list[Barrel]:
-    """Returns the barrels on one line that are spread along a border, the most of them; empty where there are none."""
-    lines = [line for line in _lines(barrels, config.line) if len(line) > 1]
-    least = config.spread * frame.length
-    spread = [line for line in lines if max(b.high for b in line) - min(b.low for b in line) >= least]
-    return max(spread, key=len, default=[])
-
-
-def _is_rod(barrel: Barrel, frame: BorderFrame, model: _Model) -> bool:
-    """Whether a barrel runs along the whole lower border of an upright leaf, and is held by static parts at both ends.
-
-    A bar to pull it by ends before the leaf, where nothing holds it; what is called a handle is none.
-    """
-    is_lower = bool(frame.rotation[2, 0] > SNAP)
-    if model.scene.parts[barrel.part].label is PartLabel.HANDLE:
-        return False
-    if not is_lower or not model.drawn.rod <= barrel.length / frame.length <= 1 / model.drawn.rod:
-        return False
-    if barrel.part not in model.scene.moving_ids:
-        return True
-    ends = frame.to_object(np.array([[barrel.x, barrel.y, z] for z in (barrel.low, barrel.high)]))
-    cubes = (TriangleMesh.box_mesh(Box(end - _POINT, end + _POINT)) for end in ends)
-    return all(model.scene.is_near_static(cube, model.drawn.bearing) for cube in cubes)
-
-
-def _barrels(frame: BorderFrame, moving: str, model: _Model) -> Iterator[Barrel]:
-    """Yields the barrels near a border, shells of a moving body or of static parts."""
-    scene, reach = model.scene, model.drawn.reach
-    own = [scene.parts[name] for name in scene.moving_bodies[moving].members]
-    near = [*own, *scene.static_parts_near(_along_border(frame, model))]
-    low, high = _in_border_frame([part.box for part in near], frame)
-    meets = (low[:, 0] <= reach) & (high[:, 0] >= -reach) & (low[:, 1] <= reach)
-    meets &= high[:, 1] >= -frame.thickness - reach
-    for part in (near[k] for k in np.flatnonzero(meets)):
-        if len(part.mesh.faces) > model.config.carved_faces:
-            continue
-        is_static = part.id not in scene.moving_ids
-        for shell in model.shells(part.id):
-            found = _as_barrel(shell, part.id, frame, model.drawn)
-            yield from (barrel for barrel in found if not (is_static and _is_buried(barrel, frame, near, model)))
-
-
-def _is_buried(barrel: Barrel, frame: BorderFrame, near: Sequence[Part], model: _Model) -> bool:
-    """Whether a round part lies in static boards all along: it joins them, as dowels, cams and screws do."""
-    ends = frame.to_object(np.array([[barrel.x, barrel.y, z] for z in (barrel.low, barrel.high)]))
-    direction = (ends[1] - ends[0]) / barrel.length
-    beside = barrel.radius * np.sqrt(np.maximum(1.0 - direction**2, 0.0)) - model.drawn.flush
-    points = ends[0] + np.linspace(0.0, 1.0, _ALONG)[:, None] * (ends[1] - ends[0])
-    fixed = (p.box for p in near if p.id != barrel.part and p.id not in model.scene.moving_ids)
-    boards = [box for box in fixed if box.size.min() <= model.drawn.board]
-    inside = [(points >= b.low + beside).all(axis=1) & (points <= b.high - beside).all(axis=1) for b in boards]
-    return bool(np.any(inside, axis=0).all()) if inside else False
-
-
-_CORNERS = np.array([[bool(k & 1 << axis) for axis in range(3)] for k in range(8)])
-
-
-def _in_border_frame(boxes: Sequence[Box], frame: BorderFrame) -> tuple[Points, Points]:
-    """Returns the low and high ends of the boxes around boxes, in a border frame."""
-    ends = np.array([(box.low, box.high) for box in boxes]).reshape(-1, 2, 1, 3)
-    corners = np.where(_CORNERS, ends[:, 1], ends[:, 0])
-    local = frame.to_border(corners.reshape(-1, 3)).reshape(corners.shape)
-    return local.min(axis=1), local.max(axis=1)
-
-
-def _along_border(frame: BorderFrame, model: _Model) -> Box:
-    """Returns the box around all that may be near a border, however far along it."""
-    reach, far = model.drawn.reach, frame.length + 2 * model.scene.extent
-    low, high = vec3(-reach, -frame.thickness - reach, -far), vec3(reach, reach, far)
-    return Box.around(frame.to_object(Box(low, high).corners()))
-
-
-def _as_barrel(shell: TriangleMesh, part: str, frame: BorderFrame, config: DrawnConfig) -> Iterator[Barrel]:
-    """Yields the barrel of a shell near the border and along it, if it has one with the radius of a hinge's.
-
-    A shell is a cylinder, or a cylinder at an end of a leaf that is no wider.
-    """
-    local = frame.to_border(shell.vertices)
-    box = Box.around(local)
-    is_beside = box.low[0] >= -config.reach and box.high[0] <= config.reach
-    is_level = box.low[1] >= -frame.thickness - config.reach and box.high[1] <= config.reach
-    size = box.size[:2]
-    is_round = bool(size.max() * config.round <= size.min())
-    radius = float(size.max() if is_round else size.min()) / 2
-    if not (is_beside and is_level and config.radii[0] <= radius <= config.radii[1]) or box.size[2] < radius:
-        return
-    along = int(np.argmax(size))
-    for side in (0.0,) if is_round else (-1.0, 1.0):
-        middle = box.center[:2].copy()
-        middle[along] += side * (float(size[along]) / 2 - radius)
-        outer = local[:, :2][
-            side * (local[:, along] - middle[along]) >= 0
-        ]  # all of a cylinder, the half at a leaf's end
-        if _lies_on_rim(outer - middle, radius, config):
-            yield Barrel(part, float(middle[0]), float(middle[1]), float(box.low[2]), float(box.high[2]), radius)
-
-
-def _lies_on_rim(points: Float[np.ndarray, "n 2"], radius: float, config: DrawnConfig) -> bool:
-    """Whether points around a pin lie on a rim, but for those of caps, and for those of a bore or a pin within it.
-
-    What lies beyond the rim is of neither: the posts of a bar handle have corners there.
-    """
-    off = np.hypot(*points.T)
-    off, near = off[off > (1 - config.round) * radius], (1 - config.round) * radius
-    on_rim = np.abs(off - radius) <= near
-    inner = off[~on_rim & (off < radius)]
-    in_bore = np.count_nonzero(np.abs(inner - median(inner)) <= near) if len(inner) else 0
-    found = int(np.count_nonzero(on_rim))
-    return bool(found >= config.corners and found + in_bore >= config.round * len(off))
-
-
-def _lines(barrels: Sequence[Barrel], within: float) -> list[list[Barrel]]:
-    """Returns the barrels that have one pin line, together."""
-    lines: list[list[Barrel]] = []
-    for one in barrels:
-        same = (line for line in lines if np.hypot(one.x - line[0].x, one.y - line[0].y) <= within)
-        line = next(same, None)
-        if line is None:
-            lines.append([one])
-        else:
-            line.append(one)
-    return lines
