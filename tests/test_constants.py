@@ -20,6 +20,7 @@ from grafu.asset.appliance_fronts import ApplianceFrontConfig
 from grafu.asset.boarded_drawers import BoardedDrawerConfig
 from grafu.asset.bodies_of_faces import BodiesOfFacesConfig
 from grafu.asset.body_kinds import BodyKindConfig
+from grafu.asset.body_link import BodyLinkConfig
 from grafu.asset.cad_names import CadNamesConfig
 from grafu.asset.closed_side import ClosedSideConfig
 from grafu.asset.cutting import CutConfig
@@ -75,7 +76,6 @@ from grafu.completion.level_bars import LevelBarConfig
 from grafu.completion.lids_above import LidAboveConfig
 from grafu.completion.lone_fronts import LoneFrontConfig
 from grafu.completion.moving_links import MovingLinkConfig
-from grafu.completion.one_link import BodyLinkConfig
 from grafu.completion.oven_doors import OvenDoorConfig
 from grafu.completion.rehang import RehangConfig
 from grafu.completion.round_doors import RoundDoorConfig

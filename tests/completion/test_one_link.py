@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from grafu.asset.body_link import body_link
 from grafu.asset.part import Asset, Part, PartSource
-from grafu.completion.one_link import body_link, with_rigid_links
+from grafu.completion.one_link import with_rigid_links
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Hinge, Slide
 from grafu.graph.edit import relabelled, with_edges
@@ -48,6 +49,16 @@ def test_a_guess_on_the_link_of_the_body_stays():
 )
 def test_other_doors_move(case):
     assert moving(**case) == {"door", "console"}
+
+
+def test_what_is_on_the_link_of_the_body_rides_on_no_door_of_another_link():
+    sources = {"door": "leaf", "console": "leaf"}
+    parts = [replace(p, source=PartSource(p.id, link=sources.get(p.id, "body"))) for p in (*BASE_CASE, DOOR, CONSOLE)]
+    asset = Asset("made", "", "urdf", tuple(parts))
+    graph = relabelled(parse_graph(asset), {"door": PartLabel.MISC})
+    rides = (("door", "left"), ("door", "console"), ("left", "right"))
+    found = with_rigid_links(GraphCompletion(graph, graph, "network", rides=rides), asset)
+    assert found.rides == rides[1:]
 
 
 def test_the_largest_link_of_one_mesh_tells_nothing():

@@ -67,6 +67,18 @@ def test_a_gasket_on_the_case_alone_stays():
     assert planned(on_case) == {"door_skin": set()}
 
 
+@pytest.mark.parametrize(
+    ("kind", "link", "goes"), [("urdf", "body", False), ("urdf", "leaf", True), ("glb", "body", True)]
+)
+def test_what_is_on_the_link_of_the_body_of_a_robot_stays(kind, link, goes):
+    body = [replace(part, source=PartSource(part.id, link="body")) for part in CASE]
+    door = replace(DOOR, source=PartSource(DOOR.id, link="leaf"))
+    liner, gasket = (replace(part, source=PartSource(part.id, link=link)) for part in (LINER, GASKET))
+    asset = replace(scene(door, *body, liner, gasket), kind=kind)
+    (request,) = with_hung_parts(RealizationPlan((hinge(),), ()), asset).joints
+    assert set(request.attached) == ({"liner", "gasket_left"} if goes else set())
+
+
 def test_a_hinge_and_a_handle_hold_nothing():
     knuckle = replace(box("hinge_knuckle", (-0.01, -0.04, 0.2), (0.03, 0.01, 0.3)), source=PartSource("hinge_knuckle"))
     handle = replace(cylinder("handle", ((0.5, -0.09, 0.6), (0.5, -0.02, 0.6))), label=PartLabel.HANDLE)

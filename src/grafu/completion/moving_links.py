@@ -9,9 +9,9 @@ from typing import Final, final
 
 import numpy as np
 
+from grafu.asset.body_link import body_link, parts_of_links
 from grafu.asset.grips import face_area
 from grafu.asset.part import Asset, Part
-from grafu.completion.one_link import body_link, parts_of_links
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios

@@ -3,61 +3,15 @@
 It looks at links and names, never at joints.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import final
 
-import numpy as np
-
+from grafu.asset.body_link import body_link
 from grafu.asset.labels import sense_of
-from grafu.asset.part import ROBOTS, Asset, Part
+from grafu.asset.part import Asset
 from grafu.completion.static_guesses import guessed_to_move, taken_for, with_static
-from grafu.dataclass import dataclass
-from grafu.geometry.box import Box
-from grafu.geometry.config_checks import require_positive
 from grafu.graph.completion import GraphCompletion
 from grafu.graph.edit import without_edges
 from grafu.refusal import Reason, Refusal
-from grafu.vocabulary import PartLabel
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class BodyLinkConfig:
-    """Which link of a robot description holds the body of a piece.
-
-    Raises:
-        ValueError: if a number is not above 0.
-    """
-
-    boards: int = 3
-    """Its parts at least, besides handles: a body that is a single mesh is not known from a drawer."""
-
-    def __post_init__(self) -> None:
-        require_positive(self, "boards")
-
-
-def body_link(asset: Asset, config: BodyLinkConfig = BodyLinkConfig()) -> str:
-    """Returns the link of a robot description that holds the body of a piece; empty where there is none, or one link.
-
-    It is the largest, and has several parts of its own.
-    """
-    links = parts_of_links(asset)
-    if asset.kind not in ROBOTS or len(links) < 2:
-        return ""
-    sizes = {link: float(np.prod(Box.enclosing(p.box for p in own).size)) for link, own in links.items()}
-    largest = max(sizes, key=lambda link: sizes[link])
-    boards = [part for part in links[largest] if part.label is not PartLabel.HANDLE]
-    return largest if len(boards) >= config.boards else ""
-
-
-def parts_of_links(asset: Asset) -> Mapping[str, list[Part]]:
-    """Returns the parts of each link, by its name."""
-    found: dict[str, list[Part]] = {}
-    for part in asset.parts:
-        if part.source.link:
-            found.setdefault(part.source.link, []).append(part)
-    return found
 
 
 def with_rigid_links(completion: GraphCompletion, asset: Asset) -> GraphCompletion:
@@ -66,7 +20,7 @@ def with_rigid_links(completion: GraphCompletion, asset: Asset) -> GraphCompleti
     That is so where other links have their own doors and drawers, as many as were guessed there at least: then the
     file parts what moves from what stays. Where all are on one link, or few are not, it tells nothing. What is called a
     mere piece of a door or drawer there (`door_plate`), or is no more than near to one by its name (`drawer_deck`),
-    stays as well, however many there are; so do trays and shelves.
+    stays as well, however many there are; so do trays and shelves. Nothing of it rides on what is on another link.
     """
     body = body_link(asset)
     if not body:
@@ -87,7 +41,8 @@ def with_rigid_links(completion: GraphCompletion, asset: Asset) -> GraphCompleti
     shelves = [edge for edge in graph.slides if apart and edge.child not in fronts and links.get(edge.child) == body]
     still = {edge.child for edge in shelves}
     kept = tuple(d for d in completion.decisions if d.part not in still or d.question == "label")
-    fixed = replace(completion, completed=without_edges(graph, shelves), decisions=kept) if shelves else completion
+    rides = tuple(ride for ride in completion.rides if links.get(ride[0], body) == body or links.get(ride[1]) != body)
+    fixed = replace(completion, completed=without_edges(graph, shelves), decisions=kept, rides=rides)
     return with_static(fixed, refusals) if refusals else fixed
 
 

@@ -1,7 +1,8 @@
 """What hangs on a door or drawer goes with it: liners, bins and racks on a door's inside, edges of a hollow leaf.
 
 Such parts lie within the outline of the front and touch nothing but it; runners, hinges and handles hold nothing. What
-was guessed to move by itself does not where the front covers it. They are found by boxes and contacts, so fronts that
+was guessed to move by itself does not where the front covers it. What is on the link of the body of a robot hangs on no
+front of another link. They are found by boxes and contacts, so fronts that
 stand turned about Z keep what they were predicted to carry.
 """
 
@@ -9,6 +10,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import Final, final
 
+from grafu.asset.body_link import body_link
 from grafu.asset.names import spoken
 from grafu.asset.part import Asset, Part
 from grafu.dataclass import dataclass
@@ -101,8 +103,11 @@ def _hung_on(
     covered = {part.id for part in guessed if _is_covered_guess(part, front, config)}
     others = [other for name, other in made.items() if name not in covered and name != request.moving]
     taken = {part for other in others for part in (other.moving, *other.attached)} | (own - covered)
+    body = body_link(asset)
+    fixed = body if asset.part(request.moving).source.link != body else ""
     farthest = float(front.low[_DEPTH]) + config.deep * float(asset.box.size[_DEPTH])
-    near = (p for p in asset.parts if p.id not in taken and _lies_within(p.box, front, config.slack))
+    loose = (p for p in asset.parts if p.id not in taken and not (fixed and p.source.link == fixed))
+    near = (p for p in loose if _lies_within(p.box, front, config.slack))
     inside = {p.id for p in near if p.label not in _STAY and p.box.high[_DEPTH] <= farthest}
     soft = {name for name in inside if _SOFT & set(spoken(asset.part(name).source.name))}
     held = own - inside
