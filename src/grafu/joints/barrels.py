@@ -45,7 +45,7 @@ class Barrel:
 
 @final
 @dataclass(frozen=True, eq=False)
-class HingeModel:
+class DrawnModel:
     """A scene, the config in its scale, and the shells of its parts; each part is taken apart once."""
 
     scene: Scene
@@ -58,12 +58,12 @@ class HingeModel:
         return self.config.hinge.drawn
 
 
-def hinge_model(scene: Scene, config: RealizationConfig) -> HingeModel:
+def drawn_model(scene: Scene, config: RealizationConfig) -> DrawnModel:
     """Returns the model in which barrels are looked for; `config` is in the scene's scale."""
-    return HingeModel(scene, config, cache(lambda part: connected_parts(scene.parts[part].mesh)))
+    return DrawnModel(scene, config, cache(lambda part: connected_parts(scene.parts[part].mesh)))
 
 
-def line_at(frame: BorderFrame, request: JointRequest, model: HingeModel) -> list[Barrel]:
+def line_at(frame: BorderFrame, request: JointRequest, model: DrawnModel) -> list[Barrel]:
     """Returns the barrels, or the rod, that carry a part at a border; empty where there are none.
 
     What slides needs more than barrels near it, which may be its neighbours'.
@@ -81,7 +81,7 @@ def hinge_line(frame: BorderFrame, barrels: Sequence[Barrel], config: DrawnConfi
     return max(spread, key=len, default=[])
 
 
-def _is_rod(barrel: Barrel, frame: BorderFrame, model: HingeModel) -> bool:
+def _is_rod(barrel: Barrel, frame: BorderFrame, model: DrawnModel) -> bool:
     """Whether a barrel runs along the whole lower border of an upright leaf, and is held by static parts at both ends.
 
     A bar to pull it by ends before the leaf, where nothing holds it; what is called a handle is none.
@@ -98,7 +98,7 @@ def _is_rod(barrel: Barrel, frame: BorderFrame, model: HingeModel) -> bool:
     return all(model.scene.is_near_static(cube, model.drawn.bearing) for cube in cubes)
 
 
-def barrels_near(frame: BorderFrame, moving: str, model: HingeModel) -> Iterator[Barrel]:
+def barrels_near(frame: BorderFrame, moving: str, model: DrawnModel) -> Iterator[Barrel]:
     """Yields the barrels near a border, shells of a moving body or of static parts."""
     scene, reach = model.scene, model.drawn.reach
     own = [scene.parts[name] for name in scene.moving_bodies[moving].members]
@@ -115,7 +115,7 @@ def barrels_near(frame: BorderFrame, moving: str, model: HingeModel) -> Iterator
             yield from (barrel for barrel in found if not (is_static and _is_buried(barrel, frame, near, model)))
 
 
-def _is_buried(barrel: Barrel, frame: BorderFrame, near: Sequence[Part], model: HingeModel) -> bool:
+def _is_buried(barrel: Barrel, frame: BorderFrame, near: Sequence[Part], model: DrawnModel) -> bool:
     """Whether a round part lies in static boards all along: it joins them, as dowels, cams and screws do."""
     ends = frame.to_object(np.array([[barrel.x, barrel.y, z] for z in (barrel.low, barrel.high)]))
     direction = (ends[1] - ends[0]) / barrel.length
@@ -138,7 +138,7 @@ def _in_border_frame(boxes: Sequence[Box], frame: BorderFrame) -> tuple[Points, 
     return local.min(axis=1), local.max(axis=1)
 
 
-def _along_border(frame: BorderFrame, model: HingeModel) -> Box:
+def _along_border(frame: BorderFrame, model: DrawnModel) -> Box:
     """Returns the box around all that may be near a border, however far along it."""
     reach, far = model.drawn.reach, frame.length + 2 * model.scene.extent
     low, high = vec3(-reach, -frame.thickness - reach, -far), vec3(reach, reach, far)

@@ -17,7 +17,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.config_checks import at_scale
 from grafu.geometry.mesh import TriangleMesh
 from grafu.graph.edges import Hinge
-from grafu.joints.barrels import Barrel, HingeModel, barrels_near, hinge_line, hinge_model, line_at
+from grafu.joints.barrels import Barrel, DrawnModel, barrels_near, drawn_model, hinge_line, line_at
 from grafu.joints.config import RealizationConfig
 from grafu.joints.hinge.search import DoorSearch
 from grafu.joints.nesting import bodies_of
@@ -45,14 +45,14 @@ def drawn_pin(search: DoorSearch) -> DrawnPin | None:
     """
     if str(search.request.choice):
         return None
-    model = hinge_model(search.scene, search.config)
+    model = drawn_model(search.scene, search.config)
     line = line_at(search.frame, search.request, model)
     return DrawnPin(search.frame.axis_at(line[0].x, line[0].y), frozenset(b.part for b in line)) if line else None
 
 
 def barrels_at(frame: BorderFrame, request: JointRequest, scene: Scene, config: RealizationConfig) -> list[Barrel]:
     """Returns the barrels on one line that are spread along a border of a moving body; `config` is in its scale."""
-    model = hinge_model(scene, config)
+    model = drawn_model(scene, config)
     return hinge_line(frame, list(barrels_near(frame, request.moving, model)), model.drawn)
 
 
@@ -67,13 +67,13 @@ def with_drawn_hinges(
     for which hardware was chosen stay as they are.
     """
     scene = Scene({p.id: p for p in asset.parts if len(p.mesh.faces)}, bodies_of(plan.joints), asset.extent)
-    model = hinge_model(scene, at_scale(config, scene.metre))
+    model = drawn_model(scene, at_scale(config, scene.metre))
     found = _without_neighbours([_lines_of(request, model) for request in plan.joints], model.drawn.line)
     told = zip(plan.joints, found, strict=True)
     return replace(plan, joints=tuple(_on_drawn(r, lines[0], model) if len(lines) == 1 else r for r, lines in told))
 
 
-def _lines_of(request: JointRequest, model: HingeModel) -> list[_Line]:
+def _lines_of(request: JointRequest, model: DrawnModel) -> list[_Line]:
     """Returns the borders of a part along which barrels lie that may carry it, with these; none for other joints."""
     is_settled = str(request.choice) or request.parent or request.coupling or request.drawn_at
     if is_settled or request.moving not in model.scene.parts:
@@ -111,7 +111,7 @@ def _meet(some: Points, others: Points, near: float) -> bool:
     return bool((np.linalg.norm(some[:, None] - others[None], axis=2) <= near).any())
 
 
-def _on_drawn(request: JointRequest, found: _Line, model: HingeModel) -> JointRequest:
+def _on_drawn(request: JointRequest, found: _Line, model: DrawnModel) -> JointRequest:
     frame, line = found
     leaf = model.scene.parts[request.moving].mesh
     request = _without_barrels(request, line, model)
@@ -124,7 +124,7 @@ def _on_drawn(request: JointRequest, found: _Line, model: HingeModel) -> JointRe
     return made if opens > 0 else replace(made, axis=made.axis.reversed())
 
 
-def _without_barrels(request: JointRequest, line: Sequence[Barrel], model: HingeModel) -> JointRequest:
+def _without_barrels(request: JointRequest, line: Sequence[Barrel], model: DrawnModel) -> JointRequest:
     """Returns the request without parts that are barrels of its hinges, where others of these are static: all are."""
     if all(barrel.part in model.scene.moving_ids for barrel in line):
         return request
