@@ -82,6 +82,32 @@ def test_a_link_with_several_whole_doors_is_no_part(tmp_path) -> None:
     assert names == {*CASE, *PAIR}
 
 
+def test_a_link_whose_doors_are_pieces_of_one_is_that_door(tmp_path) -> None:
+    """A leaf, its liner and the bins behind it, each called a door by an exporter that numbers shapes."""
+    leaf = {
+        "door_0": ((0.0, -0.21, 0.4), (0.78, 0.02, 0.78)),
+        "door_1": ((0.0, -0.17, 0.4), (0.7, 0.06, 0.7)),
+        "door_2": ((0.0, -0.15, 0.2), (0.6, 0.1, 0.1)),
+    }
+    asset = _read(tmp_path, ("body_0", CASE), ("leaf", leaf))
+    assert {part.source.name for part in asset.parts} == {*CASE, "leaf"}
+
+
+def test_a_link_that_has_a_number_for_a_name_is_called_as_its_largest_shape(tmp_path) -> None:
+    asset = _read(tmp_path, ("body_0", CASE), ("link_1", PAIR | TRAY | {"door_2": PAIR["door_1"]}))
+    assert "link_1" not in {part.source.name for part in asset.parts}
+    tray = {"drawer_3": ((0.0, -0.05, 0.2), (0.7, 0.3, 0.3)), "grip_0": ((0.0, -0.22, 0.2), (0.2, 0.02, 0.02))}
+    asset = _read(tmp_path, ("body_0", CASE), ("link_1", {**tray, "liner": ((0.0, -0.05, 0.2), (0.5, 0.2, 0.2))}))
+    assert {part.source.name for part in asset.parts} == {*CASE, "drawer_3", "grip_0"}
+
+
+def test_two_links_with_numbers_whose_shapes_have_one_name_keep_the_links_names(tmp_path) -> None:
+    shapes = {"door": ((-0.2, -0.21, 0.4), (0.38, 0.02, 0.78)), "infill": ((-0.2, -0.22, 0.4), (0.3, 0.01, 0.7))}
+    other = {name: ((0.2, *at[1:]), size) for name, (at, size) in shapes.items()}
+    asset = _read(tmp_path, ("body_0", CASE), ("link_1", shapes), ("link_2", other))
+    assert {part.source.name for part in asset.parts} == {*CASE, "link_1", "link_2"}
+
+
 def test_a_link_that_holds_the_whole_piece_is_no_part(tmp_path) -> None:
     floor = {"ground": ((0.0, 0.0, -0.005), (0.7, 0.4, 0.01))}
     names = {part.source.name for part in _read(tmp_path, ("world", floor), ("unit_c", CASE | LEAF)).parts}

@@ -1,11 +1,11 @@
-"""Where all parts are called drawers, the one that holds the others is their case; elsewhere a drawer stays one."""
+"""What is called a drawer and holds drawers is their case; else a drawer stays one."""
 
 from dataclasses import replace
 
 import pytest
 
 import grafu
-from grafu.asset.part import Asset, Part
+from grafu.asset.part import Asset, Part, PartSource
 from grafu.joints.named_cases import with_case_label
 from grafu.vocabulary import PartLabel
 from small_scenes import box, scene
@@ -49,8 +49,10 @@ def test_drawers_slide_out_of_the_one_that_holds_them():
 FRONTS = [named(box(f"drawer_{k}", (-0.3, -0.27, 0.3 * k), (0.3, -0.25, 0.29 + 0.3 * k))) for k in (0, 1)]
 INNER = hollow("drawer_0", (-0.25, -0.2, 0.04), (0.25, 0.2, 0.2), front=True, lid=False)
 
+SIDE = box("side", (0.3, -0.25, 0.0), (0.32, 0.25, 0.6))
+
 OTHERS = {
-    "a chest with sides": scene(CASE, *TRAYS, box("side", (0.3, -0.25, 0.0), (0.32, 0.25, 0.6))),
+    "one drawer in a drawer": scene(CASE, INNER, SIDE),
     "drawers above one another": scene(*TRAYS),
     "fronts before a drawer": scene(CASE, *FRONTS),
     "boards of a drawer": scene(CASE, named(box("drawer_bottom", (-0.28, -0.2, 0.03), (0.28, 0.2, 0.05)))),
@@ -70,3 +72,23 @@ def test_a_case_has_no_category():
         (PartLabel.MISC, "shape"),
         (PartLabel.DRAWER, "name"),
     ]
+
+
+def labels(asset: Asset) -> dict[str, PartLabel]:
+    return {part.id: part.label for part in with_case_label(asset).parts if part.source.name.startswith("drawer")}
+
+
+def test_what_holds_two_drawers_beside_other_parts_is_a_case():
+    drawer = PartLabel.DRAWER
+    assert labels(scene(CASE, *TRAYS, SIDE)) == {"drawer_box": PartLabel.MISC, "drawer_0": drawer, "drawer_1": drawer}
+
+
+@pytest.mark.parametrize(
+    ("kind", "link", "holds"), [("urdf", "slide", True), ("urdf", "body", False), ("glb", "slide", False)]
+)
+def test_on_the_link_of_the_body_of_a_robot_one_drawer_of_another_link_tells_a_case(kind, link, holds):
+    boards = [box(f"board_{k}", (0.3 + 0.02 * k, -0.25, 0.0), (0.32 + 0.02 * k, 0.25, 0.9)) for k in range(3)]
+    links = dict.fromkeys(("drawer_box", *(board.id for board in boards)), "body") | {"drawer_0": link}
+    parts = [replace(p, source=PartSource(p.source.name, link=links[p.id])) for p in (CASE, INNER, *boards)]
+    found = labels(replace(scene(*parts), kind=kind))
+    assert found == {"drawer_box": PartLabel.MISC if holds else PartLabel.DRAWER, "drawer_0": PartLabel.DRAWER}

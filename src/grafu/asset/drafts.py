@@ -91,8 +91,8 @@ def parts_of_drafts(drafts: list[PartDraft], config: GroupConfig = GroupConfig()
             grouped[key] = _Grouped(draft.name, label, (draft,), f"group {draft.group}" if draft.group else "")
         else:
             grouped[key] = _Grouped(draft.group_name, label_of(draft.group_name), (draft,))
-    grouped = {key: _with_label_of_pieces(one) for key, one in grouped.items()}
-    grouped = {key: one for group, all_of_it in grouped.items() for key, one in _with_grip(group, all_of_it)}
+    grouped, whole = {key: _with_label_of_pieces(one) for key, one in grouped.items()}, _box(drafts)
+    grouped = {key: one for group, all_of_it in grouped.items() for key, one in _with_grip(group, all_of_it, whole)}
     ids = unique_ids((g.name, g.label is PartLabel.HANDLE) for g in grouped.values())
     by_key = dict(zip(grouped, ids, strict=True))
     return tuple(_part(g, by_key[key], by_key.get(g.carrier)) for key, g in grouped.items())
@@ -121,12 +121,12 @@ def _with_split_objects_whole(drafts: list[PartDraft]) -> list[PartDraft]:
     return found
 
 
-def _with_grip(key: str, grouped: _Grouped) -> Iterator[tuple[str, _Grouped]]:
+def _with_grip(key: str, grouped: _Grouped, whole: Box | None) -> Iterator[tuple[str, _Grouped]]:
     """Yields a group, and apart from it the handle of a door that is drawn in nameless pieces."""
     drafts = [d for d in grouped.drafts if _box([d]) is not None]
     nameless = all(label_of(d.label_name or d.name) in (PartLabel.UNKNOWN, PartLabel.DOOR) for d in drafts)
     is_door = grouped.label is PartLabel.DOOR and len(drafts) > 1 and nameless
-    grip = grip_among([box for d in drafts if (box := _box([d])) is not None]) if is_door else ()
+    grip = grip_among([box for d in drafts if (box := _box([d])) is not None], whole) if is_door else ()
     pieces = tuple(drafts[k] for k in grip)
     yield key, replace(grouped, drafts=tuple(d for d in grouped.drafts if not any(d is one for one in pieces)))
     if pieces:

@@ -10,7 +10,7 @@ import numpy as np
 
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
-from grafu.geometry.config_checks import require_ratios
+from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
 
 
@@ -20,7 +20,7 @@ class DrawnGripConfig:
     """What counts as the handle of a door that is drawn in several pieces.
 
     Raises:
-        ValueError: if a number is not between 0 and 1.
+        ValueError: if a fraction is not between 0 and 1, or `deep` not above 0.
     """
 
     thin: float = 0.35
@@ -32,24 +32,33 @@ class DrawnGripConfig:
     leaf's largest side)."""
     out: float = 0.04
     """How far the handle stands out of the leaf at least (fraction of its largest side): mouldings are flatter."""
+    deep: float = 4.0
+    """The furniture reaches this many times as far to the leaf's inner side as to the other."""
     shared: float = 0.3
     """Greatest face of all pieces of the handle together (fraction of the leaf's): more are a frame."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, *self.__dataclass_fields__)
+        require_ratios(self, *(name for name in self.__dataclass_fields__ if name != "deep"))
+        require_positive(self, "deep")
 
 
 DEFAULT_DRAWN_GRIP_CONFIG: Final = DrawnGripConfig()
 
 
-def grip_among(boxes: Sequence[Box], config: DrawnGripConfig = DEFAULT_DRAWN_GRIP_CONFIG) -> tuple[int, ...]:
-    """Returns the numbers of the pieces of a door that are its handle; none where no leaf or no handle is plain."""
+def grip_among(
+    boxes: Sequence[Box], whole: Box | None = None, config: DrawnGripConfig = DEFAULT_DRAWN_GRIP_CONFIG
+) -> tuple[int, ...]:
+    """Returns the numbers of the pieces of a door that are its handle; none where no leaf or no handle is plain.
+
+    `whole` is the box around all that is furniture: what sits on the leaf's side to the inside is a liner or a bin.
+    """
     leaf = max(range(len(boxes)), key=lambda k: face_area(boxes[k]), default=None)
     if leaf is None or boxes[leaf].size.min() > config.thin * np.sort(boxes[leaf].size)[1]:
         return ()
     plate = boxes[leaf]
     largest = float(plate.size.max())
-    found = pieces_before(plate, boxes, config.small, config.touch * largest)
+    sitting = pieces_before(plate, boxes, config.small, config.touch * largest)
+    found = tuple(k for k in sitting if whole is None or not is_inside(boxes[k], plate, whole, config.deep))
     faces = sum(face_area(boxes[k]) for k in found)
     stands_out = found and _reach([boxes[k] for k in found], plate) >= config.out * largest
     return found if stands_out and faces <= config.shared * face_area(plate) else ()
@@ -106,6 +115,17 @@ def _is_before(box: Box, plate: Box, around: Box) -> bool:
     across = [axis for axis in range(3) if axis != thin]
     within = np.all(box.low[across] >= around.low[across]) and np.all(box.high[across] <= around.high[across])
     return bool(within and not plate.low[thin] < box.center[thin] < plate.high[thin])
+
+
+def is_inside(box: Box, plate: Box, whole: Box, deep: float) -> bool:
+    """Whether a box lies on the inner side of a front, to which the furniture reaches `deep` times as far.
+
+    `whole` is the box around the furniture. A leaf in a wall has no inner side.
+    """
+    axis = plate.thin_axis
+    low, high = float(plate.low[axis] - whole.low[axis]), float(whole.high[axis] - plate.high[axis])
+    own, other = (low, high) if box.center[axis] < plate.center[axis] else (high, low)
+    return own >= deep * max(other, 0.0) and own > 0.0
 
 
 def _reach(boxes: Sequence[Box], plate: Box) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import final
 
+from grafu.asset.grips import is_inside
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
@@ -47,7 +48,7 @@ def with_sitting_pieces(
         config: what counts as inside.
     """
     by_id = {part.id: part for part in parts}
-    inside = {name for name, front in held.items() if _is_inside(by_id[name].box, by_id[front].box, whole, config)}
+    inside = {name for name, front in held.items() if is_inside(by_id[name].box, by_id[front].box, whole, config.deep)}
     fixed = _reaching(inside, parts, config.touch * whole.diagonal)
 
     def settled(part: Part) -> Part:
@@ -58,13 +59,6 @@ def with_sitting_pieces(
         return replace(part, label=PartLabel.MISC, carried_by=None if part.id in fixed else held[part.id])
 
     return tuple(settled(part) for part in parts)
-
-
-def _is_inside(box: Box, front: Box, whole: Box, config: InnerPieceConfig) -> bool:
-    axis = front.thin_axis
-    low, high = float(front.low[axis] - whole.low[axis]), float(whole.high[axis] - front.high[axis])
-    own, other = (low, high) if box.center[axis] < front.center[axis] else (high, low)
-    return own >= config.deep * max(other, 0.0) and own > 0.0
 
 
 def _reaching(inside: set[str], parts: tuple[Part, ...], touch: float) -> set[str]:

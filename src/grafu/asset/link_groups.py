@@ -4,6 +4,7 @@ It looks at links, names and boxes, never at joints. The link that the others ha
 shapes stay parts of their own.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import final
@@ -12,7 +13,9 @@ import numpy as np
 
 from grafu.asset.bodies import BodyVisual
 from grafu.asset.drafts import numbered_whole
+from grafu.asset.grips import face_area
 from grafu.asset.labels import is_whole_part, label_of
+from grafu.asset.names import spoken
 from grafu.asset.options import Division
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
@@ -31,6 +34,9 @@ class LinkGroupConfig:
 
     most: float = 0.9
     """A link that fills more of the box around all holds the whole piece, and is no part of it (fraction)."""
+    covers: float = 0.9
+    """Shapes that are named as several doors or drawers are of one where the largest covers so much of the outline of
+    their link (fraction of area)."""
     apart: float = 0.05
     """A link that is farther from all others is a piece of furniture by itself (fraction of the diagonal of all)."""
 
@@ -43,8 +49,9 @@ def with_links_as_groups(
 ) -> tuple[BodyVisual, ...]:
     """Returns the shapes of links, in order, those of each rigid part with its link's name as their group.
 
-    A link whose shapes are named as several doors or drawers holds these and is no part; so is one that fills nearly
-    the whole box, and one that stands apart from all others. Groups that are stated stay.
+    A link whose shapes are named as several doors or drawers holds these and is no part, unless one of them covers the
+    others; so is one that fills nearly the whole box, and one that stands apart from all others. Groups that are stated
+    stay.
 
     Args:
         visuals: the shapes of all links, in any one frame.
@@ -64,7 +71,18 @@ def with_links_as_groups(
         for link, own in by_link.items()
         if link != base and _is_part(link, own, whole, config) and not _is_apart(link, boxes, whole, config)
     }
-    return tuple(replace(v, group=v.link) if v.link in rigid else v for v in visuals)
+    names = {link: _name(link, by_link[link]) for link in rigid}
+    taken = Counter([*names.values(), *by_link])
+    called = {link: name if taken[name] == 1 else link for link, name in names.items()}
+    return tuple(replace(v, group=called[v.link]) if v.link in rigid else v for v in visuals)
+
+
+def _name(link: str, own: Sequence[BodyVisual]) -> str:
+    """Returns what a link is called, or its largest shape where a number is all that names the link (`link_3`)."""
+    if spoken(link):
+        return link
+    boxes = {v.name: box for v in own if label_of(v.name) is not PartLabel.HANDLE and (box := _box([v])) is not None}
+    return max(boxes, key=lambda name: face_area(boxes[name]), default=link)
 
 
 def _is_part(link: str, own: Sequence[BodyVisual], whole: Box | None, config: LinkGroupConfig) -> bool:
@@ -72,9 +90,16 @@ def _is_part(link: str, own: Sequence[BodyVisual], whole: Box | None, config: Li
         return False
     named = {v.name if is_whole_part(v.name) else numbered_whole(v.name) for v in own} - {"", link}
     box = _box(own)
-    if len(named) > 1 or whole is None or box is None:
+    if whole is None or box is None or (len(named) > 1 and not _is_of_one_front(own, box, config)):
         return False
     return bool(np.prod(box.size) <= config.most * np.prod(whole.size))
+
+
+def _is_of_one_front(own: Sequence[BodyVisual], whole: Box, config: LinkGroupConfig) -> bool:
+    """Whether one shape covers all others of its link, seen across it: `door_0` is a door, `door_1` is its liner."""
+    plate = max((box for visual in own if (box := _box([visual])) is not None), key=face_area)
+    across = np.delete(np.arange(3), plate.thin_axis)
+    return bool(np.prod(plate.size[across]) >= config.covers * np.prod(whole.size[across]))
 
 
 def _is_apart(link: str, boxes: Mapping[str, Box], whole: Box | None, config: LinkGroupConfig) -> bool:

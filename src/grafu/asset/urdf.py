@@ -15,19 +15,19 @@ from grafu.articulation.articulated_object import Coupling
 from grafu.articulation.motion_kind import MotionKind, kind_named
 from grafu.asset.bodies import Body, BodyVisual, StatedMotion, annotation_of_bodies, drafts_of_visuals
 from grafu.asset.drafts import parts_of_drafts
-from grafu.asset.labels import is_whole_part, label_of
+from grafu.asset.labels import is_whole_part
 from grafu.asset.link_groups import with_links_as_groups
 from grafu.asset.options import LoadOptions, check_parts
 from grafu.asset.reading import Convention, Reading
 from grafu.asset.resources import ModelFiles
 from grafu.asset.urdf_shapes import ShapeReader, numbers, origin_of, read_xml
+from grafu.asset.visual_names import visual_name
 from grafu.dataclass import dataclass
 from grafu.errors import UnreadableAsset
 from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import Mat4
 from grafu.geometry.axis import Axis
 from grafu.geometry.transform import invert
-from grafu.vocabulary import PartLabel
 
 CONVENTION = Convention("the format (URDF: metres, Z up)", up="+Z", unit=1.0, usual_up="+Z")
 _LARGEST = 1e12  # metres: products with the sizes of meshes stay finite
@@ -249,18 +249,10 @@ def _link_visuals(tree: _Tree, link: str, shapes: ShapeReader, T_base_root: Mat4
         if shape is None:
             continue
         T = T_base_link @ origin_of(element, tree.path)
-        name = _visual_name(element.get("name") or "", link, Path(shape.file).stem, link in tree.roots)
+        name = visual_name(element.get("name") or "", link, Path(shape.file).stem, link in tree.roots)
         surfaces = tuple(s.transformed(T) for s in shape.surfaces)
         made.append(BodyVisual(name, surfaces, link, shape.file, _group(tree, link)))
     return made
-
-
-def _visual_name(visual: str, link: str, stem: str, is_root: bool) -> str:
-    """Returns what a shape is called; a root is named as the whole or as its frame, which tells no shape of it."""
-    if label_of(link) is PartLabel.HANDLE:
-        return link
-    names = (visual, stem) if is_root and visual else (visual, link, stem)
-    return next((n for n in names if n and label_of(n) is not PartLabel.UNKNOWN), visual or link or stem)
 
 
 def _body(tree: _Tree, heads: dict[str, str], head: str, visuals: tuple[BodyVisual, ...], T_base_root: Mat4) -> Body:

@@ -29,7 +29,7 @@ def grips_in(mesh: TriangleMesh, inside: Box, config: DrawnGripConfig = DEFAULT_
     boxes = _boxes_of_shells(mesh)
     thin = mesh.box.thin_axis
     outwards = float(mesh.box.center[thin] - inside.center[thin])
-    found = [boxes[k] for k in grip_among(boxes, config)]
+    found = [boxes[k] for k in grip_among(boxes, config=config)]
     if not found:
         return []
     leaf = max(boxes, key=lambda box: float(np.prod(np.sort(box.size)[1:])))

@@ -1,9 +1,13 @@
-"""The case of a chest whose parts all bear its name: `drawer_box`, `drawer_top`, `drawer_bottom`."""
+"""The case of a chest whose parts all bear its name: `drawer_box`, `drawer_top`, `drawer_bottom`.
+
+What is called a drawer and holds drawers is a case, too, such as the bottom of a refrigerator.
+"""
 
 from typing import final
 
 import numpy as np
 
+from grafu.asset.body_link import body_link
 from grafu.asset.part import Asset
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
@@ -31,16 +35,23 @@ class NamedCaseConfig:
 
 
 def with_case_label(asset: Asset, config: NamedCaseConfig = NamedCaseConfig()) -> Asset:
-    """Returns the asset in which a part that holds all others is no drawer, where every one is called so; else itself.
+    """Returns the asset in which a part that holds drawers is none, whatever its name; else itself.
 
-    Something has to stay: without it none of them could move.
+    Where every part is called a drawer, it holds all others: something has to stay, without it none of them could move.
+    Else it holds two at least, or, on the link of the body of a robot, one of another link.
     """
-    drawers = [part for part in asset.parts if part.label is not PartLabel.HANDLE]
-    if len(drawers) < 2 or any(p.label is not PartLabel.DRAWER or p.labelled_by != "name" for p in drawers):
+    parts = [part for part in asset.parts if part.label is not PartLabel.HANDLE]
+    drawers = [part for part in parts if part.label is PartLabel.DRAWER and part.labelled_by == "name"]
+    if len(drawers) < 2:
         return asset
-    case = max(drawers, key=lambda part: float(np.prod(part.box.size)))
-    held = all(_is_in(part.box, case.box, config) for part in drawers if part is not case)
-    return relabelled(asset, {case.id: PartLabel.MISC}) if held else asset
+    body, case = body_link(asset), max(drawers, key=lambda part: float(np.prod(part.box.size)))
+    held = [part for part in drawers if part is not case and _is_in(part.box, case.box, config)]
+    if len(drawers) == len(parts):
+        is_case = len(held) == len(drawers) - 1
+    else:
+        is_of_body = bool(body) and case.source.link == body
+        is_case = len(held) > 1 or (is_of_body and any(part.source.link != body for part in held))
+    return relabelled(asset, {case.id: PartLabel.MISC}) if is_case else asset
 
 
 def _is_in(drawer: Box, case: Box, config: NamedCaseConfig) -> bool:
