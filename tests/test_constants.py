@@ -59,6 +59,7 @@ from grafu.asset.standing_handles import StandingHandleConfig
 from grafu.asset.standing_out import StandingOutConfig
 from grafu.asset.straight_borders import StraightBordersConfig
 from grafu.completion.alike import AlikeConfig
+from grafu.completion.appliance_bodies import ApplianceBodyConfig
 from grafu.completion.boards_behind import BoardBehindConfig
 from grafu.completion.config import DoorRuleConfig, DrawerRuleConfig, GuessConfig, MisnamedConfig, RowConfig, RuleConfig
 from grafu.completion.control_panels import ControlPanelConfig
@@ -279,7 +280,7 @@ CONFIGS = (
     FramedDoorsConfig, HandleSideConfig, HeldBorderConfig, HeldFrontsConfig, HeldPlateConfig, HeldTogetherConfig,
     LeafPieceConfig,
     BoardedDrawerConfig, FramedLeafConfig, HandleStandConfig, LinkGroupConfig,
-    BodyLinkConfig, ControlPanelConfig, LidAboveConfig, RingSeatConfig, InnerPieceConfig,
+    BodyLinkConfig, ControlPanelConfig, LidAboveConfig, RingSeatConfig, InnerPieceConfig, ApplianceBodyConfig,
     LevelBarConfig, LoneFrontConfig, MovingLinkConfig, LyingHandleConfig, LyingWindowConfig, OvenDoorConfig,
     LooseConfig,
     MassConfig, MatchConfig, NamedFittingConfig,

@@ -6,6 +6,7 @@ from grafu.asset.labels import APPLIANCES, is_appliance
 from grafu.asset.names import singular, spoken
 
 _DROPPING: Final = frozenset({"oven", "stove", "cooker", "dishwasher"})
+_REFRIGERATORS: Final = frozenset({"fridge", "refrigerator"})
 
 
 def appliances(name: str) -> frozenset[str]:
@@ -26,3 +27,16 @@ def is_drop_down(name: str) -> bool:
     """Whether a name is that of an oven or a dishwasher, whose doors drop, or of such a door; no microwave oven."""
     found = appliances(name)
     return is_dropping_door(name) or (bool(found & _DROPPING) and "microwave" not in found)
+
+
+def is_drop_down_body(name: str) -> bool:
+    """Whether a name is that of an oven, a dishwasher or its body, whose door drops; no microwave oven."""
+    said = {singular(word) for word in spoken(name)}
+    return is_appliance(name) and bool(said & _DROPPING) and "microwave" not in said
+
+
+def is_refrigerator(name: str) -> bool:
+    """Whether a name is that of a refrigerator, its body or its door; chests that freeze have lids."""
+    said = [singular(word) for word in spoken(name)]
+    is_door = len(said) > 1 and said[-1] == "door"
+    return bool(_REFRIGERATORS & set(said)) and (is_door or is_appliance(name))
