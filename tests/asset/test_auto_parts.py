@@ -207,6 +207,30 @@ def test_high_fronts_of_appliances_are_doors_and_low_ones_are_left_open(part, mo
     assert labels[tuple(np.round(low, 4))] is PartLabel.UNKNOWN
 
 
+def front(low, high):
+    return TriangleMesh.box_mesh(Box(np.array(low, float), np.array(high, float)))
+
+
+OVEN = [
+    front((-0.3, 0.0, 0.0), (0.3, 0.4, 0.02)),
+    front((-0.3, 0.0, 0.38), (0.3, 0.4, 0.4)),
+    front((-0.3, 0.0, 0.02), (-0.28, 0.4, 0.38)),
+    front((0.28, 0.0, 0.02), (0.3, 0.4, 0.38)),
+    front((-0.28, 0.38, 0.02), (0.28, 0.4, 0.38)),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "label"), [("microwave", PartLabel.MISC), ("MicrowaveFactory", PartLabel.MISC), ("oven", PartLabel.DOOR)]
+)
+def test_a_microwave_has_one_door_and_the_front_beside_it_is_its_panel(name, label):
+    door, panel = front((-0.3, -0.02, 0.0), (0.15, 0.0, 0.4)), front((0.152, -0.02, 0.0), (0.3, 0.0, 0.4))
+    whole = Part(name, PartLabel.UNKNOWN, (Surface(merge_meshes([*OVEN, door, panel])),), PartSource(name), "none")
+    found = cut(whole).parts
+    labels = {round(float(p.box.size[0]), 3): p.label for p in found if p.box.size[1] < 0.03}
+    assert labels == {0.45: PartLabel.DOOR, 0.148: label}
+
+
 @pytest.mark.parametrize(("name", "is_cut"), [("roundDoorFrame", False), ("doorway_2", False), ("door_cabinet", True)])
 def test_in_the_frame_of_a_door_there_are_no_fronts(name, is_cut):
     reading = Reading("mesh file", (welded(name="Object_7"),), Convention("test"))

@@ -161,6 +161,25 @@ def test_the_only_object_of_an_input_is_a_case_also_where_it_looks_like_a_drawer
     assert boxes(cut(whole, board((-0.5, -0.2, -0.1), (0.5, 0.2, -0.05))), "front") == [], "a drawer over a board"
 
 
+COOKER = [
+    board((-0.5, -0.4, 0.0), (-0.43, 0.5, 0.78)),
+    board((0.43, -0.4, 0.0), (0.5, 0.5, 0.78)),
+    board((-0.43, -0.4, 0.0), (0.43, 0.5, 0.07)),
+    board((-0.43, 0.43, 0.07), (0.43, 0.5, 0.72)),
+    board((-0.5, -0.47, 0.78), (0.5, 0.5, 0.85)),  # the hob
+    board((-0.5, 0.4, 0.85), (0.5, 0.55, 1.1)),
+]
+
+
+@pytest.mark.parametrize("beside", [False, True])
+def test_the_body_of_a_cooker_is_no_box_of_a_drawer_behind_its_door(beside):
+    door, bar = board((-0.5, -0.47, 0.0), (0.5, -0.4, 0.775)), board((-0.4, -0.53, 0.68), (0.4, -0.47, 0.72))
+    walls = [board((x, -0.47, 0.0), (x + 0.05, 0.55, 1.1)) for x in (-0.56, 0.51)] if beside else []
+    whole = merge_meshes([*COOKER, *walls, door, bar])
+    (front,) = boxes(cut(whole), "front")
+    assert bool(front[4] > 0.4) is beside, "between walls it may be a drawer"
+
+
 def test_what_may_not_be_cut_stays_whole():
     whole = merge_meshes([mesh_of(name) for name in CABINET])
 

@@ -4,7 +4,7 @@ Inputs whose makers divided them by what moves are left alone: parts segmented b
 What the input states about its motions is not asked: the parts are the same with joints and without.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Final, final
 
@@ -12,8 +12,10 @@ import numpy as np
 
 from grafu.asset.cut_pieces import freed, ids_of_pieces, note_on_cut, part_of_piece
 from grafu.asset.drawn_cuts import handles_on_plates, with_drawn_fronts
+from grafu.asset.grips import face_area
 from grafu.asset.labels import is_appliance, is_bed, is_chest, is_doorway, is_washer, is_whole_part, sense_of
 from grafu.asset.lying_handles import with_lying_handles
+from grafu.asset.names import spoken
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.plausibility import BODY
 from grafu.asset.reading import Reading
@@ -46,6 +48,10 @@ class CutConfig:
 
     door_height: float = 0.5
     """Least height of an appliance's door (fraction of its width)."""
+    plate: float = 0.06
+    """What has a smaller face is the plate of a dial, and no door of it (fraction of the appliance's largest front)."""
+    only: float = 0.99
+    """A microwave has one door: what has a smaller face is the panel beside it (the same)."""
     thick: float = 0.35
     """What is thicker than this is no board (fraction of its middle side) ..."""
     case: float = 0.1
@@ -61,7 +67,9 @@ class CutConfig:
     fraction of the largest one's width and height: two leaves. Of fronts that differ it states what the first is."""
 
     def __post_init__(self) -> None:
-        require_ratios(self, "door_height", "thick", "case", "bed_width", "bed_height", "wall", "alike")
+        require_ratios(
+            self, "door_height", "plate", "only", "thick", "case", "bed_width", "bed_height", "wall", "alike"
+        )
 
 
 def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", config: CutConfig = CutConfig()) -> Reading:
@@ -102,8 +110,14 @@ def cut_where_fronts_appear(reading: Reading, frame: Frame, name: str = "", conf
     cases = {reading.parts[k].id for k in _cases_beside_larger(meshes, cuts, config)}
     of_one = {reading.parts[k].id for k in _named_after_one(reading, meshes, cuts, config)}
     bare = ((_without_label(part) if part.id in of_one else part, piece) for part, piece in pieces)
+    least = {
+        part.id: _least_door(part.source.name, model, mesh, cuts.get(k, ()), config)
+        for k, (part, mesh) in enumerate(zip(reading.parts, meshes, strict=True))
+    }
     parts = tuple(
-        freed(_named(part_of_piece(part, piece, new, T, part.id in cases), piece, model, T, config), cut)
+        freed(
+            _named(part_of_piece(part, piece, new, T, part.id in cases), piece, model, least[part.id], T, config), cut
+        )
         for (part, piece), new in zip(bare, ids_of_pieces(pieces), strict=True)
     )
     lying = [piece is not None and piece.role == "on front" for _, piece in pieces]
@@ -230,15 +244,25 @@ def turn_of(frame: Frame) -> Mat4:
     return T
 
 
-def _named(part: Part, piece: FacePiece | None, model: str, T: Mat4, config: CutConfig) -> Part:
+def _least_door(name: str, model: str, mesh: TriangleMesh, pieces: Sequence[FacePiece], config: CutConfig) -> float:
+    """Returns the least face of a door among the fronts of an object: a microwave has one door, beside its panel."""
+    faces = [face_area(mesh.with_faces(piece.faces).box) for piece in pieces if piece.role == "front"]
+    has_one = "microwave" in {*spoken(name), *spoken(model)}
+    return max(faces, default=0.0) * (config.only if has_one else config.plate)
+
+
+def _named(part: Part, piece: FacePiece | None, model: str, least: float, T: Mat4, config: CutConfig) -> Part:
     """Returns a new front as a door where object or model are called an oven, a refrigerator or the like.
 
-    It must be too high for a drawer or a control panel; `T` turns it upright.
+    It must be too high for a drawer or a control panel, and its face not less than `least`; smaller ones are plates of
+    dials and panels, and stay. `T` turns it upright.
     """
     if piece is None or piece.role != "front" or part.label is not PartLabel.UNKNOWN:
         return part
-    size = part.mesh.transformed(T).box.size
-    is_high = float(size[2]) >= config.door_height * float(size[:2].max())
-    if is_high and (is_appliance(part.source.name) or is_appliance(model)):
-        return replace(part, label=PartLabel.DOOR, labelled_by="name")
-    return part
+    if not (is_appliance(part.source.name) or is_appliance(model)):
+        return part
+    box = part.mesh.transformed(T).box
+    if face_area(box) < least:
+        return replace(part, label=PartLabel.MISC, labelled_by="name")
+    is_high = float(box.size[2]) >= config.door_height * float(box.size[:2].max())
+    return replace(part, label=PartLabel.DOOR, labelled_by="name") if is_high else part

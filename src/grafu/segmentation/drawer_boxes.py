@@ -63,7 +63,13 @@ def drawer_boards(
     lies = box & (size[:, 1] <= config.flat * size[:, [0, 2]].min(axis=1))
     top = float(view.high[left | right, 1].max())
     lid = lies & (np.abs(view.low[:, 1] - top) <= near + size[:, 1]) & (size[:, 0] >= config.lid * whole[0])
-    return nothing if lid.any() else box
+    return nothing if lid.any() or _is_case(view, box, near) else box
+
+
+def _is_case(view: ShellsView, box: MaskOfShells, near: float) -> bool:
+    """Whether a box is the outermost of all on the left, on the right and below: nothing is around it."""
+    ends = ((view.low[:, 0], 1), (view.low[:, 1], 1), (view.high[:, 0], -1))
+    return all(bool((sign * at[box]).min() <= (sign * at).min() + near) for at, sign in ends)
 
 
 def drawer_tub(
