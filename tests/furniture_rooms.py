@@ -85,3 +85,20 @@ def write_scene(path: Path, boxes: Boxes) -> Path:
     document |= {"scenes": [{"nodes": list(range(len(nodes)))}]}
     path.write_bytes(glb_bytes(json.loads(json.dumps(document)), binary))
     return path
+
+
+def quarter(boxes: Boxes, x: float, y: float) -> Boxes:
+    """The same boxes turned by 90 degrees about the vertical, so that they look to +X, and moved."""
+    return {n: ((x - b[1], y + a[0], a[2]), (x - a[1], y + b[0], b[2])) for n, (a, b) in boxes.items()}
+
+
+def island() -> Boxes:
+    """Two cabinets back to back below one worktop."""
+    backs = {**cabinet("near"), **cabinet("far", (0.0, 0.4, 0.0), turned=True)}
+    return {**backs, "worktop": ((-0.42, -0.22, 1.0), (0.42, 0.62, 1.03))}
+
+
+def corner() -> Boxes:
+    """A cabinet that looks to -Y, and in the corner to its left one that looks to +X, below one worktop."""
+    wings = {**cabinet("back"), **quarter(cabinet("left"), -0.62, -0.62)}
+    return {**wings, "worktop": ((-0.82, -0.22, 1.0), (0.4, 0.2, 1.03))}

@@ -27,9 +27,11 @@ from grafu.asset.cutting import CutConfig
 from grafu.asset.door_frames import FramedDoorsConfig
 from grafu.asset.drafts import GroupConfig
 from grafu.asset.drawn_cuts import DrawnCutConfig
+from grafu.asset.facing_groups import FacingConfig
 from grafu.asset.foreign.agreement import AgreementConfig
 from grafu.asset.foreign.matching import MatchConfig
 from grafu.asset.framed_leaves import FramedLeafConfig
+from grafu.asset.fronts_above import FrontsAboveConfig
 from grafu.asset.grips import DrawnGripConfig
 from grafu.asset.handle_stands import HandleStandConfig
 from grafu.asset.handles_in_doors import HandlesInDoorsConfig
@@ -102,6 +104,7 @@ from grafu.segmentation.config import (
 )
 from grafu.segmentation.drawer_boxes import TubConfig
 from grafu.segmentation.furniture_pieces import FurnitureConfig
+from grafu.segmentation.standing_apart import ApartConfig
 from grafu.segmentation.surface_config import CreaseConfig, JoiningConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
@@ -274,6 +277,7 @@ CONFIGS = (
     DracoConfig, DrawerRuleConfig,
     AlikeConfig, CopiedBarsConfig, CoverageTestConfig, CushionConfig, DrawnGripConfig,
     DescriptorConfig, DynamicsConfig, FactConfig, FingerFitConfig, FingerRoomCutConfig, FixedShelfConfig,
+    ApartConfig, FacingConfig, FrontsAboveConfig,
     FrameConfig, FrontEvidenceConfig, FurnitureConfig, GroupConfig, GuessConfig, GuessedShapeConfig, HeadingConfig,
     LassoConfig,
     LeaningConfig,

@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from grafu.asset.part import PartSource
+from grafu.asset.part import IDENTITY_FRAME, PartSource, Standing
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.joints.hung_parts import with_hung_parts
@@ -103,3 +104,13 @@ def test_a_strip_taken_for_a_door_moves_with_the_door_that_hides_it(label, low, 
 
     assert found == ({"door_skin": {"edge", "trim"}} if goes else {"door_skin": set(), "edge": {"trim"}})
     assert set(planned(edge, trim, more=(hinge("edge"),), settled=("edge",))) == {"door_skin", "edge"}
+
+
+def test_the_case_of_a_cabinet_on_a_wall_does_not_hang_on_its_door():
+    """In a room nothing else touches such a case, and it is shallow beside what stands in the room."""
+    case = box("case", (0.0, -0.04, 0.1), (0.6, 0.11, 1.1))
+    room = scene(DOOR, case, box("sofa", (2.0, 0.0, 0.0), (3.0, 2.0, 0.8)))
+    standing = Standing(("door_skin", "case"), np.eye(4), IDENTITY_FRAME)
+    for asset, hung in ((room, {"case"}), (replace(room, standings=(standing,)), set())):
+        (joint,) = with_hung_parts(RealizationPlan((hinge(),), ()), asset).joints
+        assert set(joint.attached) == hung

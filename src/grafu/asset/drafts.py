@@ -24,6 +24,7 @@ from grafu.asset.split_meshes import split_objects
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
 from grafu.geometry.box import Box
+from grafu.geometry.components import linked
 from grafu.geometry.config_checks import require_ratios
 from grafu.vocabulary import PartLabel
 
@@ -31,6 +32,8 @@ from grafu.vocabulary import PartLabel
 _OPENING = re.compile(r"^sweethome3d_(?:opening|window_pane)_on_((?:hinge|rail)_\d+)(?:_|$)", re.IGNORECASE)
 _PANE = re.compile(r"^sweethome3d_window_pane_on_", re.IGNORECASE)  # what is glazed is a leaf, also on rails: a sash
 # Where a numbered beginning may end: after `drawer_1` in `drawer_1_front`, after `Door02` in `Door02Panel`.
+# What programs add to the name of a copy: `drawer_1_front.001`, `drawer_1_front_2`.
+_COPY = re.compile(r"[-_. ]\d+$")
 _NUMBERED = re.compile(r"\d+(?=[ _.-]*[^\W\d_])")
 
 
@@ -45,6 +48,9 @@ class GroupConfig:
 
     spare: float = 0.01
     """How far what lies within it may stand out of it (fraction of its largest side)."""
+    near: float = 0.1
+    """How far the pieces of one lie from each other at most where several have its name (fraction of the largest side
+    of these pieces): copies of a cabinet have the names of the first, with numbers behind, or the same."""
 
     def __post_init__(self) -> None:
         require_ratios(self, *self.__dataclass_fields__)
@@ -80,7 +86,7 @@ def parts_of_drafts(drafts: list[PartDraft], config: GroupConfig = GroupConfig()
     """Returns one part per group or single piece, in order; handles stay parts of their own and ride on their group."""
     grouped: dict[str, _Grouped] = {}
     drafts = _with_split_objects_whole(drafts)
-    for index, draft in enumerate(_with_openings(_with_name_groups(drafts, config.spare))):
+    for index, draft in enumerate(_with_openings(_with_name_groups(drafts, config))):
         label = label_of(draft.label_name or draft.name)
         alone = not draft.group or label is PartLabel.HANDLE
         key = f"piece {index}" if alone else f"group {draft.group}"
@@ -162,11 +168,11 @@ def _with_openings(drafts: list[PartDraft]) -> list[PartDraft]:
     return out
 
 
-def _with_name_groups(drafts: list[PartDraft], spare: float) -> list[PartDraft]:
+def _with_name_groups(drafts: list[PartDraft], config: GroupConfig) -> list[PartDraft]:
     """Returns the drafts with groups added where numbered names share a beginning and one of them is a piece.
 
     What shares the beginning, but is named otherwise (`drawer_0_divider`), belongs to the group if it lies within
-    it.
+    it. Where pieces with one name lie apart, as in copies of a cabinet, each place has its own group.
     """
     beginnings: dict[str, list[int]] = {}
     for index, draft in enumerate(drafts):
@@ -174,16 +180,35 @@ def _with_name_groups(drafts: list[PartDraft], spare: float) -> list[PartDraft]:
         if beginning:
             beginnings.setdefault(beginning, []).append(index)
     out = list(drafts)
-    for beginning, named in beginnings.items():
-        pieces = [i for i in named if is_piece(drafts[i].name)]
-        members = [i for i in named if i in pieces or label_of(drafts[i].name) is PartLabel.HANDLE]
-        if len(members) < 2 or not pieces:
-            continue
-        around = _box([drafts[i] for i in pieces])
-        within = [i for i in named if i not in members and around is not None and _lies_in(drafts[i], around, spare)]
-        for i in (*members, *within):
-            out[i] = replace(drafts[i], group=f"name {beginning}", group_name=beginning)
+    for beginning, all_named in beginnings.items():
+        for place, named in enumerate(_by_place(drafts, all_named, config)):
+            pieces = [i for i in named if is_piece(drafts[i].name)]
+            members = [i for i in named if i in pieces or label_of(drafts[i].name) is PartLabel.HANDLE]
+            if len(members) < 2 or not pieces:
+                continue
+            around = _box([drafts[i] for i in pieces])
+            others = [i for i in named if i not in members]
+            within = [i for i in others if around is not None and _lies_in(drafts[i], around, config.spare)]
+            for i in (*members, *within):
+                group = f"name {beginning}" + (f" at place {place}" if place else "")
+                out[i] = replace(drafts[i], group=group, group_name=beginning)
     return out
+
+
+def _by_place(drafts: list[PartDraft], named: list[int], config: GroupConfig) -> list[list[int]]:
+    """Returns what has a beginning in common, parted by where it lies if a name is there twice, and lies apart."""
+    stems = [_COPY.sub("", drafts[i].name) for i in named]
+    boxes = [_box([drafts[i]]) for i in named]
+    if len(set(stems)) == len(stems) or any(box is None for box in boxes):
+        return [named]
+    known = [box for box in boxes if box is not None]
+    reach = config.near * max(float(box.size.max()) for box in known)
+    near = np.array([[one.gap(other) <= reach for other in known] for one in known])
+    place = linked(len(named), *np.nonzero(near))
+    places = {stem: [int(p) for s, p in zip(stems, place, strict=True) if s == stem] for stem in stems}
+    if not any(len(set(of)) > 1 for of in places.values()):
+        return [named]
+    return [[i for i, p in zip(named, place, strict=True) if p == k] for k in range(int(place.max()) + 1)]
 
 
 def numbered_whole(name: str) -> str:

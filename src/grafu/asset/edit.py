@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Link, Visual
-from grafu.asset.part import Annotation, Asset, Frame, Part, moved_joints
+from grafu.asset.part import Annotation, Asset, Frame, Part, Standing, moved_joints
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.transform import from_rotation, reflection, rotation_matrix, scale_of, translation
 
@@ -33,7 +33,14 @@ def moved(asset: Asset, T: Mat4) -> Asset:
         small_joints=moved_joints(asset.small_joints, T, scale),
         annotation=asset.annotation and _moved_annotation(asset.annotation, T, scale),
         frame=Frame(T @ frame.input_to_output, frame.up, frame.front, frame.scale * scale, frame.assumed),
+        standings=tuple(_standing_in(standing, T, scale) for standing in asset.standings),
     )
+
+
+def _standing_in(standing: Standing, T: Mat4, scale: float) -> Standing:
+    """Returns how a piece stands in a scene that is mapped by T; lengths in its own frame are `scale` times as long."""
+    grown = from_rotation(np.eye(3) * scale)
+    return Standing(standing.parts, grown @ standing.T_piece_object @ np.linalg.inv(T), standing.frame)
 
 
 def yawed(asset: Asset, angle: float) -> Asset:

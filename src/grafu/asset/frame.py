@@ -11,6 +11,7 @@ import numpy as np
 
 from grafu.asset.cad_names import are_of_cad
 from grafu.asset.closed_side import faces_across, side_of_door
+from grafu.asset.fronts_above import has_fronts_above
 from grafu.asset.labels import label_of
 from grafu.asset.lying_windows import lies_as_a_window
 from grafu.asset.options import LoadOptions
@@ -167,7 +168,10 @@ def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice, whole: Box) -> _C
     other = stands_on_another_side(reading.parts, usual.value, by_habit)
     if other is not None and not lies_as_a_window(reading.parts, whole, other):  # a round one rests on little
         return _Choice(other, f"what the piece rests on tells, {against}")
-    if lies_on_its_front(reading.parts, whole, usual.value, reading.convention.up is not None):
+    is_stated = reading.convention.up is not None
+    if not is_stated and has_fronts_above(reading.parts, usual.value, by_habit):
+        return _Choice(by_habit, f"doors and drawers with handles would face up or down, {against}")
+    if lies_on_its_front(reading.parts, whole, usual.value, is_stated):
         return _Choice(by_habit, f"it would lie on what shows the most parts, {against}")
     return usual
 

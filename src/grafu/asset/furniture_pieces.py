@@ -50,7 +50,7 @@ def told_apart(reading: Reading, frame: Frame) -> tuple[FurniturePiece, ...]:
         return (FurniturePiece("", reading),)
     left_out = (*_left_out(reading, shells, number, FLOOR_OR_WALL), *_left_out(reading, shells, number, ALONE))
     boxes = [shells.box(np.flatnonzero(number == k)) for k in range(count)]
-    found = [_parts_of(reading, shells, number == k) for k in range(count)]
+    found = [parts_of(reading, shells, number == k) for k in range(count)]
     names = _common_names(found) if count > 1 else [""] * count
     annotations = _annotations(reading.annotation, frame, boxes)
     notes = [f"piece {k} of {count} of the file (--pieces split)" if count > 1 else "" for k in range(1, count + 1)]
@@ -63,7 +63,7 @@ def told_apart(reading: Reading, frame: Frame) -> tuple[FurniturePiece, ...]:
     )
 
 
-def _parts_of(reading: Reading, shells: SceneShells, chosen: np.ndarray) -> tuple[Part, ...]:
+def parts_of(reading: Reading, shells: SceneShells, chosen: np.ndarray) -> tuple[Part, ...]:
     """Returns the parts of which some shells are chosen, with these alone."""
     of = {k: np.flatnonzero(chosen & (shells.owner == k)) for k in np.unique(shells.owner[chosen]).tolist()}
     parts = []

@@ -161,6 +161,23 @@ IDENTITY_FRAME = Frame(np.eye(4), "+Z", "-Y", 1.0)
 
 
 @final
+@dataclass(frozen=True, eq=False, slots=True)
+class Standing(ArrayValue):
+    """How one of several pieces of furniture stands in a scene: its parts, by their ids, and where it faces.
+
+    `T_piece_object` (4x4, rigid) maps the object frame to that of the piece, in which its front is -Y. `frame` is how
+    the piece would be read alone; its words state what its front rests on.
+    """
+
+    parts: tuple[str, ...]
+    T_piece_object: Mat4
+    frame: Frame
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "T_piece_object", frozen_array(self.T_piece_object))
+
+
+@final
 @dataclass(frozen=True, repr=False)
 class Asset:
     """A part-segmented model in the object frame.
@@ -168,6 +185,8 @@ class Asset:
     Of a file, `parts` are read without its joints: the same with them and without. What it states about its motions is
     the `annotation`, in the same frame, and `as_annotated` is how that sees it. `joints` are those of an asset that was
     read so, that was made with joints, or that another system's were attached to; `small_joints` as in an `Annotation`.
+    Where it holds several pieces of furniture, `standings` states how each stands; a part of none is floor, wall or
+    prop. There are none where it is one piece.
 
     Name, path and notes are kept as UTF-8 can hold them (`writable`).
 
@@ -184,6 +203,7 @@ class Asset:
     notes: tuple[str, ...] = ()  # what the reader left out or mended, in words
     annotation: Annotation | None = None
     small_joints: tuple[AnnotatedJoint, ...] = ()
+    standings: tuple[Standing, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Asset {self.name}: {self.kind}, {len(self.parts)} parts>"
@@ -206,6 +226,10 @@ class Asset:
     def box(self) -> Box:
         """The box around all parts."""
         return Box.enclosing(part.box for part in self.parts)
+
+    def standing_of(self, part_id: str) -> Standing | None:
+        """Returns how the piece that has this part stands; None where there is one piece, or the part is of none."""
+        return next((standing for standing in self.standings if part_id in standing.parts), None)
 
     @property
     def extent(self) -> float:

@@ -16,6 +16,7 @@ from grafu.asset.boxes_in_cases import with_boxes_from_cases
 from grafu.asset.cutting import cut_where_fronts_appear, is_divided, turn_of
 from grafu.asset.door_frames import with_door_frames
 from grafu.asset.either_kind import with_either_kind
+from grafu.asset.facing_groups import FurnishedScene, facing_groups
 from grafu.asset.folder import divide, looked_for_fronts
 from grafu.asset.frame import settle_frame, straightened, turned_before, whole_box
 from grafu.asset.framed_leaves import with_framed_leaves
@@ -35,8 +36,10 @@ from grafu.asset.place_names import with_place_names
 from grafu.asset.plausibility import with_blind_fronts, with_bodies, with_control_panels, with_plausible_labels
 from grafu.asset.reading import Placing, Reading, cleaned
 from grafu.asset.ring_seats import with_ring_seats
+from grafu.asset.several_pieces import put_together
 from grafu.asset.shown_lids import with_shown_lid
 from grafu.errors import UnreadableAsset, UnsegmentedAsset
+from grafu.geometry.arrays import Mat4
 from grafu.vocabulary import PartLabel
 
 EXPECTED: Final = (
@@ -60,9 +63,70 @@ def settled(
         AssetError: if an option contradicts it.
     """
     reading = cleaned(reading)
-    askew = np.eye(4)
-    if reading.parts:
-        reading, askew = straightened(reading, options)
+    if options.parts == "auto" and options.front is None and reading.parts:
+        whole, askew = straightened(reading, options)
+        seen = _seen(whole, options)
+        scene = facing_groups(whole, seen, settle_frame(seen, options, file))
+        if scene is not None:
+            return _settled_together(whole, scene, (name, path), options, (file, askew))
+        return _settled_alone(whole, name, path, options, file, askew=askew)
+    return _settled_alone(reading, name, path, options, file)
+
+
+def _seen(reading: Reading, options: LoadOptions) -> Reading:
+    """Returns the reading as its labels tell how it stands: of what is hidden nothing does."""
+    return _without_labels(reading) if options.labels == "none" else reading
+
+
+def _settled_together(
+    reading: Reading,
+    scene: FurnishedScene,
+    place: tuple[str, Path],
+    options: LoadOptions,
+    stood: tuple[Frame | None, Mat4],
+) -> Asset:
+    """Returns the groups of a scene, each settled for itself, as one asset.
+
+    `place` is its name and path; it `stood` so: the frame of the file that it is a piece of, and how it was turned.
+    """
+    (name, path), (file, askew) = place, stood
+    furniture = replace(reading, parts=tuple(part for group in scene.groups for part in group.reading.parts))
+    whole = settle_frame(_seen(furniture, options), options, file)
+    standing = whole.assumed[0]
+    if file is None and options.height is None and options.scale is None:  # as with `pieces_in`: of the largest piece
+        whole = settle_frame(_seen(scene.groups[0].reading, options), replace(options, up=whole.up))
+    own = [replace(options, up=whole.up, front=group.front) for group in scene.groups]
+    pieces = [
+        _settled_alone(group.reading, name, path, stated, whole, is_all=False)
+        for group, stated in zip(scene.groups, own, strict=True)
+    ]
+    found = tuple(part for piece in pieces for part in piece.parts)
+    if len(found) == len(pieces) and len(reading.parts) == 1:
+        return _settled_alone(reading, name, path, options, file)  # one mesh that shows no front: it is refused
+    check_parts(len(found) + len(scene.others), path, options.limits)
+    main = scene.groups[0].front or pieces[0].frame.front
+    placed = settle_frame(reading, replace(options, up=whole.up, front=main), whole)
+    size = whole.assumed[-1]
+    words = f"front is {main}: that of the largest of {len(pieces)} pieces, each of which has its own"
+    made = put_together(pieces, scene.others, reading, replace(placed, assumed=(standing, words, size)), str(path))
+    return replace(made, frame=turned_before(made.frame, askew))
+
+
+def _settled_alone(
+    reading: Reading,
+    name: str,
+    path: Path,
+    options: LoadOptions,
+    file: Frame | None,
+    is_all: bool = True,
+    askew: Mat4 | None = None,
+) -> Asset:
+    """Returns one piece of furniture as an asset; where it is not all of a file, it may be one part.
+
+    `askew` is how it was turned so that its walls lie along the axes; None: it was not yet.
+    """
+    if askew is None:
+        reading, askew = straightened(reading, options) if reading.parts else (reading, np.eye(4))
     if options.parts == "loose":
         reading = _taken_apart(reading, path, options)
     elif not reading.grouped and reading.parts:
@@ -90,7 +154,8 @@ def settled(
             parts = with_handles_of_doors(reading.parts, turn_of(stands), labelled=not hidden)
             reading = replace(reading, parts=parts)
     reading = replace(reading, parts=with_bodies(with_control_panels(reading.parts)))
-    _check_parts(reading, path, options)
+    if is_all:
+        _check_parts(reading, path, options)
     if options.labels == "none":
         reading = _without_labels(reading)
         reading = reading if stands is None else with_shown_lid(reading, stands, name)

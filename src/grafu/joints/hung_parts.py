@@ -44,7 +44,8 @@ class HungPartsConfig:
     slack: float = 0.004
     """How far a part may stand out of the outline of its front (metres)."""
     deep: float = 0.5
-    """How far behind its front a part reaches at most (fraction of the depth of the whole): a shelf may touch it."""
+    """How far behind its front a part reaches at most (fraction of the depth of the piece of furniture): a shelf may
+    touch it, and of a cabinet on a wall the case touches nothing else."""
     small: float = 0.5
     """The outline of what was guessed to move by itself at most (fraction of the front's)."""
 
@@ -105,7 +106,7 @@ def _hung_on(
     taken = {part for other in others for part in (other.moving, *other.attached)} | (own - covered)
     body = body_link(asset)
     fixed = body if asset.part(request.moving).source.link != body else ""
-    farthest = float(front.low[_DEPTH]) + config.deep * float(asset.box.size[_DEPTH])
+    farthest = float(front.low[_DEPTH]) + config.deep * float(_piece_of(request.moving, asset).size[_DEPTH])
     loose = (p for p in asset.parts if p.id not in taken and not (fixed and p.source.link == fixed))
     near = (p for p in loose if _lies_within(p.box, front, config.slack))
     inside = {p.id for p in near if p.label not in _STAY and p.box.high[_DEPTH] <= farthest}
@@ -113,6 +114,14 @@ def _hung_on(
     held = own - inside
     found = [name for group in groups_held_by(held, inside - soft, asset, config.touching, soft) for name in group]
     return [*found, *_pressed(soft, held.union(found), asset, config.touching)]
+
+
+def _piece_of(part: str, asset: Asset) -> Box:
+    """Returns the box of the piece of furniture that has a part: that of all where they are one piece."""
+    standing = asset.standing_of(part)
+    known = {one.id: one.box for one in asset.parts}
+    boxes = [known[name] for name in standing.parts if name in known] if standing is not None else []
+    return Box.enclosing(boxes) if boxes else asset.box
 
 
 def _pressed(soft: Collection[str], moving: Collection[str], asset: Asset, tolerance: float) -> list[str]:

@@ -16,8 +16,9 @@ import numpy as np
 
 from grafu.articulation.articulated_object import Coupling, Joint, JointLimits
 from grafu.articulation.motion_kind import motion_kind
-from grafu.asset.part import AnnotatedJoint, Asset
+from grafu.asset.part import AnnotatedJoint, Asset, Standing
 from grafu.geometry.arrays import Vec3
+from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.transform import transform_points
 from grafu.graph.annotated import carrying_part
@@ -27,6 +28,7 @@ from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.motion import code_to_direction, hinge_to_axis, opening_face, rail_to_axis
 from grafu.joints.plan import JointRequest, PlanConfig, RealizationPlan
 from grafu.refusal import Reason, Refusal
+from grafu.scene.border import SNAP
 from grafu.vocabulary import PartLabel
 
 _HANGING = (PartLabel.MISC, PartLabel.UNKNOWN, PartLabel.HANDLE, PartLabel.BAR)
@@ -69,7 +71,7 @@ def plan_from_completion(
     attached = attached_to(asset, [*rides, *carried])
     motions = sorted(graph.motions, key=lambda edge: _ORDER.index(type(edge)))
     moving = dict.fromkeys(edge.child for edge in motions)
-    requests = [_from_graph(part, attached.get(part, ()), completion) for part in moving]
+    requests = [_from_graph(part, attached.get(part, ()), completion, asset.standing_of(part)) for part in moving]
     moved = {part for _, part in carried}
     refused = tuple(r for r in completion.refused if r.part not in moved)
     return RealizationPlan(tuple(r for r in requests if r.moving in known), refused)
@@ -80,15 +82,28 @@ def _is_carried(edge: Attached | MotionEdge, graph: FunctionalGraph) -> bool:
     return isinstance(edge, Attached) or edge.parent == graph.carrier_of(edge.child)
 
 
-def _from_graph(part: str, attached: tuple[str, ...], completion: GraphCompletion) -> JointRequest:
-    """Returns the request of one part that edges of a completed graph move."""
+def _from_graph(
+    part: str, attached: tuple[str, ...], completion: GraphCompletion, standing: Standing | None
+) -> JointRequest:
+    """Returns the request of one part that edges of a completed graph move, along its piece of furniture."""
     graph = completion.completed
     edges, box, carrier = graph.motions_of(part), graph.node(part).box, graph.carrier_of(part)
     first = edges[0]
     axis = hinge_to_axis(box, first.border, first.sign) if isinstance(first, Hinge) else rail_to_axis(box, first.axis)
+    axis = axis if standing is None else _along_piece(axis, standing)
     mounts = () if carrier else tuple(edge.parent for edge in edges)
     made = JointRequest(part, first.joint_type, axis, completion.source, None, mounts, attached)
     return replace(made, parent=carrier, coupling=first.coupling)
+
+
+def _along_piece(axis: Axis, standing: Standing) -> Axis:
+    """Returns an axis turned to the nearest one of those that its piece of furniture stands along."""
+    own = standing.T_piece_object[:3, :3]  # its rows are the piece's axes in the object frame
+    across = own @ axis.direction
+    nearest = int(np.argmax(np.abs(across)))
+    if abs(float(across[nearest])) > SNAP:
+        return axis
+    return Axis(axis.point, own[nearest] * np.sign(across[nearest]))
 
 
 def attached_to(asset: Asset, attachments: Iterable[tuple[str, str]]) -> dict[str, tuple[str, ...]]:

@@ -4,6 +4,7 @@ Which edges stated joints stand for is decided in `grafu.graph.annotated`. It bu
 """
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from grafu.asset.appliance_names import is_dropping_door
@@ -36,6 +37,7 @@ from grafu.graph.completion import GraphCompletion, decision_of
 from grafu.graph.edges import Attached
 from grafu.graph.edit import relabelled, with_edges, without_names
 from grafu.graph.functional_graph import FunctionalGraph
+from grafu.pipeline.several_pieces import completed_by_pieces
 from grafu.vocabulary import PartLabel
 
 
@@ -69,10 +71,13 @@ def complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | No
     (`with_panels_of_controls`), or what is on the link of the body while other links have doors and drawers
     (`with_rigid_links`). A shelf that is a board is fixed (`with_fixed_shelves`), and knobs of appliances are controls
     (`without_controls`). A link of its own that plainly moves (`links_that_move`) is a door, and all is asked again.
+    Of several pieces of furniture each is completed for itself, with its own front at -Y (`completed_by_pieces`).
 
     Raises:
         WeightsError: if the file is missing, or is no such network.
     """
+    if asset.standings:
+        return completed_by_pieces(asset, graph, partial(complete_by_weights, weights=weights))
     found = _complete_by_weights(asset, graph, weights)
     links = links_that_move(found, asset)
     if not links:
@@ -109,6 +114,8 @@ def _complete_by_weights(asset: Asset, graph: FunctionalGraph, weights: Path | N
 
 def complete_by_shape(asset: Asset, graph: FunctionalGraph) -> GraphCompletion:
     """Returns the graph as the rule completes it; see `complete_by_weights` for drawers and round doors."""
+    if asset.standings:
+        return completed_by_pieces(asset, graph, complete_by_shape)
     return _shaped(complete_by_rule(graph), asset)
 
 

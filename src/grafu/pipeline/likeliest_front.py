@@ -13,7 +13,7 @@ import numpy as np
 
 from grafu.asset.edit import moved
 from grafu.asset.frame import front_is_assumed
-from grafu.asset.part import Asset
+from grafu.asset.part import Asset, Standing
 from grafu.asset.standing import spelled
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3, frozen_array
@@ -23,6 +23,7 @@ from grafu.graph.completion import GraphCompletion
 from grafu.graph.edges import Hinge, MotionEdge, Rail
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.graph.motion import opening_face
+from grafu.pipeline.several_pieces import piece_alone
 
 _FRONT: Final = 2  # the signed axis -Y
 _QUARTER: Final = frozen_array(np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
@@ -58,6 +59,8 @@ def with_likeliest_front(
 
     `complete` is how the network completes an asset.
     """
+    if asset.standings:
+        return replace(asset, standings=tuple(_likeliest(asset, one, complete, config) for one in asset.standings))
     if not front_is_assumed(asset.frame) or len(asset.parts) > config.most:
         return asset
     turned = [asset]
@@ -66,6 +69,18 @@ def with_likeliest_front(
     scores = [_opening_to_front(complete(one)) for one in turned]
     best = int(np.argmax(scores))
     return _with_words(turned[best]) if scores[best] >= scores[0] + config.margin else asset
+
+
+def _likeliest(
+    asset: Asset, standing: Standing, complete: Callable[[Asset], GraphCompletion], config: LikeliestFrontConfig
+) -> Standing:
+    """Returns how one of several pieces stands, turned where its front is not shown."""
+    piece = piece_alone(asset, standing)
+    if not piece.parts:
+        return standing
+    turned = with_likeliest_front(piece, complete, config)
+    T = turned.frame.input_to_output @ np.linalg.inv(piece.frame.input_to_output)
+    return replace(standing, T_piece_object=T @ standing.T_piece_object, frame=turned.frame)
 
 
 def _opening_to_front(completion: GraphCompletion) -> float:

@@ -114,12 +114,12 @@ def furniture_pieces(shells: SceneShells, config: FurnitureConfig = FurnitureCon
     Pieces are numbered from 0, from left to right as they are seen from -Y, those behind and above later.
     """
     number = np.full(len(shells.meshes), FLOOR_OR_WALL, dtype=np.int64)
-    groups = _without_room(shells, config)
+    groups = without_room(shells, config)
     if not groups:
         return number
-    bodies, alone = _with_what_belongs(shells, groups, config)
+    bodies, alone = with_what_belongs(shells, groups, config)
     number[np.concatenate([np.zeros(0, np.int64), *alone])] = ALONE
-    pieces = [piece for body in bodies for piece in _side_by_side(shells, body, config)]
+    pieces = [piece for body in bodies for piece in side_by_side(shells, body, config)]
     for k, piece in enumerate(sorted(pieces, key=lambda piece: _place(shells.box(piece)))):
         number[piece] = k
     return number
@@ -129,10 +129,11 @@ def _place(box: Box) -> tuple[float, ...]:
     return tuple(np.round([box.center[0], box.low[1], box.low[2]], 3).tolist())
 
 
-def _without_room(shells: SceneShells, config: FurnitureConfig) -> Groups:
-    """Returns the shells that touch, in groups, floors and walls left out."""
+def without_room(shells: SceneShells, config: FurnitureConfig, by_boxes: bool = False) -> Groups:
+    """Returns the shells that touch, in groups, floors and walls left out; `by_boxes`: those whose boxes do."""
     pairs = near_pairs([mesh.box for mesh in shells.meshes], config.touch)
-    touching = np.array(touching_pairs(shells.meshes, pairs, config.touch), dtype=np.int64).reshape(-1, 2)
+    found = pairs if by_boxes else touching_pairs(shells.meshes, pairs, config.touch)
+    touching = np.array(found, dtype=np.int64).reshape(-1, 2)
     room = _plates_of_room(shells, config)
     while True:
         groups = _groups(touching, ~room)
@@ -175,7 +176,7 @@ def _fills(box: Box, plate: Box, filled: float) -> bool:
     return float(np.prod(np.maximum(shared, 0.0))) >= filled * float(np.prod(plate.size[along]))
 
 
-def _with_what_belongs(shells: SceneShells, groups: Groups, config: FurnitureConfig) -> tuple[Groups, Groups]:
+def with_what_belongs(shells: SceneShells, groups: Groups, config: FurnitureConfig) -> tuple[Groups, Groups]:
     """Returns the groups that are furniture, with contents, fronts and props of each; and those that lie alone.
 
     Where no group is large enough to be furniture, all are one piece.
@@ -187,7 +188,7 @@ def _with_what_belongs(shells: SceneShells, groups: Groups, config: FurnitureCon
     for k in order:
         host = min(bodies, key=lambda b: (boxes[b].gap(boxes[k]), boxes[b].volume), default=None)
         within = next((b for b in bodies if _lies_in(boxes[k], boxes[b], config.within)), None)
-        if within is None and _is_furniture(boxes[k], config):
+        if within is None and is_furniture(boxes[k], config):
             bodies.append(k)
         elif within is not None or (host is not None and boxes[host].gap(boxes[k]) <= config.near):
             held.setdefault(host if within is None else within, []).append(groups[k])  # type: ignore[arg-type]
@@ -198,7 +199,8 @@ def _with_what_belongs(shells: SceneShells, groups: Groups, config: FurnitureCon
     return kept, [group for group in groups if not np.isin(group, taken).any()]
 
 
-def _is_furniture(box: Box, config: FurnitureConfig) -> bool:
+def is_furniture(box: Box, config: FurnitureConfig) -> bool:
+    """Whether a box is as large as a piece of furniture."""
     return float(box.size.min()) >= config.side and float(box.size.max()) >= config.length
 
 
@@ -207,7 +209,7 @@ def _lies_in(inner: Box, outer: Box, within: float) -> bool:
     return bool(np.all(shared >= within * inner.size))
 
 
-def _side_by_side(shells: SceneShells, group: Indices, config: FurnitureConfig) -> Groups:
+def side_by_side(shells: SceneShells, group: Indices, config: FurnitureConfig) -> Groups:
     """Returns the pieces that stand side by side in a group of shells, along X and then along Y."""
     return [last for first in _parted(shells, group, 0, config) for last in _parted(shells, first, 1, config)]
 
@@ -219,7 +221,7 @@ def _parted(shells: SceneShells, group: Indices, axis: int, config: FurnitureCon
     for k, row in enumerate(rows[1:], 1):
         before, after = pieces[-1], np.concatenate(rows[k:])
         at = float(shells.low[after, axis].min() + shells.high[before, axis].max()) / 2
-        is_one = _is_furniture(shells.box(before), config) and _has_side(shells, before, axis, at, -1, config)
+        is_one = is_furniture(shells.box(before), config) and _has_side(shells, before, axis, at, -1, config)
         if is_one and _has_side(shells, after, axis, at, 1, config):
             pieces.append(row)
         else:
@@ -246,7 +248,7 @@ def _with_outer_sides(shells: SceneShells, pieces: Groups, axis: int, config: Fu
     first, last = shells.box(pieces[0]), shells.box(pieces[-1])
     if not _has_side(shells, pieces[0], axis, float(first.low[axis]), 1, config):
         pieces = [np.sort(np.concatenate(pieces[:2])), *pieces[2:]]
-    is_one = _is_furniture(last, config) and _has_side(shells, pieces[-1], axis, float(last.high[axis]), -1, config)
+    is_one = is_furniture(last, config) and _has_side(shells, pieces[-1], axis, float(last.high[axis]), -1, config)
     if len(pieces) > 1 and not is_one:
         pieces = [*pieces[:-2], np.sort(np.concatenate(pieces[-2:]))]
     return pieces

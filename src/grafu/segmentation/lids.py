@@ -9,6 +9,7 @@ from typing import final
 import numpy as np
 
 from grafu.dataclass import dataclass
+from grafu.geometry.arrays import Mat3
 from grafu.geometry.config_checks import require_not_negative, require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.candidates import candidates, framed, merged
@@ -98,9 +99,14 @@ def lid_of_washer(
     return {} if doors.any() else _cut(shells, view, lid, meshes, config.lid)
 
 
-def count_held_fronts(meshes: Sequence[TriangleMesh], config: SegmentationConfig = SegmentationConfig()) -> int:
-    """Returns how many plates with a handle are seen in front, also those that are objects of their own."""
-    whole = MeshShells.of(meshes).seen(axes_from(0))
+def count_held_fronts(
+    meshes: Sequence[TriangleMesh], config: SegmentationConfig = SegmentationConfig(), axes: Mat3 | None = None
+) -> int:
+    """Returns how many plates with a handle are seen in front, also those that are objects of their own.
+
+    The rows of `axes` are a viewer's: to the right, up, and towards it; None: it looks from -Y.
+    """
+    whole = MeshShells.of(meshes).seen(axes_from(0) if axes is None else axes)
     view, _ = merged(whole, framed(whole, config))
     plates = candidates(view, np.ones(len(view.owner), dtype=bool), config.candidates)
     return sum(front.is_held for front in fronts_among(view, plates, config))
