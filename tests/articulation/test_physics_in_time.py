@@ -1,12 +1,16 @@
 """Physics for which there is no time: boxes stand for parts, and it states so; where there is time nothing changes."""
 
+import gc
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from clocks import Clock
+from grafu.articulation import physics
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link, Visual, VisualRole
 from grafu.articulation.mass import moments_of, moments_of_box
-from grafu.articulation.physics import physics_of
+from grafu.articulation.physics import physics_known, physics_of
 from grafu.export.urdf import export_urdf
 from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.arrays import vec3
@@ -102,3 +106,13 @@ def test_a_board_weighs_the_same_by_its_box() -> None:
 
 def test_no_faces_have_no_moments() -> None:
     assert moments_of_box(TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), np.int64))).volume == 0.0
+
+
+def test_physics_is_known_of_the_object_itself_as_long_as_that_is_there(cabinet: ArticulatedObject) -> None:
+    made = replace(cabinet, name="made")
+    found, number = physics_of(made), id(made)
+    assert physics_known(made) is found
+    assert physics_known(replace(made)) is None
+    del made
+    gc.collect()
+    assert number not in physics._LATEST

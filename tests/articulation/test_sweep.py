@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint, JointLimits, Link
+from grafu.articulation.kinematics import moved_poses
 from grafu.articulation.sweep import (
     all_open,
     cycle_frames,
     cycle_tracks,
+    moved_to_full,
     opening_stages,
     rest_to_full,
     values_at,
@@ -89,6 +91,16 @@ def test_nothing_moves_in_an_object_without_joints():
 def test_waiting_in_a_circle_is_refused():
     with pytest.raises(ArticulationError, match=r"wait for one another.*'a', 'b'"):
         opening_stages(made(joint("a", 1.0, ("b",)), joint("b", 1.0, ("a",))))
+
+
+def test_the_poses_of_what_moves_are_those_of_all_frames():
+    for joint_id in ("tray", "left", "drawer"):
+        frames = [moved_poses(BEHIND_DOORS, values) for values in rest_to_full(BEHIND_DOORS, joint_id, 5)]
+        found = moved_to_full(BEHIND_DOORS, joint_id, 5)
+        assert [list(poses) for poses in found] == [list(poses) for poses in frames]
+        assert all(
+            np.array_equal(T, poses[link]) for poses, at in zip(found, frames, strict=True) for link, T in at.items()
+        )
 
 
 def test_waiting_for_nobody_is_refused():

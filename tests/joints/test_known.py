@@ -197,3 +197,32 @@ def test_a_joint_changes_the_box_of_its_own_body_alone() -> None:
         assert after.body_box(name) is before[name]
     door = PLAIN.replaced([part("door", (0.5, 0.0, 0.0))])
     assert door.body_box("door") == cube((0.5, 0.0, 0.0)).box
+
+
+EVERY_BODY = [("bodies", (x, 0.0, 0.0)) for x in (0.0, 0.3, 0.5, 0.9, 1.5)]
+EVERY_BODY += [(kind, at) for kind in ("beside", "still") for _, at in EVERY_BODY[:5]]
+
+
+@settings(max_examples=60, deadline=None)
+@given(SCENES, st.lists(st.tuples(st.sampled_from(("leaf", *MOVING, *STILL)), PLACE), min_size=1, max_size=3))
+def test_a_changed_scene_finds_what_one_made_anew_finds(scene, changes):
+    for number, (name, at) in enumerate(changes):
+        asked(scene, EVERY_BODY)  # now it knows all that it keeps
+        if name in STILL or number % 2:
+            scene = scene.replaced([part(name, at)])
+        else:
+            scene = scene.with_joint(name, motion(0.7), [visual(f"moves {number}", at)], [visual("stands", at)])
+    anew = Scene(scene.parts, scene.moving_bodies, scene.extent, scene.hardware, scene.joint_motions, scene.behind)
+    assert asked(scene, EVERY_BODY) == asked(anew, EVERY_BODY)
+    assert (scene.floor, scene.metre, scene.moving_ids) == (anew.floor, anew.metre, anew.moving_ids)
+
+
+def test_what_stays_is_prepared_once_for_all_scenes() -> None:
+    others, still = PLAIN.other_bodies("leaf"), PLAIN.static_obstacles
+    after = PLAIN.with_joint("leaf", motion(0.7), [visual("moves", (1.5, 0.0, 0.0))], [])
+    assert [one is other for one, other in zip(others, after.other_bodies("leaf"), strict=True)] == [True, True]
+    assert [o is known for o, known in zip(after.static_obstacles, still, strict=True)] == [True] * len(STILL)
+    moved = after.replaced([part("door", (0.5, 0.0, 0.0)), part("top", (0.0, 0.5, 0.0))])
+    met = {o.id: o.collider.box for o in (*moved.other_bodies("leaf"), *moved.static_obstacles)}
+    assert (met["door"], met["top"]) == (cube((0.5, 0.0, 0.0)).box, cube((0.0, 0.5, 0.0)).box)
+    assert moved.other_bodies("leaf")[1] is others[1]

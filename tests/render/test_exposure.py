@@ -10,7 +10,7 @@ from grafu.geometry.mesh import TriangleMesh
 from grafu.render.camera import Camera
 from grafu.render.exposure import Exposure, PictureStyle
 from grafu.render.picture import render
-from grafu.render.pixel_window import PixelWindow, smoothed, surfaces_of
+from grafu.render.pixel_window import PixelWindow, any_in_blocks, enlarged, smoothed, surfaces_of
 from grafu.render.ray_scene import RayScene
 
 SIZE = (60, 40)
@@ -106,3 +106,32 @@ def test_surfaces_of_one_visual_differ_by_the_side_that_they_face():
     origins = np.array([[0, -2, 0], [0, 2, 0], [2, 0.01, 0]], np.float32)
     directions = np.array([[0, 1, 0], [0, -1, 0], [-1, 0, 0]], np.float32)
     assert len(set(surfaces_of(scene.cast(origins, directions)).tolist())) == 3
+
+
+def test_a_shadow_is_found_for_blocks_of_samples(monkeypatch):
+    counts: list[int] = []
+    blocked = RayScene.blocked
+
+    def counted(self, origins, directions, reach):
+        counts.append(len(origins))
+        return blocked(self, origins, directions, reach)
+
+    monkeypatch.setattr(RayScene, "blocked", counted)
+    seen = Camera(np.array([-2.0, -3.5, 1.5]), np.zeros(3))
+    shadowed = render([board((-0.3, 0.3), (-0.3, 0.3))], seen, SIZE, PictureStyle("transparent", outlines=False))
+    assert counts[-1] <= SIZE[0] * SIZE[1] / 4  # one in sixteen samples, of which a pixel has four
+    alpha = shadowed[..., 3].astype(int)
+    assert ((alpha > 0) & (alpha < 255)).sum() > 50  # the floor beside the board
+
+
+@pytest.mark.parametrize("shape", [(8, 12), (7, 10), (1, 1)])
+def test_blocks_cover_all_of_a_grid_and_grow_to_it_again(shape):
+    chosen = np.zeros(shape, dtype=bool)
+    chosen[-1, -1] = True
+    blocks = any_in_blocks(chosen, 4)
+    assert blocks.shape == tuple(-(-side // 4) for side in shape)
+    assert blocks[-1, -1]
+    assert blocks.sum() == 1
+    large = enlarged(np.full(blocks.shape, 0.5, np.float32), 4)
+    assert large.shape == tuple(4 * side for side in blocks.shape)
+    assert np.all(large == 0.5)

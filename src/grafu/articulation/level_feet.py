@@ -15,10 +15,10 @@ from grafu.articulation.collision_clearance import Shapes
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of
 from grafu.articulation.convex_pieces import hull_of
 from grafu.articulation.floor_clearance import carrying_links, floor_below, lowest_of
-from grafu.articulation.kinematics import REST, moved_poses
+from grafu.articulation.kinematics import REST
 from grafu.articulation.mass import MassProperties
 from grafu.articulation.stability import Stability, StabilityConfig, stability_of
-from grafu.articulation.sweep import rest_to_full
+from grafu.articulation.sweep import moved_to_full
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat4, vec3
 from grafu.geometry.box import Box, OrientedBox
@@ -122,8 +122,8 @@ def _with_room_below(
     places: dict[str, list[Mat4]] = {link: [REST] for link in moving}
     for joint in articulated.free_joints:
         require_time()
-        for values in rest_to_full(articulated, joint.id, config.poses):
-            for link, T in moved_poses(articulated, values).items():
+        for poses in moved_to_full(articulated, joint.id, config.poses):
+            for link, T in poses.items():
                 places[link].append(T)
     near = [
         _low_bounds(shape, np.stack(places[link]), floor + config.hanging) for link in moving for shape in moving[link]

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import partial
 from typing import TypeVar, final
-from weakref import WeakKeyDictionary
+from weakref import finalize
 
 import numpy as np
 
@@ -75,8 +75,11 @@ class PhysicsModel:
     simplified: bool = False
 
 
-_LATEST: WeakKeyDictionary[ArticulatedObject, tuple[PhysicsConfig, PhysicsModel]] = WeakKeyDictionary()
-"""What was found last of each object that is still in use: several formats are written one after another."""
+_LATEST: dict[int, tuple[PhysicsConfig, PhysicsModel]] = {}
+"""What was found last of each object that is still in use, by its `id`: formats are written one after another.
+
+Objects compare by content, which is to read all their meshes.
+"""
 
 
 def physics_of(articulated: ArticulatedObject, config: PhysicsConfig = DEFAULT_PHYSICS_CONFIG) -> PhysicsModel:
@@ -84,16 +87,18 @@ def physics_of(articulated: ArticulatedObject, config: PhysicsConfig = DEFAULT_P
 
     What the budget in force does not hold is found in a simpler way: masses and shapes from boxes around parts.
     """
-    known = _LATEST.get(articulated)
+    known = _LATEST.get(id(articulated))
+    if known is None:
+        finalize(articulated, _LATEST.pop, id(articulated), None)
     if known is None or known[0] != config or (known[1].simplified and present_budget().is_unlimited):
         known = (config, _found(articulated, config))
-        _LATEST[articulated] = known
+        _LATEST[id(articulated)] = known
     return known[1]
 
 
 def physics_known(articulated: ArticulatedObject) -> PhysicsModel | None:
     """Returns the physics that was found last of an object; None: there is none yet."""
-    known = _LATEST.get(articulated)
+    known = _LATEST.get(id(articulated))
     return None if known is None else known[1]
 
 

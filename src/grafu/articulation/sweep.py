@@ -9,10 +9,10 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
-from grafu.articulation.kinematics import with_coupled
+from grafu.articulation.kinematics import moved_poses, with_coupled
 from grafu.dataclass import dataclass
 from grafu.errors import ArticulationError
-from grafu.geometry.arrays import ArrayValue, Scalars, frozen_array
+from grafu.geometry.arrays import ArrayValue, Mat4, Scalars, frozen_array
 
 JointValues = dict[str, float]
 
@@ -60,13 +60,15 @@ def values_before(articulated: ArticulatedObject, joint_id: str) -> JointValues:
     """Returns the values in which a joint may start: every joint it waits for fully open, all others at rest.
 
     Raises:
-        ArticulationError: if the joint is not a moving joint, or the order of opening cannot be kept.
+        ArticulationError: if the joint is not a moving joint, or waits for others and the order cannot be kept.
     """
     joint = _moving_joint(articulated, joint_id)
-    opening_stages(articulated)
+    leader = articulated.leader_of(joint)
+    if leader.after:  # few wait for others, and who does not can start
+        opening_stages(articulated)
     joints = {joint.id: joint for joint in articulated.moving_joints}
     values = {joint.id: joint.limits.lower for joint in articulated.free_joints}
-    queue = list(articulated.leader_of(joint).after)
+    queue = list(leader.after)
     while queue:
         other = articulated.leader_of(joints[queue.pop()])
         values[other.id] = other.limits.upper
@@ -89,6 +91,15 @@ def rest_to_full(
     start = {joint.id: before[joint.id] for joint in articulated.free_joints}
     steps = leader.limits.lower + leader.limits.range * ratios_of_range(count, crowding)
     return [with_coupled(articulated, {**start, leader.id: float(value)}) for value in steps]
+
+
+def moved_to_full(articulated: ArticulatedObject, joint_id: str, count: int) -> list[dict[str, Mat4]]:
+    """Returns the poses of what moves (`moved_poses`) in the frames of `rest_to_full`, for as little as one joint."""
+    leader = articulated.leader_of(_moving_joint(articulated, joint_id))
+    start = {name: value for name, value in values_before(articulated, joint_id).items() if value != 0.0}
+    free = {name: value for name, value in start.items() if name not in articulated.couplings}
+    steps = leader.limits.lower + leader.limits.range * ratios_of_range(count, 1.0)
+    return [moved_poses(articulated, {**free, leader.id: float(value)}) for value in steps]
 
 
 def ratios_of_range(count: int, crowding: float = 1.0) -> Scalars:

@@ -21,7 +21,7 @@ from grafu.shapes import Int
 
 _numbers = count()
 _MANY = 100  # faces: below, looking for repeated ones costs more than it spares
-_REMEMBERED = 60_000  # faces of BVHs kept by content: 30 MB
+_REMEMBERED = 150_000  # faces of BVHs kept by content: 75 MB
 _SAME = 1e11  # of one metre: meshes whose corners lie alike to so small a step are the same
 
 

@@ -143,10 +143,13 @@ class RayCaster:
 def embree_scene(vertices: Float32[np.ndarray, "n 3"], faces: Int32[np.ndarray, "m 3"]) -> rtcore_scene.EmbreeScene:
     """Returns Embree's scene of the triangles of a mesh, at least one."""
     scene = rtcore_scene.EmbreeScene(_DEVICE)
-    if len(vertices) < 2 * len(faces):  # it copies number by number, which takes longer than to sort them
+    # it copies number by number: more numbers take longer than to sort them, and numpy's longer than plain ones
+    if len(vertices) >= 2 * len(faces):
+        EmbreeMesh(scene, vertices[faces])
+    elif len(faces) > _LARGE:
         EmbreeMesh(scene, vertices, faces)
     else:
-        EmbreeMesh(scene, vertices[faces])
+        EmbreeMesh(scene, vertices.astype(object), faces.astype(object))
     return scene
 
 

@@ -17,7 +17,16 @@ from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.render.camera import Camera
 from grafu.render.light import key_direction, key_ratio, shade, sky_ratio
-from grafu.render.pixel_window import Grid, PixelWindow, bend_and_step, box_mean, smoothed, surfaces_of
+from grafu.render.pixel_window import (
+    Grid,
+    PixelWindow,
+    any_in_blocks,
+    bend_and_step,
+    box_mean,
+    enlarged,
+    smoothed,
+    surfaces_of,
+)
 from grafu.render.ray_scene import Hits, Rays, RayScene, Values
 from grafu.shapes import Float32, Int
 
@@ -25,6 +34,7 @@ Met = Float32[np.ndarray, "hits 3"]  # where rays met something
 Samples = Float32[np.ndarray, "_ _ 4"]
 
 SIDE = 2  # samples a side of each pixel
+_BLOCK = 4  # samples a side of each block for which the shadow on the floor is found once
 _LAYERS = 4  # panes of glass that are seen through
 _CREASE = float(np.cos(np.radians(38.0)))
 
@@ -175,24 +185,21 @@ class Exposure:
         return ink[:-1]
 
     def _shadow(self, through: np.ndarray) -> np.ndarray:
-        """Returns how dark the floor is behind each ray, 0..1; found for one sample in four and smoothed."""
+        """Returns how dark the floor is behind each ray, 0..1; found for one sample in a block and smoothed."""
         width, height = self.size
-        grid = through.reshape(height, width)
-        open_blocks = np.maximum(grid[::2], grid[1::2]) > 0.01
-        open_blocks = open_blocks[:, ::2] | open_blocks[:, 1::2]
-        first = np.arange(width * height).reshape(height, width)[::2, ::2]
-        rays, points = self._floor_points(first[open_blocks])
+        first = np.arange(width * height).reshape(height, width)[::_BLOCK, ::_BLOCK]
+        rays, points = self._floor_points(first[any_in_blocks(through.reshape(height, width) > 0.01, _BLOCK)])
         lifted = points + np.array([0, 0, 1e-4 * self.reach], np.float32)
         up = np.broadcast_to(np.array([0, 0, 1], np.float32), (len(rays), 3))
         rows, columns = np.divmod(rays, width)
-        pattern = (rows // 2 % 4) * 4 + columns // 2 % 4
+        pattern = (rows // _BLOCK % 4) * 4 + columns // _BLOCK % 4
         sky = sky_ratio(self.scene, lifted, up, pattern, 1.6 * self.reach)
         key = key_ratio(self.scene, lifted, pattern, self.toward)
         dark, known = np.zeros((2, width * height), np.float32)
         dark[rays], known[rays] = 1 - (1 - 0.24 * (1 - key)) * (1 - 0.42 * (1 - sky)), 1.0
-        dark, known = (box_mean(grid.reshape(height, width)[::2, ::2]) for grid in (dark, known))
+        dark, known = (box_mean(grid.reshape(height, width)[::_BLOCK, ::_BLOCK]) for grid in (dark, known))
         smooth = dark / np.maximum(known, 1e-3)  # what the object hides is not counted in
-        return np.repeat(np.repeat(smooth, 2, axis=0), 2, axis=1).reshape(-1)
+        return enlarged(smooth, _BLOCK)[:height, :width].reshape(-1)
 
     def _floor_points(self, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns those of the rays that meet the floor near the object, and where they do."""

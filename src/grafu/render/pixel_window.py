@@ -8,6 +8,7 @@ from itertools import product
 from typing import final
 
 import numpy as np
+from PIL import Image
 
 from grafu.dataclass import dataclass
 from grafu.render.ray_scene import Hits, Rays
@@ -124,6 +125,20 @@ def box_mean(grid: Grid) -> Grid:
     h, w = grid.shape
     rows = sum(padded[dy : dy + h] for dy in range(4))
     return np.asarray(sum(rows[:, dx : dx + w] for dx in range(4)) / 16)  # type: ignore[index, misc]
+
+
+def any_in_blocks(chosen: Bool[np.ndarray, "_ _"], side: int) -> Bool[np.ndarray, "_ _"]:
+    """Returns for each square block of a grid whether one of its values is chosen; the last blocks may be smaller."""
+    for axis in (0, 1):
+        chosen = np.logical_or.reduceat(chosen, np.arange(0, chosen.shape[axis], side), axis=axis)
+    return chosen
+
+
+def enlarged(grid: Grid, factor: int) -> Grid:
+    """Returns a grid of 32 bits with so many times as many rows and columns, in between interpolated."""
+    rows, columns = grid.shape
+    size = (columns * factor, rows * factor)
+    return np.asarray(Image.fromarray(grid).resize(size, Image.Resampling.BILINEAR))
 
 
 def _neighbours(height: int, width: int) -> Iterator[tuple[tuple[slice, slice], tuple[slice, slice]]]:

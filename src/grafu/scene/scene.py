@@ -10,53 +10,22 @@ from functools import cached_property, partial
 from typing import Concatenate, ParamSpec, TypeVar, cast, final
 
 from grafu.articulation.articulated_object import Visual
-from grafu.articulation.motion_kind import MotionKind, motion_kind
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mat3
-from grafu.geometry.axis import Axis
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, mesh_near
 from grafu.geometry.swept_body import SweptBody
-from grafu.scene.obstacles import Entry, Obstacle, Obstacles
+from grafu.scene.moving_body import JointMotion as JointMotion
+from grafu.scene.moving_body import MovingBody as MovingBody
+from grafu.scene.obstacles import Entry, Obstacle, Obstacles, entry_of
 from grafu.scene.reads import Read, note_box, note_whole, plain, with_items
 from grafu.scene.scale import floor_under, metre_on
 from grafu.scene.shapes import Shapes
-from grafu.vocabulary import JointType
 
 P = ParamSpec("P")
 T = TypeVar("T")
-
-
-@final
-@dataclass(frozen=True)
-class MovingBody:
-    """What moves as one: the part's id, then those that ride on it."""
-
-    id: str
-    members: tuple[str, ...]
-
-
-@final
-@dataclass(frozen=True)
-class JointMotion:
-    """How a moving body moves: about or along `axis`, from rest to `upper` (radians or metres).
-
-    `is_built` states that its joint stands; else it is what must be expected of a joint that is yet to be built.
-    `after` names the moving bodies that must be wide open before it can move.
-    """
-
-    axis: Axis
-    type: JointType
-    upper: float
-    is_built: bool = True
-    after: tuple[str, ...] = ()
-
-    @property
-    def kind(self) -> MotionKind:
-        """How it moves, and what everyone asks about it."""
-        return motion_kind(self.type)
 
 
 @final
@@ -119,7 +88,7 @@ class Scene:
     @cached_property
     def static_obstacles(self) -> Obstacles:
         """One obstacle per static part, at rest."""
-        return Obstacles(_entry(Read.STILL, part.id, part.mesh) for part in self.still_parts if len(part.mesh.faces))
+        return Obstacles(entry_of(Read.STILL, part.id, part.mesh) for part in self.still_parts if len(part.mesh.faces))
 
     @cached_property
     def obstacles_behind(self) -> tuple[Obstacle, ...]:
@@ -130,7 +99,7 @@ class Scene:
     def static_hardware(self) -> Obstacles:
         """One obstacle per installed static piece of hardware; what turns on its own pin is none."""
         rigid = (visual for owner, visual in self.hardware if not owner and visual.swing is None)
-        return Obstacles(_entry(Read.HARDWARE, visual.name, visual.mesh) for visual in rigid)
+        return Obstacles(entry_of(Read.HARDWARE, visual.name, visual.mesh) for visual in rigid)
 
     @cached_property
     def still_obstacles(self) -> Obstacles:
@@ -170,7 +139,7 @@ class Scene:
 
     def body_box(self, moving_id: str) -> Box:
         """Returns the box around a moving body and its hardware at rest; that is not noted as read."""
-        return self.once(_body_box, moving_id)
+        return self.once(_body_box_of, moving_id)
 
     def path_box(self, moving_id: str, joint_motion: JointMotion, find: Callable[[Box], Box]) -> Box:
         """Returns the box around a moving body's whole path, not noted as read.
@@ -193,14 +162,16 @@ class Scene:
     def is_another_beside(self, moving_id: str, box: Box) -> bool:
         """Whether the box around another moving body, at rest with its hardware, meets a box."""
         note_box(Read.BOXES, box)
-        return any(self.body_box(other).overlaps(box) for other in self.others_than(moving_id))
+        return self.other_bodies(moving_id).meets(box)
 
     def other_bodies(self, moving_id: str) -> Obstacles:
         """Returns the other moving bodies as obstacles, at rest, with the hardware that they carry."""
-        return Obstacles(
-            Entry(Read.BODIES, other, self.body_box(other), partial(self.once, _equipped_obstacle, other))
-            for other in self.others_than(moving_id)
-        )
+        return self.once(_other_bodies_of, moving_id)
+
+    @cached_property
+    def all_bodies(self) -> Obstacles:
+        """All moving bodies as obstacles, at rest, with the hardware that they carry: listed once for all who ask."""
+        return Obstacles(_body_entry(self, name) for name in plain(self.moving_bodies))
 
     def is_near_static(self, mesh: TriangleMesh, within: float, of: Collection[str] = ()) -> bool:
         """Whether a mesh comes within so many metres of a static part (`of`: of one of these)."""
@@ -232,7 +203,11 @@ class Scene:
 
     def replaced(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some parts in a new shape."""
-        return replace(self, parts=with_items(self.parts, {part.id: part for part in parts}))
+        new = {part.id: part for part in parts}
+        made = replace(self, parts=with_items(self.parts, new))
+        changed = (m.id for m in plain(self.moving_bodies).values() if not new.keys().isdisjoint(m.members))
+        _keep_bodies(made, self, tuple(changed))
+        return made
 
     def with_parts(self, parts: Iterable[Part]) -> "Scene":
         """Returns the scene with some more parts; those that ride on a moving body move with it."""
@@ -264,7 +239,8 @@ class Scene:
         added = [(moving_id, v) for v in dynamic] + [("", v) for v in static]
         motions = with_items(self.joint_motions, {moving_id: joint_motion})
         made = replace(self, hardware=(*self.hardware, *added), joint_motions=motions)
-        made._known.update({k: box for k, box in self._known.items() if k[0] is _body_box and k[1] != (moving_id,)})
+        _keep_parts(made, self)
+        _keep_bodies(made, self, [moving_id])
         return made
 
     def static_mesh_near(self, box: Box, margin: float, of: Collection[str] = ()) -> TriangleMesh:
@@ -273,16 +249,6 @@ class Scene:
         note_box(Read.STILL, reach)
         parts = (part for part in self.still_parts if not of or part.id in of)
         return mesh_near((part.mesh for part in parts), reach)
-
-
-def _entry(kind: Read, name: str, mesh: TriangleMesh) -> Entry:
-    return Entry(kind, name, mesh.box, lambda: Obstacle(name, MeshCollider(mesh)))
-
-
-def _body_box(scene: Scene, moving_id: str) -> Box:
-    rigid = (visual.mesh for visual in scene.body_hardware(moving_id) if visual.swing is None)
-    meshes = [*(part.mesh for part in scene.body_parts(moving_id)), *rigid]
-    return scene._shapes.box_around([mesh for mesh in meshes if len(mesh.faces)] or meshes)
 
 
 def _hardware_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:
@@ -298,3 +264,36 @@ def _body_obstacles(scene: Scene, moving_id: str) -> tuple[Obstacle, ...]:
 
 def _equipped_obstacle(scene: Scene, moving_id: str) -> Obstacle:
     return Obstacle(moving_id, MeshCollider(scene.equipped_mesh(moving_id)))
+
+
+def _body_box_of(scene: Scene, moving_id: str) -> Box:
+    rigid = (visual.mesh for visual in scene.body_hardware(moving_id) if visual.swing is None)
+    meshes = [*(part.mesh for part in scene.body_parts(moving_id)), *rigid]
+    return scene._shapes.box_around([mesh for mesh in meshes if len(mesh.faces)] or meshes)
+
+
+def _body_entry(scene: Scene, moving_id: str) -> Entry:
+    prepare = partial(scene.once, _equipped_obstacle, moving_id)
+    return Entry(Read.BODIES, moving_id, scene.body_box(moving_id), prepare)
+
+
+def _other_bodies_of(scene: Scene, moving_id: str) -> Obstacles:
+    return scene.all_bodies.without((moving_id,))
+
+
+def _keep_bodies(scene: Scene, before: Scene, changed: Collection[str]) -> None:
+    """Gives a scene what another knows of the moving bodies, but for those that are not the same in both."""
+    gone = {(name,) for name in changed}  # the arguments of `Scene.once`
+    boxes = {key: box for key, box in before._known.items() if key[0] is _body_box_of and key[1] not in gone}
+    scene._known.update(boxes)
+    if "all_bodies" in before.__dict__:
+        changed_entries = [_body_entry(scene, name) for name in changed]
+        scene.__dict__["all_bodies"] = before.all_bodies.with_entries(changed_entries)
+
+
+_OF_PARTS = ("metre", "floor", "moving_ids", "still_parts", "static_obstacles", "obstacles_behind")
+
+
+def _keep_parts(scene: Scene, before: Scene) -> None:
+    """Gives a scene what another with the same parts and moving bodies knows of the parts."""
+    scene.__dict__.update({name: before.__dict__[name] for name in _OF_PARTS if name in before.__dict__})
