@@ -101,7 +101,7 @@ REASONS = {
     "closing.py": {"_ALONG": SAMPLES, "_SIDES": NUMBERING},
     "drawn_across.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING},
     "drawn_arms.py": {"_UP": NUMBERING},
-    "drawn_hinges.py": {"_ALONG": EFFORT, "_POINT": TOLERANCE, "_CORNERS": NUMBERING},
+    "barrels.py": {"_ALONG": EFFORT, "_POINT": TOLERANCE, "_CORNERS": NUMBERING},
     "drop_leaves.py": {"_UP": NUMBERING},
     "drop_supports.py": {"_UP": NUMBERING, "_QUARTER": GEOMETRY},
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},

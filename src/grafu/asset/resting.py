@@ -172,4 +172,4 @@ def _cells(ratio: _Places, config: RestConfig) -> _Cells:
 def _area(ratio: _Places, config: RestConfig) -> float:
     """Returns the area of the cells that have a place in them, over that of the outline's box."""
     row, column = _cells(ratio, config).T
-    return np.count_nonzero(np.bincount(row * config.cells + column)) / config.cells**2
+    return float(np.count_nonzero(np.bincount(row * config.cells + column)) / config.cells**2)

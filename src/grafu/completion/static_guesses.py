@@ -84,7 +84,7 @@ def with_static_guesses(
 def with_static(completion: GraphCompletion, doubtful: Sequence[Refusal]) -> GraphCompletion:
     """Returns the completion in which the parts that are refused stay static; what hangs on them still moves.
 
-    Each was guessed to be a door or drawer, and becomes what its name says, or a part of no category.
+    Each was guessed to be a door or drawer, and becomes what its name states, or a part of no category.
     """
     still, graph = {refusal.part for refusal in doubtful}, completion.completed
     stated = {node.id: node.label for node in completion.input.nodes if node.label is not PartLabel.UNKNOWN}
