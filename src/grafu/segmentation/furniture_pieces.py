@@ -263,10 +263,11 @@ def _has_side(shells: SceneShells, group: Indices, axis: int, at: float, sense: 
     across = np.delete(np.arange(3), axis)
     outline = float(np.prod(shells.box(near).size[across]))
     covered = np.zeros(2)
-    for k in near.tolist():
+    reach = (at - config.crossed, at + config.reach) if sense > 0 else (at - config.reach, at + config.crossed)
+    reaching = near[(shells.high[near, axis] >= reach[0]) & (shells.low[near, axis] <= reach[1])]
+    for k in reaching.tolist():
         mesh = shells.meshes[k]
         low, high = triangle_bounds(mesh.triangles)
-        reach = (at - config.crossed, at + config.reach) if sense > 0 else (at - config.reach, at + config.crossed)
         faced = mesh.face_normals[:, axis]
         lies = (low[:, axis] >= reach[0]) & (high[:, axis] <= reach[1]) & (np.abs(faced) > 1 - config.crossed)
         areas = mesh.face_areas
