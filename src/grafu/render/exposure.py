@@ -34,7 +34,7 @@ Met = Float32[np.ndarray, "hits 3"]  # where rays met something
 Samples = Float32[np.ndarray, "_ _ 4"]
 
 SIDE = 2  # samples a side of each pixel
-_BLOCK = 4  # samples a side of each block for which the shadow on the floor is found once
+_BLOCK = 2  # samples a side of each block for which the shadow on the floor is found once
 _LAYERS = 4  # panes of glass that are seen through
 _CREASE = float(np.cos(np.radians(38.0)))
 

@@ -74,7 +74,7 @@ THUMBNAIL = (112, 84)  # pixels, in a row of a table
 CARD = (320, 240)  # pixels, on a card
 MIME = "image/webp"
 _STYLE = PictureStyle(background="transparent")
-_QUALITY, _METHOD = 82, 0  # WebP's quickest method: half the time, some kB more for the pictures of a page
+_QUALITY = 82
 _OPENED = re.compile(
     rf'<img src="data:{MIME};base64,(?P<data>[A-Za-z0-9+/=]+)"[^>]{{0,99}} alt="[^">]{{0,9999}}: open"'.encode()
 )
@@ -155,5 +155,5 @@ def _figure(caption: str, data: bytes, name: str) -> Html:
 
 def _encoded(image: Image.Image) -> bytes:
     stream = BytesIO()
-    image.save(stream, "WEBP", quality=_QUALITY, method=_METHOD)
+    image.save(stream, "WEBP", quality=_QUALITY, method=2)
     return stream.getvalue()
