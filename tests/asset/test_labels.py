@@ -242,6 +242,10 @@ def test_words_behind_the_noun_that_nobody_knows_blur_a_name():
 @pytest.mark.parametrize(
     ("name", "label"),
     [
+        ("kitchen_counter_marble.002", PartLabel.TOP_PANEL),
+        ("counter_u1_side_left", PartLabel.UNKNOWN),  # a side of what is called a counter
+        ("counter_back", PartLabel.UNKNOWN),
+        ("counter_visitor_panel", PartLabel.UNKNOWN),
         ("cold_handle2_Circle.004", PartLabel.MISC),
         ("Hot_knob", PartLabel.MISC),
         ("hot_water_tank_door_handle", PartLabel.HANDLE),

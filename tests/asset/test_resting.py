@@ -106,6 +106,14 @@ def test_what_the_user_or_a_label_states_overrules_what_it_rests_on():
     assert settle_frame(Reading("glb", (side, *parts[1:]), GLTF), LoadOptions()).up == "+Y"
 
 
+def test_panels_that_would_lie_flat_both_ways_leave_it_as_the_format_states():
+    boards = [box("a", (-0.3, -0.01, 0.1), (0.3, 0.01, 0.6)), box("b", (-0.3, 0.05, 0.4), (0.3, 0.35, 0.42))]
+    parts = in_pose((*table(), *boards), "+Z", "-Y")
+    assert settle_frame(Reading("glb", parts, GLTF), LoadOptions()).up == "+Z"
+    sides = tuple(replace(part, label=PartLabel.SIDE_PANEL, labelled_by="name") for part in parts[-2:])
+    assert settle_frame(Reading("glb", (*parts[:-2], *sides), GLTF), LoadOptions()).up == "+Y"
+
+
 def refrigerator(*below: Part) -> tuple[Part, ...]:
     """Returns a case that ends above the floor, with two doors and upright handles before it."""
     doors = [box(f"d{x}", (x, -0.42, 0.06), (x + 0.45, -0.35, 1.79)) for x in (-0.46, 0.01)]

@@ -166,7 +166,8 @@ def _by_rest(reading: Reading, votes: UpVotes, usual: _Choice, whole: Box) -> _C
     if reading.convention.up is None and lies_as_a_window(reading.parts, whole, usual.value):
         return _Choice(by_habit, f"it would be a window that lies on its face, {against}")
     other = stands_on_another_side(reading.parts, usual.value, by_habit)
-    if other is not None and not lies_as_a_window(reading.parts, whole, other):  # a round one rests on little
+    is_window = other is not None and lies_as_a_window(reading.parts, whole, other)  # a round one rests on little
+    if other is not None and not is_window and votes.stands_along(other):
         return _Choice(other, f"what the piece rests on tells, {against}")
     is_stated = reading.convention.up is not None
     if not is_stated and has_fronts_above(reading.parts, usual.value, by_habit):

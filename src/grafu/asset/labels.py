@@ -175,6 +175,8 @@ def _sense(said: tuple[str, ...]) -> Sense:
     if head is None or container >= head[1]:
         mention = None if moving is None else moving[2]
         return Sense(PartLabel.UNKNOWN, is_container=container >= 0, mention=mention if container >= 0 else None)
+    if said[head[0] : head[1]] == ("counter",) and set(said[head[1] :]) & (_PLACES | {"panel"}):
+        return Sense(PartLabel.UNKNOWN)  # `counter_side_left`: a piece of furniture is called so, too
     is_fitting = bool(set(said[head[0] : head[1]]) & _FITTINGS)
     return Sense(head[2], is_fitting=is_fitting, mention=None if moving is None or not is_fitting else moving[2])
 

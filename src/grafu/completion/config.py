@@ -188,14 +188,27 @@ class MisnamedConfig:
     still: float = 0.85
     """What is only named a part that stays, such as a face frame, is a door or drawer from this probability on if a bar
     touches it that touches no door or drawer. Of 2,000 synthetic pieces it corrects 32 parts, all rightly; of 630 other
-    models one, rightly. Without a bar the network is sure of a few boards, too."""
+    models one, rightly."""
     bar: float = 2.0
     """A handle this many times as long as it is wide is a bar: panels of controls have knobs."""
+    bare: float = 0.95
+    """Without a bar it is one from this probability on, if it is seen from the front and has no row of knobs. The
+    network is as sure of a few hidden boards, and of the panels of ovens ..."""
+    seen: float = 0.3
+    """... so this much of it must be seen from the front (fraction) ..."""
+    knobs: int = 2
+    """... and so many of its handles are knobs at most ..."""
+    held: float = 0.5
+    """... and it holds less of any other door or drawer (fraction of the other's box): supports of slides are around a
+    drawer."""
+    panel: float = 0.97
+    """What is only named a door or drawer is a side, back or bottom panel from this probability on if no handle touches
+    it. Of 3,000 synthetic pieces it corrects 34, all rightly, of 614 other models two, rightly."""
 
     def __post_init__(self) -> None:
         require_positive(self, *self.__dataclass_fields__)
-        if max(self.front, self.still) > 1.0:
-            raise ValueError(f"the probabilities of a MisnamedConfig must be at most 1: got {self}")
+        if max(self.front, self.still, self.bare, self.seen, self.held, self.panel) > 1.0:
+            raise ValueError(f"the probabilities and fractions of a MisnamedConfig must be at most 1: got {self}")
 
 
 @final

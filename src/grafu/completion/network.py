@@ -10,7 +10,7 @@ wide ones, which are rather drawers. A panel on which a smaller front with a han
 button; what touches handles alone is a piece of one.
 
 Labels that the input states are kept, whatever the network states, but for fronts that are called something else
-(`misnamed_fronts`).
+(`misnamed_parts`).
 """
 
 from collections.abc import Collection
@@ -23,7 +23,7 @@ from grafu.completion.decode import complete_decoded, decode_graph
 from grafu.completion.decode_config import DecodeConfig
 from grafu.completion.features import FeatureConfig, GraphFeatures, graph_features, mirrored
 from grafu.completion.label_shapes import held_by_handles, with_held, without_cases, without_overlaid, without_slim
-from grafu.completion.misnamed_fronts import corrected_fronts, has_named
+from grafu.completion.misnamed_parts import corrected_names, has_named
 from grafu.completion.probabilities import Probabilities, averaged, mirrored_back, probabilities_of
 from grafu.completion.selection import borders_without_handle
 from grafu.completion.session import GraphNetwork
@@ -245,15 +245,15 @@ def label_parts(
     config: DecodeConfig,
     named: Collection[str] = (),
 ) -> tuple[FunctionalGraph, tuple[Decision, ...], tuple[GraphFeatures, Probabilities] | None]:
-    """Returns the graph with a label for each unlabelled part and each misnamed front, and the confidence of each.
+    """Returns the graph with a label for each unlabelled part and each misnamed part, and the confidence of each.
 
     With it comes the forward pass on that graph, where there was one. `named` is as in `complete_by_network`.
     """
     has_unknown = any(node.label is PartLabel.UNKNOWN for node in graph.nodes)
-    if not has_unknown and not has_named(graph, named, config.misnamed):
+    if not has_unknown and not has_named(graph, named):
         return graph, (), None
     known = forward(graph, network, features)
-    corrections = corrected_fronts(graph, known[1], named, config.misnamed)
+    corrections = corrected_names(graph, *known, named, config.misnamed)
     labels, decisions = choose_labels(graph, known[1], config)
     if not labels and not corrections:
         return graph, (), known

@@ -10,6 +10,7 @@ import numpy as np
 from grafu.shapes import Bool, Float32, Int64
 
 DIRECTIONS = 6  # the viewer stands at -X, +X, -Y, +Y, -Z, +Z
+FROM_THE_FRONT = 2  # -Y
 VISIBILITY_NUMBERS = 3 * DIRECTIONS
 _CELLS = 32  # of a depth map, along the object's largest side
 _NEAR = 0.02  # of the object's size: what lies so little in front hides nothing

@@ -9,7 +9,7 @@ from grafu.additions.step import Addition, StepResult
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.asset.part import Asset
 from grafu.asset.regrouping import regrouped
-from grafu.completion.misnamed_fronts import with_corrected_fronts
+from grafu.completion.misnamed_parts import with_corrected_names
 from grafu.dataclass import dataclass
 from grafu.geometry.budget import UNLIMITED, Budget
 from grafu.geometry.config_checks import at_scale
@@ -139,7 +139,7 @@ def functionalize(
     graph = stages.timed("parse", partial(parse, config.parsing), lambda _: by_contacts(config.parsing, parse))
     complete = partial(cache.value, f"complete by {chosen} of {settings.weights}", motion.complete, asset, graph)
     completion = stages.timed("complete", complete, partial(without_network, graph))
-    asset = with_corrected_fronts(asset, completion)
+    asset = with_corrected_names(asset, completion)
     completion = with_mounts(with_motions(completion, motions, asset), settings.joints)
     make = JointStages(asset, chosen, motion, motions, folds, gallery, config, stages, cache)
     completion, plan, turning, body, realized = make.with_second_choices(completion)

@@ -1,4 +1,4 @@
-"""Drawers that are called doors, and doors that are called drawers, are corrected; all other names are kept."""
+"""Doors and drawers that are called another part are corrected where the network is sure; all other names are kept."""
 
 from dataclasses import replace
 from math import log
@@ -7,7 +7,7 @@ import pytest
 
 from grafu.asset.part import Asset, PartSource
 from grafu.completion.features import FeatureConfig
-from grafu.completion.misnamed_fronts import with_corrected_fronts
+from grafu.completion.misnamed_parts import with_corrected_names
 from grafu.completion.network import complete_by_network
 from grafu.completion.static_guesses import with_static
 from grafu.graph.edges import Hinge
@@ -53,7 +53,7 @@ def test_a_front_is_what_the_network_is_sure_of_and_the_asset_follows(stated, se
     assert decision is not None
     assert (decision.choice, decision.runner_up) == (seen, stated)
     assert decision.score == pytest.approx(0.9, abs=0.01)
-    asset = with_corrected_fronts(asset_of(stated), found)
+    asset = with_corrected_names(asset_of(stated), found)
     assert (asset.part("front").label, asset.part("front").labelled_by) == (seen, "prediction")
     how = "left" if stated is DOOR else "slides"
     note = f"front is called a {stated}, but is a {seen} by its shape (90%): --move front={how} moves it as a {stated}"
@@ -66,7 +66,8 @@ def test_a_front_is_what_the_network_is_sure_of_and_the_asset_follows(stated, se
         (DOOR, DRAWER, 0.7, ("front",), ()),  # not sure enough
         (DOOR, DRAWER, 0.9, (), ()),  # the user or an annotation states it
         (DOOR, SHELF, 0.99, ("front",), ()),  # that it moves is kept
-        (MISC, DRAWER, 0.99, ("front",), ()),  # and that it does not
+        (MISC, DRAWER, 0.94, ("front",), ()),  # not sure enough without a handle
+        (MISC, DRAWER, 0.99, (), ()),
         (DOOR, DRAWER, 0.9, ("front",), (Hinge("side_0", "front", 0, 0),)),  # its motion is stated
     ],
 )
@@ -74,7 +75,7 @@ def test_all_other_names_are_kept(stated, seen, probability, named, edges):
     found = completed(stated, seen, probability, named, edges)
     assert found.completed.node("front").label is stated
     assert found.decision("front", "label") is None
-    assert with_corrected_fronts(asset_of(stated), found) == asset_of(stated)
+    assert with_corrected_names(asset_of(stated), found) == asset_of(stated)
 
 
 def board(name, low, high, label, by="name"):
@@ -134,7 +135,7 @@ def called(label, odds, seen=DOOR, front=PLATE, handle=BAR, also=()):
     said = Answers(labels={"front": {seen: odds + 8.0, label: 8.0}})
     names = [part.id for part in parts]
     found = complete_by_network(graph, said.about(graph), FEW, named=names)
-    return found, with_corrected_fronts(Asset("made", "", "made", parts), found)
+    return found, with_corrected_names(Asset("made", "", "made", parts), found)
 
 
 @pytest.mark.parametrize("seen", [DOOR, DRAWER])
@@ -152,20 +153,54 @@ def test_what_has_a_bar_and_is_called_a_part_that_stays_is_what_the_network_is_s
 NEXT = board("door", (0.603, -0.02, 0.005), (1.2, 0.0, 0.795), DOOR)
 
 
+KNOB = ((0.54, -0.05, 0.38), (0.57, -0.02, 0.42))
+NO_BAR = {
+    "a knob": {"handle": KNOB},
+    "no handle": {"handle": ((0.2, 0.1, 0.82), (0.4, 0.12, 0.85))},  # on the top
+    "another's handle": {"handle": ((0.59, -0.05, 0.3), (0.61, -0.02, 0.5)), "also": (NEXT,)},  # of the door beside it
+}
+
+
+@pytest.mark.parametrize("other", NO_BAR.values(), ids=NO_BAR)
+def test_without_a_bar_the_network_must_be_surer(other):
+    assert called(FRAME, 3.5, **other)[0].completed.node("front").label is DOOR  # 0.97
+    found, asset = called(FRAME, 2.5, **other)  # 0.92
+    assert found.completed.node("front").label is FRAME
+    assert asset.part("front").labelled_by == "name"
+
+
+BOARD_BEFORE = board("board", (0.003, -0.06, 0.0), (0.597, -0.04, 0.8), PartLabel.BACK_PANEL)
+KNOBS = tuple(
+    board(f"knob_{k}", (0.1 * k, -0.05, 0.7), (0.1 * k + 0.03, -0.02, 0.74), PartLabel.HANDLE) for k in (1, 2)
+)
+
+
 @pytest.mark.parametrize(
     "other",
     [
         {"odds": 1.5},  # 0.82: not sure enough
-        {"handle": ((0.54, -0.05, 0.38), (0.57, -0.02, 0.42))},
-        {"handle": ((0.2, 0.1, 0.82), (0.4, 0.12, 0.85))},  # on the top
-        {"handle": ((0.59, -0.05, 0.3), (0.61, -0.02, 0.5)), "also": (NEXT,)},  # of the door beside it
+        {
+            "front": ((0.02, 0.44, 0.02), (0.58, 0.46, 0.78)),
+            "handle": NO_BAR["no handle"]["handle"],
+            "also": (BOARD_BEFORE,),
+        },
+        {"handle": KNOB, "also": KNOBS},
+        {"handle": KNOB, "also": (board("drawer", (0.1, -0.015, 0.1), (0.5, -0.005, 0.3), DRAWER),)},
     ],
-    ids=["unsure", "a knob", "no handle", "another's handle"],
+    ids=["unsure", "hidden", "a panel of controls", "around a drawer"],
 )
 def test_what_is_called_a_part_that_stays_stays_otherwise(other):
     found, asset = called(FRAME, **{"odds": 4.0, **other})
     assert found.completed.node("front").label is FRAME
     assert asset.part("front").labelled_by == "name"
+
+
+def test_one_of_two_doors_without_a_handle_that_is_called_another_part_opens():
+    doors = [
+        board("left_door", (0.003, -0.02, 0.005), (0.2985, 0.0, 0.795), DOOR),
+        board("right_door", (0.3015, -0.02, 0.005), (0.597, 0.0, 0.795), MISC),
+    ]
+    assert labels_built(doors) == dict.fromkeys(("left_door", "right_door"), (DOOR, "revolute"))
 
 
 def test_a_front_that_shape_keeps_still_keeps_its_name():
@@ -193,3 +228,40 @@ def test_the_one_front_of_a_cabinet_is_a_door_as_it_is_called():
     front = board("door", (0.003, -0.02, 0.005), (0.597, 0.0, 0.795), DOOR)
     bar = board("handle", (0.54, -0.05, 0.3), (0.552, -0.02, 0.5), PartLabel.HANDLE)
     assert labels_built([front, bar]) == {"door": (DOOR, "revolute")}
+
+
+def called_a_door(name, seen, odds, also=()):
+    """Returns the completion of a case, a board of which is called a door and by the network likely is `seen`."""
+    boards = [replace(part, label=DOOR) if part.id == name else part for part in CASE]
+    parts = (*boards, board("front", *PLATE, DOOR), *also)
+    graph = parse_graph(Asset("made", "", "made", parts))
+    said = Answers(labels={name: {seen: odds + 8.0, DOOR: 8.0}, "front": {DOOR: 20.0}})
+    names = [part.id for part in parts]
+    return complete_by_network(graph, said.about(graph), FEW, named=names).completed.node(name).label
+
+
+PULL = board("pull", (-0.02, 0.1, 0.3), (0.0, 0.12, 0.5), PartLabel.HANDLE)
+
+
+def test_a_panel_that_is_called_a_door_is_a_panel():
+    assert called_a_door("left", PartLabel.SIDE_PANEL, 4.0) is PartLabel.SIDE_PANEL
+    assert called_a_door("back", PartLabel.BACK_PANEL, 4.0) is PartLabel.BACK_PANEL
+    assert called_a_door("bottom", PartLabel.BOTTOM_PANEL, 4.0) is PartLabel.BOTTOM_PANEL
+
+
+def test_what_is_called_a_door_is_one_otherwise():
+    assert called_a_door("left", PartLabel.SIDE_PANEL, 3.0) is DOOR  # 0.95: not sure enough
+    assert called_a_door("left", PartLabel.SIDE_PANEL, 4.0, (PULL,)) is DOOR  # a handle is on it
+    assert called_a_door("top", PartLabel.TOP_PANEL, 4.0) is DOOR  # a lid looks like a top
+
+
+def test_a_side_that_is_called_a_door_stays_unless_the_user_opens_it():
+    sides = [replace(part, label=DOOR) if part.id == "left" else part for part in CASE]
+    parts = (*sides, board("front", *PLATE, DOOR), board("bar", *BAR, PartLabel.HANDLE))
+    config = PipelineConfig(settings=Settings(motion=MotionSource.NETWORK))
+    made = functionalize(Asset("made", "", "made", parts), MotionSource.NETWORK, builtin_gallery(), config)
+    assert [joint.child for joint in made.object.joints if "handle" not in joint.child] == ["front"]
+    assert made.asset.part("left").label is PartLabel.SIDE_PANEL
+    (note,) = [note for note in made.asset.notes if note.startswith("left ")]
+    assert note.startswith("left is called a door, but is a side panel by its shape (")
+    assert note.endswith("): --move left=left moves it as a door")
