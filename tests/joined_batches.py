@@ -27,6 +27,7 @@ def join_batches(batches: Sequence[GraphBatch]) -> GraphBatch:
         groups=torch.cat([b.groups for b in batches]),
         visibility=torch.cat([pad(b.visibility, (0, 0, 0, n - b.visibility.shape[1])) for b in batches]),
         names=torch.cat([pad(b.names, (0, 0, 0, n - b.names.shape[1])) for b in batches]),
+        transparent=torch.cat([pad(b.transparent, (0, n - b.transparent.shape[1])) for b in batches]),
     )
 
 

@@ -31,6 +31,7 @@ def arrays(n: int, seed: int = 0) -> dict[str, Tensor]:
         "edges": edges.fill_diagonal_(NULL),
         "visibility": torch.rand(n, VISIBILITY_NUMBERS, generator=draw),
         "names": torch.randint(0, NAME_BUCKETS + 1, (n, NAME_CODES), generator=draw),
+        "transparent": torch.rand(n, generator=draw),
     }
 
 

@@ -25,7 +25,8 @@ def nodes(draw: st.DrawFn, node_id: str) -> PartNode:
     count = draw(st.integers(0, 5))
     ratios = np.random.default_rng(draw(st.integers(0, 99))).random((count, 3))
     points = PointCloud(low + ratios * size) if count else None
-    return PartNode(node_id, draw(st.sampled_from(PartLabel)), Box(low, low + size), points, draw(words))
+    transparent = draw(st.floats(0.0, 1.0))
+    return PartNode(node_id, draw(st.sampled_from(PartLabel)), Box(low, low + size), points, draw(words), transparent)
 
 
 @st.composite

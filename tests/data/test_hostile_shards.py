@@ -38,6 +38,8 @@ def filled(column, value):
         ("box", lambda c: filled(c, np.nan)),
         ("box", lambda c: c[:, ::-1]),
         ("box", lambda c: c.reshape(-1)),
+        ("transparent", lambda c: filled(c, 1.5)),
+        ("transparent", lambda c: filled(c, np.nan)),
         ("edge", lambda c: filled(c, 60_000)),
         ("given_edge", lambda c: c[:, :3]),
         ("nodes_from", lambda c: c[::-1]),

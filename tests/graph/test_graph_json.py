@@ -34,9 +34,9 @@ def box(x: float, size: tuple[float, float, float] = (0.3, 0.02, 0.5)) -> Box:
     return Box.from_center(np.array([x, 0.1, 0.7]), np.array(size) / 2)
 
 
-def graph(border=0, sign=0, axis=2, x=0.1, cloud=None, word="side panel") -> FunctionalGraph:
+def graph(border=0, sign=0, axis=2, x=0.1, cloud=None, word="side panel", clear=0.0) -> FunctionalGraph:
     nodes = (
-        PartNode("zz side", PartLabel.SIDE_PANEL, box(x, (0.02, 0.4, 0.9)), source_name=word),
+        PartNode("zz side", PartLabel.SIDE_PANEL, box(x, (0.02, 0.4, 0.9)), source_name=word, transparent=clear),
         PartNode("door", PartLabel.DOOR, box(x + 0.2), None if cloud is None else PointCloud(np.array(cloud))),
         PartNode("drawer", PartLabel.DRAWER, box(x + 0.5, (0.3, 0.4, 0.2))),
         PartNode("knob", PartLabel.HANDLE, box(x + 0.3, (0.02, 0.02, 0.02))),
@@ -50,9 +50,12 @@ def graph(border=0, sign=0, axis=2, x=0.1, cloud=None, word="side panel") -> Fun
     return FunctionalGraph("кабинет/1", nodes, edges)
 
 
-@given(st.sampled_from(BORDERS), st.sampled_from(SIGNS), st.sampled_from(SIGNED_AXES), numbers, points, st.text())
-def test_our_form_round_trips_exactly(border, sign, axis, x, cloud, word):
-    written = graph(border, sign, axis, x, cloud, word)
+codes = (st.sampled_from(BORDERS), st.sampled_from(SIGNS), st.sampled_from(SIGNED_AXES))
+
+
+@given(*codes, numbers, points, st.text(), st.floats(0.0, 1.0))
+def test_our_form_round_trips_exactly(border, sign, axis, x, cloud, word, clear):
+    written = graph(border, sign, axis, x, cloud, word, clear)
     assert graph_from_json(load(dump_json(graph_to_json(written)))) == written
 
 

@@ -1,6 +1,7 @@
 """Contacts: boxes choose the pairs, meshes decide, and the paper's box-only rule stays an option."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,12 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grafu.asset.part import Asset, Part, PartSource
-from grafu.geometry.appearance import Surface
+from grafu.completion.features import graph_features
+from grafu.errors import GraphError
+from grafu.geometry.appearance import Material, Surface
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.sampling import sample_surface
 from grafu.geometry.touching import near_pairs
 from grafu.graph.edges import Contact
+from grafu.graph.functional_graph import PartNode
 from grafu.graph.parse import ParsingConfig, parse_graph
 from grafu.vocabulary import PartLabel
 
@@ -57,6 +61,32 @@ def test_nodes_keep_order_names_and_boxes():
     assert [(n.id, n.source_name) for n in graph.nodes] == [("z", "the z"), ("a", "the a")]
     assert graph.node("z").box == NOOK.box
     assert graph.node("z").points is None
+
+
+GLASS = Material("glass", (0.8, 0.9, 0.9, 0.3), alpha_mode="BLEND")
+
+
+def test_nodes_state_how_much_of_their_surface_is_transparent():
+    frame, pane = block([0, 0, 0], [1, 1, 1]), block([0, 0, 2], [1, 1, 3])
+    surfaces = {
+        "board": (Surface(frame),),
+        "door": (Surface(frame), Surface(pane, GLASS)),
+        "pane": (Surface(pane, GLASS),),
+        "leaves": (Surface(pane, replace(GLASS, base_color=(0.1, 0.5, 0.1, 1.0))),),  # cut out by its picture
+        "tinted": (Surface(pane, replace(GLASS, alpha_mode="OPAQUE")),),
+        "point": (Surface(TriangleMesh(np.zeros((3, 3)), np.array([[0, 1, 2]])), GLASS),),
+    }
+    parts = tuple(Part(name, PartLabel.UNKNOWN, of, PartSource(name)) for name, of in surfaces.items())
+    graph = parse_graph(Asset("thing", "", "made", parts))
+    found = {node.id: node.transparent for node in graph.nodes}
+    assert found == {"board": 0.0, "door": 0.5, "pane": 1.0, "leaves": 0.0, "tinted": 0.0, "point": 0.0}
+    assert graph_features(graph).transparent.tolist() == list(found.values())
+
+
+@pytest.mark.parametrize("transparent", [-0.1, 1.1, float("nan")])
+def test_a_fraction_of_a_surface_is_in_0_to_1(transparent):
+    with pytest.raises(GraphError, match=r"the transparent fraction of `a` must be 0\.\.1: got"):
+        PartNode("a", PartLabel.DOOR, NOOK.box, transparent=transparent)
 
 
 def test_points_lie_on_the_part_and_repeat_with_the_seed():

@@ -82,6 +82,22 @@ def test_points_of_some_graphs_are_hidden_in_training_only() -> None:
     assert 0 < sum(hidden) < 16
 
 
+def test_materials_are_seen_and_those_of_some_graphs_are_hidden_in_training_only() -> None:
+    one = arrays(4)
+    clear = one | {"transparent": torch.zeros(4)}
+    batch = join_batches([one_graph(**one)] * 16)
+    network = tiny_network(replace(TINY, dropout=0.0, geometry_dropout=0.0, name_dropout=0.0, material_dropout=0.5))
+    seen, hidden = network(one_graph(**one)).category[0], network(one_graph(**clear)).category[0]
+    assert not torch.allclose(seen, hidden, atol=1e-5)
+    trained = network.train()(batch).category[:, :4].detach()
+    are_hidden = [torch.allclose(row, hidden[:4], atol=1e-5) for row in trained]
+    are_seen = [torch.allclose(row, seen[:4], atol=1e-5) for row in trained]
+    assert 0 < sum(are_hidden) < 16
+    assert sum(are_hidden) + sum(are_seen) == 16
+    blind = tiny_network(replace(TINY, materials=False))
+    assert torch.equal(blind(one_graph(**one)).category, blind(one_graph(**clear)).category)
+
+
 def test_the_kind_of_an_edge_reaches_the_pair_heads_where_asked() -> None:
     one = arrays(4)
     other = one | {"edges": one["edges"].clone()}

@@ -28,6 +28,7 @@ def test_copies_share_the_rows_of_their_points() -> None:
         groups=one.groups,
         visibility=one.visibility.repeat(2, 1, 1),
         names=one.names.repeat(2, 1, 1),
+        transparent=one.transparent.repeat(2, 1),
     )
     network = tiny_network()
     answers = network(join_batches([graph(2, seed=5), copies]))

@@ -51,7 +51,11 @@ def given(seed: int = 3) -> dict[str, Tensor]:
 
 
 def answers(network: torch.nn.Module) -> Predictions:
-    unseen = {"visibility": torch.zeros(N, 18), "names": torch.zeros(N, 32, dtype=torch.int64)}
+    unseen = {
+        "visibility": torch.zeros(N, 18),
+        "names": torch.zeros(N, 32, dtype=torch.int64),
+        "transparent": torch.zeros(N),
+    }
     with torch.no_grad():
         return network(one_graph(**given(), **unseen))
 

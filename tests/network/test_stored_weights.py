@@ -35,6 +35,13 @@ def test_a_network_that_starts_from_a_file_answers_as_it_does(files: dict[bool, 
     assert torch.allclose(network(graph(7)).edge, tiny_network()(graph(7)).edge, atol=1e-6)
 
 
+def test_materials_count_nothing_at_first_where_the_file_does_not_know_them() -> None:
+    first = GraFu(replace(TINY, materials=False)).eval()
+    wider = GraFu(TINY).eval()
+    assert start_from(wider, first.state_dict()) == ()
+    assert torch.allclose(wider(graph(7)).category, first(graph(7)).category, atol=1e-6)
+
+
 def test_kinds_of_edges_that_the_file_does_not_know_start_unlikely(files: dict[bool, bytes]) -> None:
     known = replace(TINY, kinds="paper")
     first = GraFu(known).eval()

@@ -27,7 +27,7 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 
 def seen(features: GraphFeatures) -> GraphBatch:
-    names = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names")
+    names = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names", "transparent")
     return one_graph(*(torch.from_numpy(getattr(features, name).copy()) for name in names))
 
 

@@ -6,13 +6,11 @@ from collections.abc import Iterable
 import numpy as np
 
 from grafu.asset.part import Part
-from grafu.geometry.appearance import Material, Surface
+from grafu.geometry.appearance import OPAQUE_ALPHA, Material, Surface
 from grafu.geometry.mesh import TriangleMesh
 from grafu.shapes import Float
 from grafu.templates.solids import finished
 
-OPAQUE_ALPHA = 0.95
-"""Alpha of a colour from which on a material is opaque: what is clearer is glass (ratio)."""
 PLAIN_MATERIAL = Material()
 DEFAULT_TEXTURE_DENSITY = 1.0
 """Texture widths per metre, where the parts' own cannot be measured."""

@@ -187,7 +187,7 @@ class GraphFeatures(ArrayValue):
     `groups` the nearest points of each anchor, relative to it; all in the normalised frame, in which an object point x
     (metres) is (x - origin) / scale: the object stands on z = 0, centred in x and y, its largest side 1. `edges` are
     symmetric, null where there is none and on the diagonal. `names` are the pieces of the input's own words
-    (`name_codes`).
+    (`name_codes`), `transparent` the fractions of their surfaces through which one sees.
     """
 
     labels: Int64[np.ndarray, " n"]
@@ -196,12 +196,13 @@ class GraphFeatures(ArrayValue):
     groups: Float32[np.ndarray, "n g s 3"]
     edges: Int64[np.ndarray, "n n"]
     names: Int64[np.ndarray, "n c"]
+    transparent: Float32[np.ndarray, " n"]
     origin: Float64[np.ndarray, "3"]
     scale: float
 
     def __post_init__(self) -> None:
         freeze_arrays(self, "labels", "edges", "names", dtype=np.int64)
-        freeze_arrays(self, "boxes", "anchors", "groups", dtype=np.float32)
+        freeze_arrays(self, "boxes", "anchors", "groups", "transparent", dtype=np.float32)
         freeze_arrays(self, "origin", dtype=np.float64)
 
     @property
@@ -219,7 +220,10 @@ def graph_features(graph: FunctionalGraph, config: FeatureConfig = FeatureConfig
     clouds = (_clouds(graph, centre - half, centre + half, config.points) - origin) / scale
     anchors, groups = group_points(clouds.astype(np.float32), config.anchors, config.neighbours, config.radius)
     names = name_codes([node.source_name for node in graph.nodes])
-    return GraphFeatures(arrays.labels, boxes.astype(np.float32), anchors, groups, arrays.edges, names, origin, scale)
+    transparent = np.array([node.transparent for node in graph.nodes], dtype=np.float32)
+    return GraphFeatures(
+        arrays.labels, boxes.astype(np.float32), anchors, groups, arrays.edges, names, transparent, origin, scale
+    )
 
 
 def object_frame(graph: FunctionalGraph) -> tuple[Float64[np.ndarray, "3"], float]:

@@ -37,8 +37,8 @@ def onnx_runtime() -> ModuleType:
 GraphNetwork = Callable[[GraphFeatures], Scores]
 
 SHIPPED_WEIGHTS = Path(__file__).parent / "weights" / "grafu.onnx"
-_INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names")
-_SINCE = frozenset({"visibility", "names"})  # inputs that older files do not read
+_INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names", "transparent")
+_SINCE = frozenset({"visibility", "names", "transparent"})  # inputs that older files do not read
 _FACTS = ("body", "ajar", "piece")  # outputs that older files do not have
 
 

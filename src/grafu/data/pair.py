@@ -150,4 +150,4 @@ def _is_same(a: PartNode, b: PartNode) -> bool:
     """Whether two nodes differ in nothing but their label; shared arrays, the usual case, are not compared."""
     same_box = a.box is b.box or a.box == b.box
     same_points = a.points is b.points or a.points == b.points
-    return same_box and same_points and a.source_name == b.source_name
+    return same_box and same_points and a.source_name == b.source_name and a.transparent == b.transparent

@@ -11,6 +11,7 @@ Coding what was decoded changes nothing.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import final, get_args
 
 import numpy as np
@@ -25,7 +26,7 @@ from grafu.graph.arrays import KIND_CODES, KIND_OF, LABEL_CODES, LABELS, NONE
 from grafu.graph.edges import Attached, Contact, Edge, Hinge, Rail, Slide, Turn, ends_of, kind_of
 from grafu.graph.functional_graph import FunctionalGraph, PartNode
 from grafu.graph.piece_facts import FactCodes, fact_codes, facts_of
-from grafu.shapes import Bool, Float, Int, Int32, UInt8, UInt16, UInt32
+from grafu.shapes import Bool, Float, Float64, Int, Int32, UInt8, UInt16, UInt32
 from grafu.synth.specimen import Defect, DefectKind
 from grafu.vocabulary import EdgeKind
 
@@ -92,11 +93,11 @@ class ModelArrays:
     """One model: arrays along its nodes (in the truth's order) and its edges.
 
     `labels` are codes (`grafu.graph.arrays`), `given_labels` too, or `ABSENT`. `boxes` hold low and high corner,
-    metres. A row of `edges` (the truth's) and `given_edges` is: place of the first node (the parent), of the second
-    (the child), code of the kind, motion: 2 * border + sign of a hinge, signed axis of a rail, slide or turn, else 0.
-    That a part follows another is left out. `bodies` are 0 for parts that stand, else 1 more than the place of the
-    moving part that they move as one with, `NO_BODY` where it is not known; `ajar` is 0 or 1, or `ABSENT`; `piece` a
-    place in `PIECES`, or `ABSENT`.
+    metres; `transparent` the transparent fractions of surfaces. A row of `edges` (the truth's) and `given_edges` is:
+    place of the first node (the parent), of the second (the child), code of the kind, motion: 2 * border + sign of a
+    hinge, signed axis of a rail, slide or turn, else 0. That a part follows another is left out. `bodies` are 0 for
+    parts that stand, else 1 more than the place of the moving part that they move as one with, `NO_BODY` where it is
+    not known; `ajar` is 0 or 1, or `ABSENT`; `piece` a place in `PIECES`, or `ABSENT`.
     `points` are coded as in `shards_points`, `counts` of them for each node.
     """
 
@@ -111,6 +112,7 @@ class ModelArrays:
     piece: int
     removable: Bool[np.ndarray, " parts"]
     boxes: Boxes
+    transparent: Float64[np.ndarray, " parts"]
     edges: EdgeArray
     given_edges: GivenEdgeArray
     defects: tuple[Defect, ...]
@@ -140,6 +142,7 @@ def record_to_arrays(record: Record) -> ModelArrays:
         *_fact_arrays(fact_codes(record.facts, list(places))),
         np.array([n.id in record.removable for n in nodes], dtype=np.bool_),
         boxes,
+        np.array([n.transparent for n in nodes], dtype=np.float64),
         _edge_array(record.truth.edges, places),
         _edge_array(record.given.edges, places),
         record.defects,
@@ -156,7 +159,7 @@ def arrays_to_record(arrays: ModelArrays) -> Record:
     """
     nodes = _nodes(arrays)
     given_nodes = tuple(
-        node if code == label else PartNode(node.id, LABELS[code], node.box, node.points, node.source_name)
+        node if code == label else replace(node, label=LABELS[code])
         for node, code, label in zip(nodes, arrays.given_labels.tolist(), arrays.labels.tolist(), strict=True)
         if code != ABSENT
     )
@@ -186,11 +189,17 @@ def _fact_codes(arrays: ModelArrays) -> FactCodes:
 
 def _nodes(arrays: ModelArrays) -> tuple[PartNode, ...]:
     columns = zip(
-        arrays.node_ids, arrays.labels.tolist(), arrays.boxes, _clouds(arrays), arrays.source_names, strict=True
+        arrays.node_ids,
+        arrays.labels.tolist(),
+        arrays.boxes,
+        _clouds(arrays),
+        arrays.source_names,
+        arrays.transparent.tolist(),
+        strict=True,
     )
     return tuple(
-        PartNode(node_id, LABELS[label], Box(box[0], box[1]), cloud, source)
-        for node_id, label, box, cloud, source in columns
+        PartNode(node_id, LABELS[label], Box(box[0], box[1]), cloud, source, transparent)
+        for node_id, label, box, cloud, source, transparent in columns
     )
 
 

@@ -36,9 +36,10 @@ _ROWS: Final[Mapping[str, tuple[str, tuple[int, ...]]]] = {
     **dict.fromkeys(("edge", "given_edge"), ("<u2", (4,))),
     "removable": ("|b1", ()),
     "box": ("<f8", (2, 3)),
+    "transparent": ("<f8", ()),
     "points": ("<u4", ()),
 }
-_OF_NODES: Final = ("node_id", "source_name", "label", "given_label", "removable", "box", "body", "ajar")
+_OF_NODES: Final = ("node_id", "source_name", "label", "given_label", "removable", "box", "body", "ajar", "transparent")
 # Where the rows of which columns begin, for each row of which column.
 _STARTS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = {
     "nodes_from": ("model_id", _OF_NODES),
@@ -105,6 +106,8 @@ def _wrong_codes(columns: Mapping[str, np.ndarray]) -> str:
     box = columns["box"]
     if not np.isfinite(box).all() or (box[:, 1] < box[:, 0]).any():
         return "a box is not finite or upside down"
+    if not ((columns["transparent"] >= 0.0) & (columns["transparent"] <= 1.0)).all():
+        return "a transparent fraction is not in 0..1"
     nodes = np.diff(columns["nodes_from"])
     for name in ("edge", "given_edge"):
         counts = np.repeat(nodes, np.diff(columns[f"{name}s_from"]))

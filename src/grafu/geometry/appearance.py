@@ -6,7 +6,7 @@ Some faces of a surface, and several surfaces of one material as one, keep their
 from collections.abc import Sequence
 from dataclasses import field, replace
 from functools import cached_property, lru_cache
-from typing import Any, Literal, final
+from typing import Any, Final, Literal, final
 
 import numpy as np
 
@@ -24,6 +24,10 @@ class Texture:
     name: str
     data: bytes = field(repr=False)
     mime: Literal["image/png", "image/jpeg"]
+
+
+OPAQUE_ALPHA: Final = 0.95
+"""Alpha of a colour from which on a material is opaque: what is clearer is glass (ratio)."""
 
 
 @final
@@ -47,6 +51,11 @@ class Material:
     alpha_mode: Literal["OPAQUE", "MASK", "BLEND"] = "OPAQUE"
     alpha_cutoff: float = 0.5
     double_sided: bool = False
+
+    @property
+    def is_transparent(self) -> bool:
+        """Whether one sees through it, as through glass: the colour is blended with what is behind it."""
+        return self.alpha_mode == "BLEND" and self.base_color[3] < OPAQUE_ALPHA
 
 
 @final

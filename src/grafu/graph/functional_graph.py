@@ -41,13 +41,21 @@ def joined_groups(neighbours: Mapping[str, Iterable[str]]) -> list[frozenset[str
 @final
 @dataclass(frozen=True, slots=True)
 class PartNode:
-    """One part: `box` and `points` in the object frame, metres; `source_name` is the input's own word for it."""
+    """One part: `box` and `points` in the object frame, metres; `source_name` is the input's own word for it.
+
+    `transparent` is the fraction of its surface that is glass; a GraphError is raised if it is not in 0..1.
+    """
 
     id: str
     label: PartLabel
     box: Box
     points: PointCloud | None = None
     source_name: str = ""
+    transparent: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.transparent <= 1.0:
+            raise GraphError(f"the transparent fraction of `{self.id}` must be 0..1: got {self.transparent}")
 
 
 @final

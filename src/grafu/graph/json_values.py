@@ -59,13 +59,13 @@ def read_code(data: Json, key: str, count: int) -> int | None:
     return value
 
 
-def read_number(data: Json, key: str, where: str) -> float:
-    """Returns the finite number under `key`.
+def read_number(data: Json, key: str, where: str, default: float | None = None) -> float:
+    """Returns the finite number under `key`, or `default` where the key is absent.
 
     Raises:
-        GraphError: if it is absent or not a finite number.
+        GraphError: if it is not a finite number, or absent without a default.
     """
-    return float(read_vector(data, key, where, ()))
+    return float(read_vector(data, key, where, (), default))
 
 
 def read_vector(data: Json, key: str, where: str, shape: tuple[int, ...], default: Any = None) -> np.ndarray:

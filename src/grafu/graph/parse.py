@@ -55,4 +55,13 @@ def _nodes(parts: tuple[Part, ...], config: ParsingConfig) -> tuple[PartNode, ..
     clouds: Sequence[PointCloud | None] = [None] * len(parts)
     if config.points:
         clouds = sample_surfaces([part.mesh for part in parts], config.points, config.seed)
-    return tuple(PartNode(p.id, p.label, p.box, c, p.source.name) for p, c in zip(parts, clouds, strict=True))
+    return tuple(
+        PartNode(p.id, p.label, p.box, c, p.source.name, _transparent(p)) for p, c in zip(parts, clouds, strict=True)
+    )
+
+
+def _transparent(part: Part) -> float:
+    """Returns the fraction of a part's surface that is of a transparent material."""
+    clear = [surface.mesh.area for surface in part.surfaces if surface.material.is_transparent]
+    area = part.mesh.area if clear else 0.0
+    return min(sum(clear) / area, 1.0) if area > 0.0 else 0.0

@@ -9,6 +9,7 @@ The form is a superset of the authors', so that their tools read it too:
       label                     one of the fourteen labels
       box                       {low, high}: exact, metres, object frame
       source_name               the input's own word
+      transparent               fraction of the surface that is transparent, only where it is not 0
       points                    [[x, y, z], ...], only where the node has points
     edges     [edge]
       src, dst, kind, connector as the authors'; src is the parent, dst the child of a directed edge
@@ -142,15 +143,20 @@ def box_to_obb(box: Box) -> dict[str, list[float]]:
 
 def _node_to_json(node: PartNode) -> dict[str, Any]:
     points = {} if node.points is None else {"points": node.points.points.tolist()}
-    return {
-        "id": node.id,
-        "type": "part",
-        "material": node_to_material(node),
-        "obb": box_to_obb(node.box),
-        "label": node.label.value,
-        "box": {"low": node.box.low.tolist(), "high": node.box.high.tolist()},
-        "source_name": node.source_name,
-    } | points
+    transparent = {"transparent": node.transparent} if node.transparent else {}
+    return (
+        {
+            "id": node.id,
+            "type": "part",
+            "material": node_to_material(node),
+            "obb": box_to_obb(node.box),
+            "label": node.label.value,
+            "box": {"low": node.box.low.tolist(), "high": node.box.high.tolist()},
+            "source_name": node.source_name,
+        }
+        | transparent
+        | points
+    )
 
 
 def _edge_to_json(edge: Edge, graph: FunctionalGraph) -> dict[str, Any]:
@@ -177,7 +183,8 @@ def _node_from_json(node_id: str, data: Any) -> PartNode:
     label = read_text(node, "label", where)
     if label not in tuple(PartLabel):
         raise GraphError(f"the label of {where} must be one of {[x.value for x in PartLabel]}: got `{label}`")
-    return PartNode(node_id, PartLabel(label), Box(low, high), points, read_text(node, "source_name", where, ""))
+    name, transparent = read_text(node, "source_name", where, ""), read_number(node, "transparent", where, 0.0)
+    return PartNode(node_id, PartLabel(label), Box(low, high), points, name, transparent)
 
 
 def _edge_from_json(data: Json) -> Edge:

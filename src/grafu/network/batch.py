@@ -54,7 +54,8 @@ class GraphBatch:
 
     `mask` marks true nodes; what padding holds is never seen. Row `point_index` of `anchors` and `groups` holds the
     points of a node: centres of groups in the normalised frame, and each group's points relative to its centre.
-    `visibility` is that of `grafu.completion.visibility`, `names` those of `grafu.completion.name_codes`.
+    `visibility` is that of `grafu.completion.visibility`, `names` those of `grafu.completion.name_codes`;
+    `transparent` the fractions of surfaces through which one sees.
     """
 
     labels: Int64[Tensor, "b n"]
@@ -66,6 +67,7 @@ class GraphBatch:
     groups: Float32[Tensor, "u g k 3"]
     visibility: Float32[Tensor, "b n v"]
     names: Int64[Tensor, "b n c"]
+    transparent: Float32[Tensor, "b n"]
 
     def to(self, device: torch.device | str) -> "GraphBatch":
         """Returns the same batch on a device."""
@@ -80,10 +82,20 @@ def one_graph(
     edges: Int64[Tensor, "n n"],
     visibility: Float32[Tensor, "n v"],
     names: Int64[Tensor, "n c"],
+    transparent: Float32[Tensor, " n"],
 ) -> GraphBatch:
     """Returns a batch of one graph, each node with its own row of points."""
     index = torch.arange(labels.shape[0], device=labels.device)
     mask = torch.ones_like(labels, dtype=torch.bool)
     return GraphBatch(
-        labels[None], boxes[None], edges[None], mask[None], index[None], anchors, groups, visibility[None], names[None]
+        labels[None],
+        boxes[None],
+        edges[None],
+        mask[None],
+        index[None],
+        anchors,
+        groups,
+        visibility[None],
+        names[None],
+        transparent[None],
     )

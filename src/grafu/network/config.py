@@ -54,8 +54,10 @@ class GraFuConfig:
         names: nodes also see pieces of the input's own words for their parts (`grafu.completion.name_codes`), as
             evidence beside the label that was read from them: a name may be wrong, or foreign.
         facts: the network also predicts which parts move as one body, which are drawn ajar, and what the whole is.
+        materials: nodes also see how much of their part's surface is transparent: doors, shelves and tops are of glass.
         name_dropout: in training, the fraction of graphs whose names are hidden: many files have none that mean
             anything.
+        material_dropout: in training, the fraction of graphs whose materials are hidden: many files have none.
         geometry_dropout: in training, the fraction of graphs whose parts' points are hidden (authors: .3, of whole
             batches): real surfaces differ more from synthetic ones than boxes and contacts do.
 
@@ -85,7 +87,9 @@ class GraFuConfig:
     kinds: KindSet = "all"
     names: bool = True
     facts: bool = True
+    materials: bool = True
     name_dropout: float = 0.3
+    material_dropout: float = 0.5
     second_grouping: bool = False
     second_radius: float = 0.4
     second_neighbours: int = 32
@@ -112,7 +116,7 @@ class GraFuConfig:
         if self.second_neighbours < 1 or self.second_radius <= 0:
             said = f"{self.second_neighbours}, {self.second_radius}"
             raise ValueError(f"`second_neighbours` and `second_radius` must be above 0: got {said}")
-        for name in ("dropout", "geometry_dropout", "name_dropout"):
+        for name in ("dropout", "geometry_dropout", "name_dropout", "material_dropout"):
             if not 0.0 <= getattr(self, name) < 1.0:
                 raise ValueError(f"`{name}` must be at least 0 and below 1: got {getattr(self, name)}")
 
@@ -129,7 +133,9 @@ PAPER = GraFuConfig(
     kinds="paper",
     names=False,
     facts=False,
+    materials=False,
     name_dropout=0.0,
+    material_dropout=0.0,
     second_grouping=True,
     slots=55,
     symmetric_edges=False,
@@ -139,5 +145,7 @@ PAPER = GraFuConfig(
 OFFICIAL = replace(PAPER, geometry_dropout=0.3, vocabulary="official")
 """The network of the authors' code, into which their weights are read."""
 
-OLDER: Mapping[str, Any] = MappingProxyType({"kinds": "paper", "visibility": False, "names": False, "facts": False})
+OLDER: Mapping[str, Any] = MappingProxyType(
+    {"kinds": "paper", "visibility": False, "names": False, "facts": False, "materials": False}
+)
 """The fields that files of earlier networks do not state, and what they had."""

@@ -108,6 +108,7 @@ class EdgeEncoder(nn.Module):
 
 BOX_NUMBERS = 9  # centroid and two corners
 MARGIN_NUMBERS = 9
+TRANSPARENT_NUMBERS = 1
 VISIBILITY_NUMBERS = 18  # those of `grafu.completion.visibility`
 BOX_HIDDEN = 64  # as in the authors' code
 
@@ -145,6 +146,9 @@ class NodeEncoder(nn.Module):
         self.category = CategoryEmbedding(config)
         self.sees_margins = config.margins
         numbers = BOX_NUMBERS + (MARGIN_NUMBERS if config.margins else 0)
+        numbers += TRANSPARENT_NUMBERS if config.materials else 0
+        self.sees_materials = config.materials
+        self.hidden_materials = config.material_dropout
         self.box = perceptron(numbers, BOX_HIDDEN, config.geometry)
         self.points = PointEncoder(config)
         self.visibility = perceptron(VISIBILITY_NUMBERS, BOX_HIDDEN, config.geometry) if config.visibility else None
@@ -163,6 +167,7 @@ class NodeEncoder(nn.Module):
         if self.training and self.hidden_ratio > 0:
             points = points * (torch.rand(points.shape[0], 1, 1, device=points.device) >= self.hidden_ratio)
         seen = [corners(batch.boxes)] + ([margins(batch.boxes, batch.mask)] if self.sees_margins else [])
+        seen += [self._transparent(batch)] if self.sees_materials else []
         box = self.box(torch.cat(seen, dim=-1))
         latent = [self.category(batch.labels), points, box]
         if self.visibility is not None:
@@ -170,6 +175,14 @@ class NodeEncoder(nn.Module):
         if self.names is not None:
             latent.append(self.names(batch.names))
         return torch.cat(latent, dim=-1)
+
+    def _transparent(self, batch: GraphBatch) -> Float[Tensor, "b n 1"]:
+        """Returns how transparent each part is; in training, the materials of some graphs are hidden."""
+        transparent = batch.transparent[..., None]
+        if self.training and self.hidden_materials > 0:
+            kept = torch.rand(len(transparent), 1, 1, device=transparent.device) >= self.hidden_materials
+            transparent = transparent * kept
+        return transparent
 
 
 def corners(boxes: Float[Tensor, "b n 6"]) -> Float[Tensor, "b n 9"]:

@@ -1,7 +1,7 @@
 """The network as one ONNX file, for any number of parts, so that it runs without torch. It writes no files.
 
 Inputs are the arrays of one graph's features, by their names, without a batch: labels [n], boxes [n,6],
-anchors [n,G,3], groups [n,G,S,3], edges [n,n], visibility [n,18], names [n,32]. Outputs are the
+anchors [n,G,3], groups [n,G,S,3], edges [n,n], visibility [n,18], names [n,32], transparent [n]. Outputs are the
 fields of `Predictions` but `mask` and `padding`, without a batch and without padding slots.
 """
 
@@ -26,7 +26,7 @@ from grafu.network.stored import HALF, name_weights, put_weights
 from grafu.shapes import Float32, Int64
 
 OPSET = 18  # ONNX Runtime reads it since 1.14
-INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names")
+INPUTS = ("labels", "boxes", "anchors", "groups", "edges", "visibility", "names", "transparent")
 OUTPUTS = tuple(field.name for field in fields(Predictions) if field.name not in ("mask", "padding"))
 PAIR_OUTPUTS = ("edge", "parent", "hinge_target", "border", "sign", "slide", "body")
 GRAPH_OUTPUTS = ("piece",)
@@ -108,13 +108,18 @@ class _OneGraph(nn.Module):
         edges: Int64[Tensor, "n n"],
         visibility: Float32[Tensor, "n v"],
         names: Int64[Tensor, "n c"],
+        transparent: Float32[Tensor, " n"],
     ) -> tuple[Tensor, ...]:
         n = labels.shape[0]
         labels, boxes, edges = pad(labels, (0, 1)), pad(boxes, (0, 0, 0, 1)), pad(edges, (0, 1, 0, 1))
         anchors, groups = pad(anchors, (0, 0, 0, 0, 0, 1)), pad(groups, (0, 0, 0, 0, 0, 0, 0, 1))
-        visibility, names = pad(visibility, (0, 0, 0, 1)), pad(names, (0, 0, 0, 1))
+        visibility, names, transparent = (
+            pad(visibility, (0, 0, 0, 1)),
+            pad(names, (0, 0, 0, 1)),
+            pad(transparent, (0, 1)),
+        )
         mask = torch.arange(n + 1)[None] < n
-        graph = one_graph(labels, boxes, anchors, groups, edges, visibility, names)
+        graph = one_graph(labels, boxes, anchors, groups, edges, visibility, names, transparent)
         answers = self.model(replace(graph, mask=mask))
         slots = torch.arange(n + self.model.config.free_slots)
         kept = slots + (slots >= n)
@@ -158,9 +163,10 @@ def _exported(model: GraFu, anchors: int, neighbours: int) -> onnx.ModelProto:
         torch.zeros(parts, parts, dtype=torch.int64),
         torch.zeros(parts, VISIBILITY_NUMBERS),
         torch.zeros(parts, NAME_CODES, dtype=torch.int64),
+        torch.zeros(parts),
     )
     n = torch.export.Dim("parts", min=1, max=4096)
-    shapes = ({0: n}, {0: n}, {0: n}, {0: n}, {0: n, 1: n}, {0: n}, {0: n})
+    shapes = ({0: n}, {0: n}, {0: n}, {0: n}, {0: n, 1: n}, {0: n}, {0: n}, {0: n})
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the exporter's own, about itself
         program = torch.onnx.export(

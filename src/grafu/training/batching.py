@@ -70,6 +70,7 @@ def stack_showings(showings: Sequence[Showing], shares_shifted: bool) -> Trainin
         edges=padded([v.edges for v in views], (n, n), NULL),
         mask=padded([np.ones(len(v.labels), dtype=bool) for v in views], (n,), 0),
         names=padded([v.names for v in views], (n, NAME_CODES), 0),
+        transparent=padded([v.transparent for v in views], (n,), 0),
         point_index=padded(index, (n,), 0),
         anchors=padded([anchors], (rows, *anchors.shape[1:]), 0)[0],
         groups=padded([groups], (rows, *groups.shape[1:]), 0)[0],

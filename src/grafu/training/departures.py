@@ -61,6 +61,7 @@ DEPARTURES: Final[tuple[Departure, ...]] = (
     _of("visibility", "nodes do not see what of them is visible"),
     _of("kinds", "the paper's four kinds of edges", "network.kinds", "features.kinds"),
     _of("names", "names are not read", "network.names", "network.name_dropout"),
+    _of("materials", "materials are not seen", "network.materials", "network.material_dropout"),
     _of("facts", "no facts of the whole piece", "network.facts", *_FACTS),
     _of("slots", "a budget of 55 slots with padding slots"),
     _of("symmetric_edges", "both directions of an edge learn by themselves"),

@@ -76,6 +76,7 @@ class Copy(ArrayValue):
     boxes: Float32[np.ndarray, "n 6"]
     edges: Int64[np.ndarray, "n n"]
     names: Int64[np.ndarray, "n c"]
+    transparent: Float32[np.ndarray, " n"]
     rows: Int64[np.ndarray, " n"]
     stretch: float
     shift: Float64[np.ndarray, "3"]
@@ -142,6 +143,7 @@ def _copy(pair: GraphPair, origin: np.ndarray, scale: float, kinds: KindSet) -> 
         targets.boxes[places],
         seen.edges,
         name_codes([node.source_name for node in given.nodes]),
+        np.array([node.transparent for node in given.nodes], dtype=np.float32),
         places,
         scale / new_scale,
         (origin - new_origin) / new_scale,

@@ -9,9 +9,9 @@ import numpy as np
 
 from grafu.additions.grip.config import GroundConfig
 from grafu.additions.grip.shape import GripFrame
-from grafu.additions.likeness import OPAQUE_ALPHA
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
+from grafu.geometry.appearance import OPAQUE_ALPHA
 from grafu.geometry.arrays import ArrayValue, Mask, Scalars, freeze_arrays
 from grafu.geometry.bodywork import Bodywork
 from grafu.geometry.box import Box

@@ -15,10 +15,9 @@ import numpy as np
 from grafu.additions.handle.config import HandleConfig
 from grafu.additions.handle.relief import Relief
 from grafu.additions.handle.spots import Spot
-from grafu.additions.likeness import OPAQUE_ALPHA
 from grafu.articulation.kinematics import all_before
 from grafu.dataclass import dataclass
-from grafu.geometry.appearance import Surface
+from grafu.geometry.appearance import OPAQUE_ALPHA, Surface
 from grafu.geometry.arrays import Mat4, Points
 from grafu.geometry.box import Box
 from grafu.geometry.intersection import MeshCollider
