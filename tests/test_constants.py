@@ -207,7 +207,7 @@ OF_MODULES = {
         "drawers.py": {"_DIRECTIONS": NUMBERING},
         "handles.py": {"_FLUSH": TOLERANCE, "_UP": NUMBERING},
         "rows.py": {},
-        "selection.py": {"_LEAST": VOTES},
+        "selection.py": {},
         "slots.py": {},
         "rule.py": {"_FRONTS": NUMBERING},
         "rule_scene.py": {"CARRIES": VOTES, "_FLAT": TOLERANCE},

@@ -1,4 +1,4 @@
-"""Doors right above each other: they hang on one side more often than each of them tells by itself."""
+"""Doors right above each other: one that does not tell its side hangs on that of the others."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -16,19 +16,22 @@ _LEAST = 1e-9  # no probability is less, so that ratios are finite
 def agreed_borders(
     doors: Sequence[PartNode], borders: Mapping[str, Scalars], config: ColumnConfig = ColumnConfig()
 ) -> dict[str, Scalars]:
-    """Returns what multiplies the probabilities of the four borders of doors that stand in columns, by id.
+    """Returns 1 for each of the four borders that an unsure door of a column may take, and 0 for the side it does not.
 
-    `borders` are these probabilities, each door seen for itself. In a column they become those of a chain in which
-    neighbours on different sides are `same_side` times less likely than on one; other borders keep theirs.
+    `borders` are the probabilities of the four borders, each door seen for itself. The unsure door follows the surest
+    one of its column.
     """
     found: dict[str, Scalars] = {}
     for column in _columns([door for door in doors if door.box.thin_axis != 2], config):
         sides = [_sides(door) for door in column]
         alone = np.array([borders[door.id][list(side)] for door, side in zip(column, sides, strict=True)])
         alone = np.maximum(alone, _LEAST) / np.maximum(alone, _LEAST).sum(axis=1, keepdims=True)
-        for door, side, ratio in zip(column, sides, _in_chain(alone, config.same_side) / alone, strict=True):
-            found[door.id] = np.ones(4)
-            found[door.id][list(side)] = ratio
+        surest = int(np.argmax(alone.max(axis=1)))
+        other = 1 - int(np.argmax(alone[surest]))
+        for k, (door, side) in enumerate(zip(column, sides, strict=True)):
+            if k != surest and alone[k].max() < config.unsure:
+                found[door.id] = np.ones(4)
+                found[door.id][side[other]] = 0.0
     return found
 
 
@@ -36,21 +39,6 @@ def _sides(door: PartNode) -> tuple[int, int]:
     """Returns the borders at the low and the high side of an upright door."""
     axis, thin = across_axis(door), door.box.thin_axis
     return face_to_border(thin, signed_axis(axis, False)), face_to_border(thin, signed_axis(axis, True))
-
-
-def _in_chain(alone: np.ndarray, same_side: float) -> np.ndarray:
-    """Returns the probabilities of two states of each link of a chain (n, 2), which neighbours rather share."""
-    shared = np.array([[same_side, 1.0], [1.0, same_side]])
-    below, above = np.ones_like(alone), np.ones_like(alone)
-    for k in range(1, len(alone)):
-        below[k] = _normal((below[k - 1] * alone[k - 1]) @ shared)
-        above[-1 - k] = _normal((above[-k] * alone[-k]) @ shared)
-    joint = below * alone * above
-    return np.asarray(joint / joint.sum(axis=1, keepdims=True))
-
-
-def _normal(weights: np.ndarray) -> np.ndarray:
-    return np.asarray(weights / weights.sum())
 
 
 def _columns(doors: Sequence[PartNode], config: ColumnConfig) -> Iterator[list[PartNode]]:

@@ -137,7 +137,7 @@ def _moved(view: GraphView) -> Motions:
     """Returns how each door and drawer moves, or why it does not."""
     scene = RuleScene(view.graph)
     doors = [node for node in view.graph.labelled(PartLabel.DOOR) if node.id in view.given]
-    agreed = agreed_borders(doors, {door.id: borders_of(door, view, scene) for door in doors}, view.config.columns)
+    agreed = agreed_borders(doors, {door.id: borders_of(door, view) for door in doors}, view.config.columns)
     return move_parts(
         scene,
         lambda door: choose_hinge(door, view, scene, agreed.get(door.id, 1.0)),

@@ -22,15 +22,15 @@ ADDABLE: tuple[PartLabel, ...] = (
 @final
 @dataclass(frozen=True, slots=True)
 class ColumnConfig(ShortRepr):
-    """Which doors stand right above each other, and how much rather they hang on one side; numbers are ratios.
+    """Which doors stand right above each other, and which of them follows another; numbers are ratios.
 
     Raises:
         ValueError: if a number is not above 0.
     """
 
-    same_side: float = 10.0
-    """How much likelier two such doors hang on one side than on different ones. Of 56 pairs of synthetic furniture 54
-    do (900 pieces): odds of 27, of which less is taken, for the network sees the other door, too. 1 leaves it out."""
+    unsure: float = 0.75
+    """A door whose likelier side is less likely than this, of both sides, takes that of the surest one of its column.
+    Of 56 such pairs of doors of synthetic furniture 54 hang on one side (900 pieces)."""
     aligned: float = 0.05
     """How far their sides, and their planes, are apart at most (fraction of the width)."""
     between: float = 0.25
@@ -220,16 +220,6 @@ class DecodeConfig:
     flank: float = 0.25
     """How far within a drawer's box a carrier may lie and still be on its flank (fraction of the drawer's width)."""
 
-    outward: float = 0.5
-    """Power of a rule's score of where the front is, in the choice of the direction of opening; scores that are
-    reported stay the network's. 0 leaves it out."""
-
-    stacked: float = 10.0
-    """What multiplies the odds that unlabelled fronts are drawers, and no doors, where they are wider than high, of one
-    width and of like height, and right above each other; once for each that has another below it. Of 73 such fronts of
-    development models 71 are drawers (of 176 others 72): a ratio of likelihoods near 25, of which less is taken, for
-    the network sees shapes, too. 1 leaves it out."""
-
     wide: float = 1.3
     """How much wider than high such a front is at least."""
     columns: ColumnConfig = ColumnConfig()
@@ -295,5 +285,5 @@ class DecodeConfig:
         )
         if not all(0.0 <= ratio <= 1.0 for ratio in (*ratios, self.sure, self.slides, self.nested, self.no_parent)):
             raise ValueError(f"the probabilities of a DecodeConfig must be in 0..1: got {self}")
-        if min(self.rounds, self.reach, self.grasp, self.outward, self.least_half, self.slack) < 0:
+        if min(self.rounds, self.reach, self.grasp, self.least_half, self.slack) < 0:
             raise ValueError(f"counts, lengths and powers of a DecodeConfig must not be negative: got {self}")

@@ -88,21 +88,20 @@ _BETWEEN = 0.5  # of a front's height: how far the next one may be, and how much
 def _with_columns(weights: np.ndarray, graph: FunctionalGraph, config: DecodeConfig) -> np.ndarray:
     """Returns the weights of labels where the fronts of a row or column agree on being doors or drawers.
 
-    The odds of a row, and then of a column, are the mean of the logarithms. Those of a column, wide fronts right above
-    each other, are more likely drawers, with each one above another.
+    The odds of a row, and then of a column, wide fronts right above each other, are the mean of the logarithms.
     """
     made = weights
     for group in _rows(weights, graph):
-        made = _agreed(made, group, 1.0)
+        made = _agreed(made, group)
     for group in _columns(made, graph, config):
-        made = _agreed(made, group, config.stacked ** (len(group) - 1))
+        made = _agreed(made, group)
     return made
 
 
-def _agreed(weights: np.ndarray, group: Group, factor: float) -> np.ndarray:
-    """Returns the weights in which a group has common odds of drawers against doors, multiplied by a factor."""
+def _agreed(weights: np.ndarray, group: Group) -> np.ndarray:
+    """Returns the weights in which a group has common odds of drawers against doors."""
     odds = np.log(np.maximum(weights[group, DRAWER], _LEAST) / np.maximum(weights[group, DOOR], _LEAST))
-    ratio = factor * float(np.exp(odds.mean()))
+    ratio = float(np.exp(odds.mean()))
     both = weights[group, DOOR] + weights[group, DRAWER]
     made = weights.copy()
     made[group, DRAWER], made[group, DOOR] = both * ratio / (1 + ratio), both / (1 + ratio)

@@ -3,11 +3,6 @@
 A motion is a property of the part, while the network answers for each pair: answers are averaged over the parts that
 may carry it, each by how likely it does. A score is the network's own, or its decision states that it is a rule's. What
 moves ends with its edges or with the reason why not.
-
-The direction in which a door or drawer opens: a rule of geometry weighs the network's choice.
-
-A door rather opens towards the face that looks away from the body, a drawer to where nothing stands. The rule's view
-weighs what is chosen, never the reported probabilities: these are the network's own.
 """
 
 from dataclasses import replace
@@ -16,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from grafu.completion.answers import MotionAnswer, decision_of
-from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_front, vote_mount
-from grafu.completion.drawers import run_drawer, vote_direction
+from grafu.completion.doors import hang_door, plain_flap, vote_border, vote_mount
+from grafu.completion.drawers import run_drawer
 from grafu.completion.handles import sits_on_static, stands_apart
 from grafu.completion.probabilities import softmax
 from grafu.completion.rule_scene import RuleScene
@@ -28,32 +23,8 @@ from grafu.graph.arrays import ATTACHED, HINGE, RAIL, SLIDE
 from grafu.graph.completion import BY_BOTH, BY_RULE, Decision
 from grafu.graph.edges import BORDERS, SIGNED_AXES, SIGNS, Attached, Hinge, HingeBorder, Rail, SignedAxis, Slide
 from grafu.graph.functional_graph import PartNode
-from grafu.graph.motion import opening_face
 from grafu.refusal import Reason, Refusal
 from grafu.vocabulary import PartLabel
-
-_LEAST = 1e-3  # what the rule did not vote for stays possible
-
-
-def leaned_motion(door: PartNode, motion: np.ndarray, power: float, scene: RuleScene) -> np.ndarray:
-    """Returns what the network states about a door's border and sign (4, 2), weighed by the face that leads then."""
-    front, thin = _opinion(vote_front(door, scene), power), door.box.thin_axis
-    return motion * np.array([[front[opening_face(thin, border, sign)] for sign in SIGNS] for border in BORDERS])
-
-
-def leaned_direction(drawer: PartNode, ratios: Scalars, power: float, scene: RuleScene) -> Scalars:
-    """Returns what the network states about a drawer's signed axis of opening (6), weighed by the rule's vote."""
-    return ratios * _opinion(vote_direction(drawer, scene), power)
-
-
-def _opinion(ranking: Ranking[SignedAxis], power: float) -> Scalars:
-    """Returns what the rule's vote weighs for each signed axis."""
-    ratios = np.full(len(SIGNED_AXES), _LEAST)
-    for code, score in ((ranking.choice, ranking.score), (ranking.runner_up, ranking.runner_up_score)):
-        if code is not None:
-            ratios[code] = max(score, _LEAST)
-    return ratios**power
-
 
 _NO_SUPPORT = "there is no static part that could carry it: label the static parts"
 _NO_PARENT = "this handle sits on no door or drawer: label the part behind it, or leave it as decoration"
@@ -106,12 +77,11 @@ def parent_ratios(slot: int, slots: Indices, view: GraphView) -> tuple[Scalars, 
     return chosen[:-1] * (view.config.some_parent + view.probabilities.edge[slot, slots, ATTACHED]), float(chosen[-1])
 
 
-def borders_of(door: PartNode, view: GraphView, scene: RuleScene) -> Scalars:
+def borders_of(door: PartNode, view: GraphView) -> Scalars:
     """Returns what a door's choice among its four borders weighs, seen for itself; all 0 without supports."""
     if not len(view.supports):
         return np.zeros(len(BORDERS))
-    motion = np.einsum("k,kbs->bs", *_hinges(door, _carriers(door, view), view))
-    return np.asarray(leaned_motion(door, motion, view.config.outward, scene).sum(axis=1))
+    return np.asarray(np.einsum("k,kbs->b", *_hinges(door, _carriers(door, view), view)))
 
 
 def borders_without_handle(view: GraphView) -> dict[str, Scalars]:
@@ -137,9 +107,8 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene, agreed: Scal
     """Returns the hinge of a door, or its slide, with the confidence of each choice, or why it gets none.
 
     The network decides, but for flaps that are plain to see, and for doors that it sees nothing carry: with their side
-    missing it never saw any, and the rule hangs them on what there is. Where it is of two minds, the door opens
-    outwards. `scene` is the same graph with its handles attached: where they sit states which face is the front.
-    `agreed` multiplies the borders' probabilities in the choice, see `agreed_borders`.
+    missing it never saw any, and the rule hangs them on what there is. `scene` is the same graph with its handles
+    attached. `agreed` is 0 for a border that a door of a column does not take, see `agreed_borders`.
     """
     if not len(view.supports):
         return Refusal(door.id, Reason.NO_MOTION, _NO_SUPPORT)
@@ -155,21 +124,20 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene, agreed: Scal
         )
     mounts, motions = _hinges(door, slots, view)
     motion = np.einsum("k,kbs->bs", mounts, motions)
-    leaned = leaned_motion(door, motion, view.config.outward, scene)
-    weights = leaned.sum(axis=1) * agreed
+    weights = motion.sum(axis=1) * agreed
     before = view.borders.get(door.id, motion.sum(axis=1))
     if door.id in view.borders:
         weights = np.where(before >= view.config.unseen * before.max(), weights, 0.0)
     own = chosen_of(BORDERS, motion.sum(axis=1), weights)
     flap = _plain_flap(door, own.choice, scene)
     border = flap or chosen_of(BORDERS, before, weights)
-    sign = chosen_of(SIGNS, motion[border.choice], leaned[border.choice])
+    sign = ranking_of(SIGNS, motion[border.choice])
     on = None if flap is None else _flap_mount(door, flap.choice, view, scene)
     mount = on or ranking_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
     edge = Hinge(mount.choice, door.id, border.choice, sign.choice)
     decisions = (
         decision_of(door.id, "border", border, _by(own) if flap is None else BY_RULE),
-        decision_of(door.id, "sign", sign, _by(sign)),
+        decision_of(door.id, "sign", sign),
         decision_of(door.id, "mount", mount, "" if on is None else BY_RULE),
     )
     return (edge,), decisions
@@ -196,14 +164,14 @@ def choose_rails(drawer: PartNode, view: GraphView, scene: RuleScene) -> MotionA
         why = f"the network sees no part that carries it: rails at most {railed.max():.2f}"
         return Refusal(drawer.id, Reason.NO_MOTION, why) if answer is None else answer
     ratios = railed @ view.probabilities.slide[slot, slots]
-    slide = chosen_of(SIGNED_AXES, ratios, leaned_direction(drawer, ratios, view.config.outward, scene))
+    slide = ranking_of(SIGNED_AXES, ratios)
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
     rails = tuple(Rail(view.ids(group)[0], drawer.id, slide.choice) for group in groups)
     mounts = (
         decision_of(drawer.id, "mount", ranking_of(view.ids(group), view.probabilities.edge[slot, group, RAIL]))
         for group in groups
     )
-    return rails, (decision_of(drawer.id, "slide", slide, _by(slide)), *mounts)
+    return rails, (decision_of(drawer.id, "slide", slide), *mounts)
 
 
 def _by(ranking: Ranking[Any]) -> str:
