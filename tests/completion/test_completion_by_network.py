@@ -190,6 +190,7 @@ def test_scores_are_the_networks_own_and_so_is_the_choice() -> None:
     completion = complete_by_network(graph, leaning, FEW, ONCE)
     asked = [completion.decision(*which) for which in (("door", "border"), ("door", "sign"), ("drawer", "slide"))]
     assert [(d.choice, d.by) for d in asked] == [("1", ""), ("0", ""), ("3", "")]
+    assert [sorted(choice for choice, _ in d.others) for d in asked[1:]] == [["1"], ["0", "1", "2", "4", "5"]]
     assert ratios_of(asked[0])["1"] == pytest.approx(ratio_of(lean, 4), abs=1e-6)
     assert ratios_of(asked[1])["0"] == pytest.approx(ratio_of(lean, 2), abs=1e-6)
     assert ratios_of(asked[2])["3"] == pytest.approx(ratio_of(lean, 6), abs=1e-6)

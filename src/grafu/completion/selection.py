@@ -131,7 +131,7 @@ def choose_hinge(door: PartNode, view: GraphView, scene: RuleScene, agreed: Scal
     own = chosen_of(BORDERS, motion.sum(axis=1), weights)
     flap = _plain_flap(door, own.choice, scene)
     border = flap or chosen_of(BORDERS, before, weights)
-    sign = ranking_of(SIGNS, motion[border.choice])
+    sign = chosen_of(SIGNS, motion[border.choice])
     on = None if flap is None else _flap_mount(door, flap.choice, view, scene)
     mount = on or ranking_of(view.ids(slots), mounts * motions[:, border.choice, sign.choice])
     edge = Hinge(mount.choice, door.id, border.choice, sign.choice)
@@ -164,7 +164,7 @@ def choose_rails(drawer: PartNode, view: GraphView, scene: RuleScene) -> MotionA
         why = f"the network sees no part that carries it: rails at most {railed.max():.2f}"
         return Refusal(drawer.id, Reason.NO_MOTION, why) if answer is None else answer
     ratios = railed @ view.probabilities.slide[slot, slots]
-    slide = ranking_of(SIGNED_AXES, ratios)
+    slide = chosen_of(SIGNED_AXES, ratios)
     groups = _by_flank(drawer, slide.choice, slots, railed, view)
     rails = tuple(Rail(view.ids(group)[0], drawer.id, slide.choice) for group in groups)
     mounts = (

@@ -67,14 +67,16 @@ def ranking_of(choices: Sequence[Choice], weights: Scalars) -> Ranking[Choice]:
     return Ranking(choices[order[0]], scores[order[0]], choices[order[1]], scores[order[1]])
 
 
-def chosen_of(choices: Sequence[Choice], weights: Scalars, leaned: Scalars) -> Ranking[Choice]:
-    """Returns the choice that `leaned` is the largest for, and the best of the others by `weights`.
+def chosen_of(choices: Sequence[Choice], weights: Scalars, preferred: Scalars | None = None) -> Ranking[Choice]:
+    """Returns the choice that `preferred` (the weights where it is None) is the largest for, and all the others.
 
-    Scores are fractions of `weights` alone, so that of a choice that they do not prefer is below its runner-up's.
+    The runner-up is the best of the others by `weights`. Scores are fractions of `weights` alone, so that of a choice
+    that they do not prefer is below its runner-up's.
     """
-    total, best = float(weights.sum()), int(np.argmax(leaned))
+    preferred = weights if preferred is None else preferred
+    total, best = float(weights.sum()), int(np.argmax(preferred))
     ratios = np.minimum(weights / total, 1.0) if total > 0 else np.full(len(choices), 1.0 / len(choices))
-    others = np.argsort(-leaned, kind="stable")[1:]
+    others = np.argsort(-preferred, kind="stable")[1:]
     if not len(others):
         return Ranking(choices[best], float(ratios[best]))
     second = int(others[np.argmax(ratios[others])])
