@@ -2,13 +2,15 @@
 
 from base64 import b64decode
 from io import BytesIO
+from threading import get_ident
 
 import pytest
-from made_models import picture
+from made_models import made_model, picture
 from PIL import Image
 
 from grafu.geometry.appearance import Texture
-from grafu.viewer.pictures import LIMIT, texture_uris
+from grafu.viewer import pictures
+from grafu.viewer.pictures import LIMIT, take_stills, texture_uris
 
 
 def opened(uri: str) -> Image.Image:
@@ -46,3 +48,26 @@ def test_of_many_images_each_is_smaller():
 @pytest.mark.parametrize("data", [b"", b"no image", picture()[:60]])
 def test_a_broken_image_is_left_out(data):
     assert texture_uris([Texture("t", data, "image/png")]) == [""]
+
+
+def test_two_cores_draw_the_same_pictures_at_a_time_unless_they_have_too_many_faces(monkeypatch):
+    made, drawn = made_model().result, pictures.render
+    threads: list[int] = []
+
+    def render(*arguments):
+        threads.append(get_ident())
+        return drawn(*arguments)
+
+    def stills(cores: int, faces: int = 500_000):
+        threads.clear()
+        monkeypatch.setattr(pictures, "render", render)
+        monkeypatch.setattr(pictures, "own_cores", lambda: cores)
+        monkeypatch.setattr(pictures, "_FACES_AT_ONCE", faces)
+        return take_stills(made.asset, made.object, (64, 48))
+
+    alone = stills(1)
+    assert set(threads) == {get_ident()}
+    assert stills(2) == alone
+    assert get_ident() not in threads
+    assert stills(2, faces=10) == alone
+    assert set(threads) == {get_ident()}

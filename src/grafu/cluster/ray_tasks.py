@@ -4,6 +4,7 @@ In each task a process of its own, with limits, works on the item, as in a local
 """
 
 import logging
+import os
 import signal
 import socket
 from collections import deque
@@ -257,5 +258,6 @@ def _serve(work: Work[Item, Result], item: Item, version: str) -> Outcome[Result
     """
     if version != __version__:
         raise OptionError(f"a node has grafu {__version__}, and this machine {version}: install the same")
-    worker = _workers.setdefault(work, ReusedWorker(work.run, work.limits, work.prepare))
+    beside = os.cpu_count() or 1  # Ray has a process for each core
+    worker = _workers.setdefault(work, ReusedWorker(work.run, work.limits, work.prepare, beside))
     return worker.outcome_of(item)

@@ -13,6 +13,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, Generic, Literal, TypeVar, final
 
+from grafu.processes.cores import share_cores
 from grafu.processes.lifetime import (
     clear_scratch,
     end_with_parent,
@@ -61,7 +62,8 @@ def next_look(left: float, room: float) -> float:
 class Worker(Generic[Item, Result]):
     """A process that runs `run` on items, within limits that hold for each; `run` must be a function of a module.
 
-    `prepare` is called in it first, say to import; the time of an item begins after that.
+    `prepare` is called in it first, say to import; the time of an item begins after that. So many processes as `beside`
+    states, itself counted, share the cores.
     """
 
     def __init__(
@@ -70,11 +72,12 @@ class Worker(Generic[Item, Result]):
         limits: ProcessLimits = ProcessLimits(),
         prepare: Callable[[], None] = nothing,
         start: Start = "spawn",  # a fork would copy locks that native libraries hold
+        beside: int = 1,
     ) -> None:
         context: Any = multiprocessing.get_context(start)
         self._limits = limits
         self.connection, theirs = context.Pipe()
-        arguments = (run, limits, prepare, theirs, started_by_main_thread())
+        arguments = (run, limits, prepare, theirs, started_by_main_thread(), beside)
         self._process = context.Process(target=_serve, args=arguments, daemon=True)
         self._deadline: float | None = None
         self._held = 0  # bytes, at the last look
@@ -147,14 +150,18 @@ class ReusedWorker(Generic[Item, Result]):
     """A worker for one item after the other; another takes its place after it died, was stopped or is worn."""
 
     def __init__(
-        self, run: Callable[[Item], Result], limits: ProcessLimits, prepare: Callable[[], None] = nothing
+        self,
+        run: Callable[[Item], Result],
+        limits: ProcessLimits,
+        prepare: Callable[[], None] = nothing,
+        beside: int = 1,
     ) -> None:
-        self._run, self._limits, self._prepare = run, limits, prepare
+        self._run, self._limits, self._prepare, self._beside = run, limits, prepare, beside
         self._worker: Worker[Item, Result] | None = None
 
     def outcome_of(self, item: Item) -> Outcome[Result]:
         """Returns how work on an item ended; when it is interrupted meanwhile, the worker ends."""
-        worker = self._worker or Worker(self._run, self._limits, self._prepare)
+        worker = self._worker or Worker(self._run, self._limits, self._prepare, beside=self._beside)
         self._worker = None
         try:
             worker.give(item)
@@ -182,12 +189,14 @@ def _serve(
     prepare: Callable[[], None],
     connection: Connection,
     started_by_main_thread: bool,
+    beside: int,
 ) -> None:
     """Works until the pipe is closed: an empty tuple states that work begins, one with a result that it is done."""
     leave_interrupts_to_parent()
     end_with_parent(started_by_main_thread)
     if limits.memory is not None:
         refuse_beyond(limits.memory)
+    share_cores(beside)
     prepare()
     while True:
         try:
@@ -217,7 +226,7 @@ def run_each(
     try:
         while waiting or working:
             while waiting and len(working) < workers:
-                worker = Worker(run, limits, prepare, start)
+                worker = Worker(run, limits, prepare, start, min(workers, len(items)))
                 working[worker] = waiting.popleft()
                 _give(worker, working[worker], on_begin)
             wait([worker.connection for worker in working], min(_patience(working), default=None))

@@ -20,6 +20,7 @@ from grafu.asset.scan_files import library_call
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Texture
 from grafu.geometry.budget import require_time
+from grafu.processes.cores import made_of_each, own_cores
 from grafu.processes.limits import give_back_unused
 from grafu.render.camera import three_quarter_view
 from grafu.render.exposure import PictureStyle
@@ -75,6 +76,7 @@ CARD = (320, 240)  # pixels, on a card
 MIME = "image/webp"
 _STYLE = PictureStyle(background="transparent")
 _QUALITY = 82
+_FACES_AT_ONCE = 500_000  # of a picture, up to which several are drawn at a time: each takes memory of its own
 _OPENED = re.compile(
     rf'<img src="data:{MIME};base64,(?P<data>[A-Za-z0-9+/=]+)"[^>]{{0,99}} alt="[^">]{{0,9999}}: open"'.encode()
 )
@@ -106,7 +108,10 @@ def take_stills(asset: Asset, articulated: ArticulatedObject, size: tuple[int, i
         give_back_unused()
         return _encoded(Image.fromarray(picture))
 
-    return Stills(taken(before), b"" if _alike(asset, closed) else taken(closed), taken(opened))
+    shown = [before, opened] if _alike(asset, closed) else [before, closed, opened]
+    faces = max(sum(len(s.mesh.faces) for visual in visuals for s in visual.surfaces) for visuals in shown)
+    made = made_of_each(shown, taken, own_cores() if faces <= _FACES_AT_ONCE else 1)
+    return Stills(made[0], b"" if len(made) < 3 else made[1], made[-1])
 
 
 def _alike(asset: Asset, closed: list[Visual]) -> bool:
