@@ -61,9 +61,9 @@ def checked(target: Any = None, *, typechecker: Callable[[Any], Any]) -> Any:
     if target is None:
         return partial(checked, typechecker=typechecker)
     if inspect.isclass(target):
-        from grafu.dataclass import compiled_init  # the hook that imports it needs this module first
-
         if is_dataclass(target):
+            from grafu.dataclass import compiled_init  # the hook that imports it needs this module first
+
             target.__init__ = checked(compiled_init(target), typechecker=typechecker)
         return target
     if not inspect.isfunction(target) or inspect.isgeneratorfunction(target):

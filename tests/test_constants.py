@@ -131,14 +131,21 @@ READERS = (
     "blend", "collada", "fbx", "fbx_document", "folder", "gltf", "gltf_buffers", "gltf_draco", "gltf_meshes",
     "gltf_animations", "gltf_meshopt", "hssd_annotation", "json_files", "load", "mesh_files", "mjcf", "mjcf_text",
     "obj_lines",
-    "obj_parser", "regular_files", "resources", "robot_document", "scan_files", "sdf", "threeds", "threemf", "urdf",
-    "urdf_shapes", "usd", "usd_materials", "usd_physics",
+    "obj_parser", "plain_png", "regular_files", "resources", "robot_document", "scan_files", "sdf", "threeds",
+    "threemf", "urdf", "urdf_shapes", "usd", "usd_materials", "usd_physics",
 )  # fmt: skip
 """Modules that read bytes and text: their numbers are those of formats, of colours and of how much is read."""
 
 OF_MODULES = {
     "articulation": {
-        "finger_fit.py": {"_ACROSS": SAMPLES, "_LEVELS": SAMPLES, "_PLACES": SAMPLES, "_ON_FINGER": SAMPLES},
+        "finger_fit.py": {
+            "_ACROSS": SAMPLES,
+            "_LEVELS": SAMPLES,
+            "_PLACES": SAMPLES,
+            "_ON_FINGER": SAMPLES,
+            "_ROUNDING": TOLERANCE,
+            "_LOOKED_AT": SAMPLES,
+        },
         "finger_room.py": {},
         "grasp_frame.py": {
             "FINGER_WIDTH": FINGER,
@@ -200,7 +207,15 @@ OF_MODULES = {
         "fronts.py": {"SHEET": TOLERANCE},
         "furniture_pieces.py": {"FLOOR_OR_WALL": NUMBERING, "ALONE": NUMBERING},
         "surroundings.py": {"NO_AREA": TOLERANCE, "RING_CELLS": SAMPLES},
-        "view.py": {"_RAYS": SAMPLES, "_FAR": SAMPLES, "_MANY": SAMPLES, "_TOGETHER": SAMPLES, "_SPARE": TOLERANCE},
+        "view.py": {
+            "_RAYS": SAMPLES,
+            "_FAR": SAMPLES,
+            "_MANY": SAMPLES,
+            "_TOGETHER": SAMPLES,
+            "_SPARE": TOLERANCE,
+            "_ROOM": SAMPLES,
+            "_FEW": SAMPLES,
+        },
     },
     "completion": {
         "doors.py": {},

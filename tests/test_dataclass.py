@@ -7,7 +7,7 @@ import pickle
 from collections.abc import Callable
 from functools import cached_property
 from itertools import product
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 from hypothesis import given
@@ -19,7 +19,7 @@ Maker = Callable[..., Any]
 VALUES = st.integers(-3, 3) | st.text(max_size=2)
 SETS = [dict(zip(("slots", "eq", "repr"), chosen, strict=True)) for chosen in product((True, False), repeat=3)]
 NAMES = st.sampled_from(["first", "second", "own", "third"])
-TWICE_AS_OFTEN_AS_BY_HAND = 40
+TWICE_AS_OFTEN_AS_BY_HAND = 128
 
 
 def made(decorate: Maker, **options: bool) -> type:
@@ -244,3 +244,137 @@ def test_nothing_is_compiled_before_it_is_needed() -> None:
     assert compiled() == {"__eq__", "__repr__"}
     assert len({first, second}) == 2
     assert compiled() == {"__eq__", "__repr__", "__hash__"}
+
+
+@dataclass(frozen=True, slots=True)
+class WithRecords:
+    """With records of fields, of which one has a default."""
+
+    first: int
+    second: int = dataclasses.field(default=2, repr=False)
+    own: list[int] = dataclasses.field(default_factory=list)
+
+
+def test_records_of_fields_are_made_when_they_are_asked_for() -> None:
+    @dataclass(frozen=True)
+    class Waiting:
+        """Waiting."""
+
+        first: int = 1
+
+    waiting = vars(Waiting)["__dataclass_fields__"]
+    assert Waiting().first == 1
+    assert vars(Waiting)["__dataclass_fields__"] is waiting
+
+    [field] = dataclasses.fields(Waiting)
+
+    assert (field.name, field.type, field.default) == ("first", int, 1)
+    assert vars(Waiting)["__dataclass_fields__"] == {"first": field}
+
+
+def test_records_are_asked_for_by_a_class_that_is_derived_from_one_that_has_none_yet() -> None:
+    @dataclass(frozen=True)
+    class First:
+        """First."""
+
+        first: int = 1
+
+    class Plain(First):
+        """No dataclass."""
+
+    @dataclass(frozen=True)
+    class Second(First):
+        """Second."""
+
+        second: int = 2
+
+    assert [field.name for field in dataclasses.fields(Plain)] == ["first"]
+    assert "__dataclass_fields__" not in vars(Plain)
+    assert [field.name for field in dataclasses.fields(Second)] == ["first", "second"]
+
+
+def test_records_state_defaults_and_each_value_has_a_list_of_its_own() -> None:
+    one, other = WithRecords(1), WithRecords(1)
+
+    one.own.append(3)
+
+    assert (one.second, other.own, WithRecords(1, 2, [3]) == one) == (2, [], True)
+    assert repr(other) == "WithRecords(first=1, own=[])"
+
+
+def made_with_a_list(decorate: Maker) -> type:
+    """Returns a class whose default would be one list for all values."""
+
+    @decorate(frozen=True)
+    class Given:
+        """Given."""
+
+        own: list[int] = []  # noqa: RUF012
+
+    return Given
+
+
+def made_without_a_type(decorate: Maker) -> type:
+    """Returns a class with a record that no type belongs to."""
+
+    @decorate(frozen=True)
+    class Given:
+        """Given."""
+
+        own = dataclasses.field(default=1)
+
+    return Given
+
+
+def made_with_slots_twice(decorate: Maker) -> type:
+    """Returns a class that states its slots itself."""
+
+    @decorate(frozen=True, slots=True)
+    class Given:
+        """Given."""
+
+        __slots__ = ("first",)
+        first: int
+
+    return Given
+
+
+@pytest.mark.parametrize("make", [made_with_a_list, made_without_a_type, made_with_slots_twice])
+def test_what_the_standard_library_refuses_is_refused_with_its_words(make: Maker) -> None:
+    said = []
+    for decorate in (dataclass, dataclasses.dataclass):
+        with pytest.raises((TypeError, ValueError)) as refused:
+            make(decorate)
+        said.append((type(refused.value), str(refused.value)))
+
+    assert said[0] == said[1]
+
+
+@pytest.mark.parametrize("slots", [True, False])
+def test_what_belongs_to_the_class_is_no_field(slots: bool) -> None:
+    @dataclass(frozen=True, slots=slots)
+    class Given:
+        """Given."""
+
+        first: int
+        shared: ClassVar[int] = 3
+        other: "ClassVar[int]" = 4
+
+    assert [field.name for field in dataclasses.fields(Given)] == ["first"]
+    assert (Given(1).shared, Given.shared, Given(1).other) == (3, 3, 4)
+
+
+@pytest.mark.parametrize("slots", [True, False])
+def test_fields_after_a_mark_are_given_by_name_alone(slots: bool) -> None:
+    @dataclass(frozen=True, slots=slots)
+    class Given:
+        """Given."""
+
+        first: int
+        _: dataclasses.KW_ONLY
+        second: int = 2
+
+    with pytest.raises(TypeError, match="positional"):
+        Given(1, 3)  # type: ignore[misc]
+    assert Given(1, second=3).second == 3
+    assert Given.__match_args__ == ("first",)

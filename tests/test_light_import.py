@@ -79,3 +79,75 @@ def test_garbage_is_looked_for_again_after_an_import_that_failed(is_on: bool) ->
         assert gc.isenabled() is is_on
     finally:
         (gc.enable if was_on else gc.disable)()
+
+
+def test_what_is_imported_counts_as_old_and_what_a_program_has_frozen_stays_so() -> None:
+    program = (
+        "import gc, grafu\n"
+        "{before}\n"
+        "grafu.functionalize\n"
+        "import grafu.asset.part as part\n"
+        "old = any(one is part.__dict__ for one in gc.get_objects(generation=2))\n"
+        "print(old, gc.get_count()[0] < 10_000, gc.get_freeze_count() > 0)"
+    )
+
+    assert printed(program.format(before="")) == "True True False"
+    assert printed(program.format(before="gc.freeze()")).split()[2] == "True"
+
+
+THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_THREAD_TIMEOUT")
+SHOWN = f"print([os.environ.get(name) for name in {THREADS}])"
+
+
+@pytest.mark.parametrize("stated", [{}, {"OPENBLAS_THREAD_TIMEOUT": "4"}])
+def test_an_import_leaves_the_environment_as_it_was(stated: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in THREADS:
+        monkeypatch.delenv(name, raising=False)
+    for name, value in stated.items():
+        monkeypatch.setenv(name, value)
+
+    found = printed(f"import os, grafu; grafu.functionalize; {SHOWN}")
+
+    assert found == str([None, None, stated.get("OPENBLAS_THREAD_TIMEOUT")])
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="threads are counted in /proc")
+def test_a_program_has_the_threads_that_numpy_starts(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in THREADS:
+        monkeypatch.delenv(name, raising=False)
+    count = "; import os; print(len(os.listdir('/proc/self/task')))"
+
+    assert printed(f"import grafu; grafu.functionalize{count}") == printed(f"import numpy{count}")
+
+
+VERB = "['completion', 'bash']"
+
+
+@pytest.mark.parametrize(
+    ("stated", "given", "expected"),
+    [
+        ({}, "None", ["1", None, None]),
+        ({"OMP_NUM_THREADS": "3"}, "None", [None, "3", None]),
+        ({"OPENBLAS_NUM_THREADS": "2"}, "None", ["2", None, None]),
+        ({}, VERB, [None, None, None]),
+    ],
+)
+def test_the_command_computes_with_one_thread_unless_told_otherwise(
+    stated: dict[str, str], given: str, expected: list[str | None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in THREADS:
+        monkeypatch.delenv(name, raising=False)
+    for name, value in stated.items():
+        monkeypatch.setenv(name, value)
+
+    found = printed(f"import os, sys; sys.argv[1:] = {VERB}; from grafu.cli.main import main; main({given}); {SHOWN}")
+
+    assert found.splitlines()[-1] == str(expected)
+
+
+def test_the_command_ends_without_a_search_and_calls_what_is_to_be_called_at_its_end() -> None:
+    ends = "atexit.register(lambda: print('at its end', gc.get_freeze_count() > 0))"
+    program = f"import atexit, gc, sys; sys.argv[1:] = {VERB}; from grafu.cli.main import main; {ends}; "
+
+    assert printed(program + "main(None)").splitlines()[-1] == "at its end True"
+    assert printed(program + f"main({VERB})").splitlines()[-1] == "at its end False"

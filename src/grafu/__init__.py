@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from grafu.collecting import without_collecting
+from grafu.linear_algebra import sleeping_soon
 from grafu.version import __version__ as __version__
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ __all__ = ["Asset", "FunctionalizationError", "Result", "__version__", "function
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module 'grafu' has no attribute {name!r}: it offers {', '.join(__all__)}")
-    with without_collecting():
+    with without_collecting(), sleeping_soon():
         found = globals()[name] = getattr(import_module(_HOMES[name]), name)
     return found
 

@@ -1,9 +1,10 @@
 """`dataclass` of the standard library, whose methods are compiled when they are needed.
 
 The standard library compiles six methods of each frozen dataclass when its module is imported, two fifths of the time
-in which this package was imported. Here a class gets its fields at once. `__repr__`, `__eq__` and `__hash__` are
-compiled, by the standard library too, at their first call, and then replace the function that waited for it;
-`__init__` after some calls: of most classes there are few values, often their defaults alone.
+in which this package was imported. Here `__repr__`, `__eq__` and `__hash__` are compiled, by the standard library too,
+at their first call, and then replace the function that waited for it; `__init__` after some calls: of most classes
+there are few values, often their defaults alone. The records of fields, that `dataclasses.fields` returns, are made by
+the standard library when they are first asked for: of most classes they never are.
 """
 
 import dataclasses
@@ -12,7 +13,9 @@ from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final, NoReturn
 
-_BY_HAND: Final = 16
+from grafu.late_fields import GivenFields, given_fields, with_late_fields
+
+_BY_HAND: Final = 64
 """Values of a class that are filled by hand; the next costs as much as to compile its `__init__`."""
 _WAITS: Final = "waits_to_be_compiled"
 _ALONE: Final = {"init": False, "repr": False, "eq": False}
@@ -40,11 +43,10 @@ else:
 
 def _with_late_methods(cls: type, options: dict[str, bool]) -> type:
     own = dict(cls.__dict__)
-    derived = any(dataclasses.is_dataclass(base) for base in cls.__mro__[1:])
-    like = {name: options[name] for name in ("slots", "kw_only")}
-    made: Any = dataclasses.dataclass(**_ALONE, frozen=derived, **like)(cls)
+    given = given_fields(cls, own, options["kw_only"])
+    made = _by_library(cls, options) if given is None else with_late_fields(cls, own, given, options["slots"])
     if "__init__" not in own:
-        made.__init__, made.__signature__ = _late_init(made), _Signature()
+        made.__init__, made.__signature__ = _late_init(made, given), _SIGNATURE
     if options["repr"] and "__repr__" not in own:
         made.__repr__ = _late_method(made, "__repr__")
     if options["eq"] and "__eq__" not in own:
@@ -58,15 +60,22 @@ def _with_late_methods(cls: type, options: dict[str, bool]) -> type:
     return made
 
 
-def _late_init(made: type) -> Callable[..., None]:
+def _by_library(cls: type, options: dict[str, bool]) -> Any:
+    derived = any(dataclasses.is_dataclass(base) for base in cls.__mro__[1:])
+    like = {name: options[name] for name in ("slots", "kw_only")}
+    return dataclasses.dataclass(**_ALONE, frozen=derived, **like)(cls)
+
+
+def _late_init(made: type, given: GivenFields | None) -> Callable[..., None]:
     """Returns an `__init__` that fills the first values by hand, and is compiled then."""
     compiled: list[Callable[..., None]] = []
     calls = 0
+    fill = _fill if given is None or not given.is_plain else _fill_of(made, given)
 
     def late(self: object, *args: Any, **kwargs: Any) -> None:
         nonlocal calls
         calls += 1
-        if calls <= _BY_HAND and _fill(self, args, kwargs):
+        if calls <= _BY_HAND and fill(self, args, kwargs):
             return
         if not compiled:
             compiled.append(_compiled(made, "__init__", _INIT))
@@ -74,6 +83,30 @@ def _late_init(made: type) -> Callable[..., None]:
         compiled[0](self, *args, **kwargs)
 
     return _named(late, made, "__init__")
+
+
+def _fill_of(made: type, given: GivenFields) -> "Callable[[Any, tuple[Any, ...], dict[str, Any]], bool]":
+    """Returns `_fill` for a class whose fields may each be given in their place."""
+    names, defaults, factories = tuple(given.types), given.values, given.factories
+    is_checked, set_field = hasattr(made, "__post_init__"), object.__setattr__
+
+    def fill(self: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> bool:
+        if kwargs or len(args) != len(names):
+            values = {**dict(zip(names, args, strict=False)), **kwargs}
+            if len(values) < len(args) + len(kwargs):
+                return False
+            values = {**defaults, **values}
+            values.update((name, make()) for name, make in factories.items() if name not in values)
+            if values.keys() != given.types.keys():
+                return False
+            args = tuple(values[name] for name in names)
+        for name, value in zip(names, args, strict=True):
+            set_field(self, name, value)
+        if is_checked:
+            self.__post_init__()
+        return True
+
+    return fill
 
 
 def _fill(self: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> bool:
@@ -140,6 +173,9 @@ class _Signature:
     def __get__(self, value: object, owner: type) -> inspect.Signature:
         signature = inspect.signature(compiled_init(owner))
         return signature.replace(parameters=list(signature.parameters.values())[1:])
+
+
+_SIGNATURE: Final = _Signature()
 
 
 def _replace(made: type, name: str, late: Callable[..., Any], method: Callable[..., Any]) -> None:

@@ -7,7 +7,20 @@ from typing import final
 import numpy as np
 import pytest
 
-from grafu.geometry.arrays import ArrayValue, cross, extremes, first_of_each, freeze_arrays, median, renumbered
+from grafu.geometry.arrays import (
+    ArrayValue,
+    cross,
+    distinct,
+    extremes,
+    first_of_each,
+    freeze_arrays,
+    median,
+    renumbered,
+    row_medians,
+    without,
+)
+
+RNG = np.random.default_rng(3)
 
 
 @final
@@ -98,3 +111,29 @@ def test_the_first_of_each_key_is_that_of_numpy(count: int, dtype: type) -> None
     found = first_of_each(keys.astype(dtype))
     np.testing.assert_array_equal(found[0], first)
     np.testing.assert_array_equal(found[1], number)
+
+
+@pytest.mark.parametrize("shape", [(3, 4), (40, 301), (5, 700), (50, 1), (0, 5), (4, 0)])
+@pytest.mark.parametrize("missing", [0.0, 0.3, 0.9])
+def test_medians_of_rows_are_those_of_numpy_to_the_last_digit(shape: tuple[int, int], missing: float) -> None:
+    rows = RNG.normal(size=shape)
+    rows[RNG.random(shape) < missing] = np.nan
+    given_ = rows[~np.isnan(rows).all(axis=1)]
+
+    assert np.array_equal(row_medians(rows), np.nanmedian(given_, axis=1) if given_.size else np.zeros(0))
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 100])
+@pytest.mark.parametrize("dtype", [np.int64, np.int32, np.bool_, np.float64])
+def test_what_is_distinct_is_what_numpy_says(count: int, dtype: type) -> None:
+    numbers = RNG.integers(0, 20, (count, 3)).astype(dtype)
+
+    assert np.array_equal(distinct(numbers), np.unique(numbers))
+    assert distinct(numbers).dtype == dtype
+
+
+def test_numbers_without_others_are_those_of_numpy() -> None:
+    numbers = np.arange(30)
+
+    for others in (np.array([3, 40, 3]), [], [0, 29]):
+        assert np.array_equal(without(numbers, others), np.setdiff1d(numbers, others))

@@ -11,6 +11,7 @@ from grafu.geometry.appearance import Surface
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
 from grafu.geometry.mesh import TriangleMesh
+from grafu.joints import barrels
 from grafu.joints.drawn_hinges import with_drawn_hinges
 from grafu.joints.make_plan import plan_from_annotation
 from grafu.joints.plan import AUTOMATIC, JointChoice
@@ -247,3 +248,13 @@ def test_where_one_barrel_of_a_hinge_line_is_static_all_are(riding):
     before, after = told(LEAF, *CASE, *pins)
     assert len(before.attached) == riding
     assert len(after.attached) == (2 if riding == 2 else 0)
+
+
+def test_along_what_slides_barrels_are_looked_for_at_its_lower_border_alone(monkeypatch):
+    looked, near = [], barrels.barrels_near
+    monkeypatch.setattr(barrels, "barrels_near", lambda frame, *rest: looked.append(frame) or near(frame, *rest))
+
+    for joint in (sliding("door", (0.0, -1.0, 0.0)), LEFT):
+        looked.clear()
+        told(LEAF, *CASE, *BEARINGS, rod(), joint=joint)
+        assert len(looked) == (1 if joint is not LEFT else 4)

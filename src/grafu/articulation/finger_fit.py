@@ -1,6 +1,9 @@
 """Where two fingers fit round something: measured by rays against what is held and against all that is around it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
+from itertools import product
 from typing import final
 
 import numpy as np
@@ -8,13 +11,16 @@ import numpy as np
 from grafu.articulation.grasp_frame import FINGER_GAP, FINGER_REACH, FINGER_THICKNESS, FINGER_WIDTH
 from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mask, Mat3, Points, Scalars, Vec3
+from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive
-from grafu.geometry.mesh import TriangleMesh
+from grafu.geometry.mesh import TriangleMesh, merge_meshes, mesh_near
 from grafu.geometry.raycast import RayCaster
 
 _ACROSS = 25  # rays over what is held, from side to side
 _PLACES = (0.5, 0.35, 0.65, 0.2, 0.8)  # along a bar, as fractions: the middle first
 _ON_FINGER = (np.linspace(-0.5, 0.5, 7), np.linspace(0.0, 1.0, 4))  # rays of a finger: along the bar, and outwards
+_ROUNDING = 1e-6  # metres
+_LOOKED_AT = 16  # to look whether so many faces are near takes as long as to prepare one for rays
 _LEVELS = (0.001, 0.003, 0.006)  # metres past the surface at which the width is measured
 
 
@@ -54,7 +60,7 @@ class FingerFit:
     closing: Vec3
     width: float
     depth: float
-    aside: float
+    aside: float = 0.0
 
     def rank(self, config: FingerFitConfig) -> tuple[float, float, float]:
         """Returns what is larger for a better fit: room, then nearness to the middle, then a narrow grip."""
@@ -63,16 +69,54 @@ class FingerFit:
 
 @final
 class Facing:
-    """Surfaces, ready for rays that also ask which side of a face they meet; not a value."""
+    """Surfaces, ready for rays that also ask which side of a face they meet; not a value.
 
-    def __init__(self, mesh: TriangleMesh) -> None:
-        self.caster = RayCaster(mesh)
-        self._normals = mesh.face_normals
+    Most rays end near what is held: of what lies far from it nothing is prepared for them.
+    """
+
+    def __init__(self, meshes: Sequence[TriangleMesh]) -> None:
+        self._meshes = meshes
+        self._left = sum(len(mesh.faces) for mesh in meshes) // 2  # faces that may be prepared apart: then all are
+
+    @cached_property
+    def caster(self) -> RayCaster:
+        """All surfaces, for rays of any length."""
+        return RayCaster(self._mesh)
+
+    @cached_property
+    def _mesh(self) -> TriangleMesh:
+        return merge_meshes(self._meshes)
+
+    @cached_property
+    def _normals(self) -> Points:
+        return self._mesh.face_normals
+
+    def near(self, box: Box) -> RayCaster:
+        """Returns the faces whose boxes meet a box, for rays of which nothing is asked beyond it.
+
+        It may return more: all, where these are prepared, or what is near so many places takes longer than they do.
+        """
+        looked_at = [mesh for mesh in self._meshes if mesh.box.overlaps(box)]
+        self._left -= sum(len(mesh.faces) for mesh in looked_at) // _LOOKED_AT
+        if "caster" in self.__dict__ or self._left <= 0:
+            return self.caster
+        found = mesh_near(looked_at, box)
+        self._left -= len(found.faces)
+        return RayCaster(found) if self._left > 0 else self.caster
 
     def begins_inside(self, origins: Points, direction: Vec3) -> Mask:
         """Whether rays first meet a face from behind: they begin in a solid."""
         faces, _ = self.caster.first_faces(origins, direction)
         return np.asarray((faces >= 0) & (self._normals[faces] @ direction > 0))
+
+
+def _reached(axes: Mat3, low: np.ndarray, high: np.ndarray, start: float) -> Box:
+    """Returns a box around all that fingers reach which begin `start` metres before what is held.
+
+    `low` and `high` are the ends of that along the axes, the columns. Beyond `FINGER_REACH` past it all room is alike.
+    """
+    corners = np.array(list(product(*zip(low, high, strict=True)))) @ axes.T
+    return Box.around(corners).grown(start + FINGER_REACH + FINGER_WIDTH + FINGER_THICKNESS + FINGER_GAP)
 
 
 @final
@@ -81,7 +125,8 @@ class FingerSpace:
 
     def __init__(self, target: TriangleMesh, around: Facing, config: FingerFitConfig) -> None:
         self._target, self._around = target, around
-        self._held, self._all = RayCaster(target), around.caster
+        self._held = RayCaster(target)
+        self._prepared: tuple[Box, RayCaster] | None = None
         self._config = config
 
     def fits(self, axes: Mat3, middle: Vec3, length: float, free: bool) -> Iterator[FingerFit]:
@@ -92,6 +137,7 @@ class FingerSpace:
         """
         local = self._target.vertices @ axes
         low, high = local.min(axis=0), local.max(axis=0)
+        near = self._near(_reached(axes, low, high, self._config.start))
         if length:
             center = float(middle @ axes[:, 0])
             low[0], high[0] = max(low[0], center - length / 2), min(high[0], center + length / 2)
@@ -99,12 +145,19 @@ class FingerSpace:
             return
         for place in _PLACES:
             x = float(low[0] + place * (high[0] - low[0]))
-            fit = self._fit(axes, x, low, high, abs(place - 0.5) * float(high[0] - low[0]))
+            fit = self._fit(axes, x, (low, high), near)
             if fit is not None and (free or not self._begins_inside(axes, fit)):
-                yield fit
+                yield replace(fit, aside=abs(place - 0.5) * float(high[0] - low[0]))
 
-    def _fit(self, axes: Mat3, x: float, low: np.ndarray, high: np.ndarray, aside: float) -> FingerFit | None:
-        config = self._config
+    def _near(self, box: Box) -> RayCaster:
+        """Returns what is near, prepared once: all approaches look at one box from its sides."""
+        if self._prepared is None or not self._prepared[0].contains(box.corners()).all():
+            larger = (box if self._prepared is None else box.union(self._prepared[0])).grown(_ROUNDING)
+            self._prepared = larger, self._around.near(larger)
+        return self._prepared[1]
+
+    def _fit(self, axes: Mat3, x: float, ends: tuple[np.ndarray, np.ndarray], near: RayCaster) -> FingerFit | None:
+        config, (low, high) = self._config, ends
         y = low[1] + (np.arange(_ACROSS) + 0.5) / _ACROSS * (high[1] - low[1])
         before = float(low[2]) - config.start
         depth = before + self._cast(self._held, axes, np.column_stack([np.full(_ACROSS, x), y]), before)
@@ -120,9 +173,9 @@ class FingerSpace:
         hit = before + float(self._cast(self._held, axes, np.array([[x, at]]), before)[0])
         if not np.isfinite(hit) or hit > surface + config.foremost:
             return None
-        room = min(self._room(axes, (x, sides[1]), 1.0, hit), self._room(axes, (x, sides[0]), -1.0, hit))
+        room = min(self._room(near, axes, (x, sides[1]), 1.0, hit), self._room(near, axes, (x, sides[0]), -1.0, hit))
         position = axes @ np.array([x, at, hit])
-        return FingerFit(position, axes[:, 2], axes[:, 1], width, max(min(room, FINGER_REACH), 0.0), aside)
+        return FingerFit(position, axes[:, 2], axes[:, 1], width, max(min(room, FINGER_REACH), 0.0))
 
     def _sides(self, axes: Mat3, x: float, y: float, surface: float) -> tuple[float, float] | None:
         """Returns where fingers that close about y meet what is held; None where it is wider than a gripper opens."""
@@ -138,14 +191,14 @@ class FingerSpace:
             found.append(y + sign * (out - float(met.min())))
         return (found[0], found[1]) if found[1] > found[0] else None
 
-    def _room(self, axes: Mat3, side: tuple[float, float], sign: float, surface: float) -> float:
+    def _room(self, near: RayCaster, axes: Mat3, side: tuple[float, float], sign: float, surface: float) -> float:
         """Returns how far past the surface a finger has room beside what is held."""
         along, out = _ON_FINGER
         x = side[0] + FINGER_WIDTH * along
         y = side[1] + sign * (FINGER_GAP + FINGER_THICKNESS * out)
         grid = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
         before = surface - self._config.start
-        return float(self._cast(self._all, axes, grid, before).min()) - self._config.start
+        return float(self._cast(near, axes, grid, before).min()) - self._config.start
 
     def _begins_inside(self, axes: Mat3, fit: FingerFit) -> bool:
         """Whether a finger beside a fit begins behind a face that looks away from it."""
@@ -167,7 +220,7 @@ class FingerSpace:
         position = axes @ np.array([x, y, hit])
         inside = position - axes[:, 2] * min(max(hit - z, _LEVELS[0]), FINGER_THICKNESS / 2)
         options = [sign * axes[:, k] for k in (1, 0) for sign in (-1.0, 1.0)]
-        walls = [float(self._all.along(inside[None], side)[0]) for side in options]
+        walls = [float(self._around.caster.along(inside[None], side)[0]) for side in options]
         return FingerFit(position, axes[:, 2], options[int(np.argmin(walls))], 0.0, 0.0, 0.0)
 
     @staticmethod

@@ -87,7 +87,7 @@ class _Surroundings:
         if gone not in self._made:
             links = (link for link in self._object.links if link.id not in gone)
             meshes = [v.mesh for link in links for v in link.rigid_visuals if len(v.mesh.faces)]
-            self._made[gone] = Facing(merge_meshes(meshes))
+            self._made[gone] = Facing(meshes)
         return self._made[gone]
 
 

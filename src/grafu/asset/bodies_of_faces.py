@@ -11,6 +11,7 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.asset.pieces import with_pieces
 from grafu.dataclass import dataclass
+from grafu.geometry.arrays import distinct
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.shells import shell_numbers
@@ -64,7 +65,7 @@ def with_bodies_of_faces(
 
 
 def _is_flat(mesh: TriangleMesh, config: BodiesOfFacesConfig) -> bool:
-    points = mesh.vertices[np.unique(mesh.faces)]
+    points = mesh.vertices[distinct(mesh.faces)]
     normal = mesh.face_normals[int(np.argmax(mesh.face_areas))]
     return bool(np.ptp(points @ normal) <= config.flat * mesh.box.diagonal)
 

@@ -13,7 +13,7 @@ from grafu.asset.loose import faces_of_part
 from grafu.asset.part import Frame, Part
 from grafu.asset.pieces import with_pieces
 from grafu.asset.reading import Reading
-from grafu.geometry.arrays import Indices
+from grafu.geometry.arrays import Indices, without
 from grafu.segmentation.boxes_in_case import boxes_in_cases
 from grafu.vocabulary import PartLabel
 
@@ -40,7 +40,7 @@ def with_boxes_from_cases(reading: Reading, frame: Frame) -> Reading:
     for box in found.values():
         for k, faces in box.items():
             given.setdefault(k, []).append(faces)
-    left = {k: np.setdiff1d(np.arange(len(parts[k].mesh.faces)), np.concatenate(cut)) for k, cut in given.items()}
+    left = {k: without(np.arange(len(parts[k].mesh.faces)), np.concatenate(cut)) for k, cut in given.items()}
     hosts = {parts[k].id: parts[front].id for front, box in found.items() for k in box if not len(left[k])}
     made = [
         _drawer(part, [_cut(parts[i], faces) for i, faces in found[k].items()], hosts) if k in found

@@ -17,6 +17,7 @@ from grafu.asset.part import Annotation, Frame, Part
 from grafu.asset.reading import Reading
 from grafu.dataclass import dataclass
 from grafu.errors import AssetError, UnreadableAsset
+from grafu.geometry.arrays import distinct
 from grafu.geometry.box import Box
 from grafu.segmentation.furniture_pieces import ALONE, FLOOR_OR_WALL, SceneShells, furniture_pieces
 
@@ -65,7 +66,7 @@ def told_apart(reading: Reading, frame: Frame) -> tuple[FurniturePiece, ...]:
 
 def parts_of(reading: Reading, shells: SceneShells, chosen: np.ndarray) -> tuple[Part, ...]:
     """Returns the parts of which some shells are chosen, with these alone."""
-    of = {k: np.flatnonzero(chosen & (shells.owner == k)) for k in np.unique(shells.owner[chosen]).tolist()}
+    of = {k: np.flatnonzero(chosen & (shells.owner == k)) for k in distinct(shells.owner[chosen]).tolist()}
     parts = []
     for k, own in of.items():
         part, is_whole = reading.parts[k], len(own) == int((shells.owner == k).sum())
@@ -77,7 +78,7 @@ def parts_of(reading: Reading, shells: SceneShells, chosen: np.ndarray) -> tuple
 
 def _left_out(reading: Reading, shells: SceneShells, number: np.ndarray, what: int) -> tuple[str, ...]:
     """Returns a note on the objects that belong to no piece, as floor and walls or because they lie alone."""
-    owners = np.unique(shells.owner[number == what]).tolist()
+    owners = distinct(shells.owner[number == what]).tolist()
     if not owners:
         return ()
     names = ", ".join(reading.parts[k].source.name for k in owners[:_NAMED])

@@ -13,7 +13,7 @@ from grafu.asset.names import unique_ids
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, selected
-from grafu.geometry.arrays import Indices
+from grafu.geometry.arrays import Indices, distinct
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
@@ -116,7 +116,7 @@ def _shells(part: Part, whole: Box, allow: Callable[[int], None], config: LooseC
     if count == 1:
         return [part.surfaces]
     numbers = _with_hosts(part.mesh, numbers, float(whole.size.max()), allow, config)
-    allow(len(np.unique(numbers)))
+    allow(len(distinct(numbers)))
     return [faces_of_part(part, faces) for faces in _by_number(numbers) if len(faces)]
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
+from grafu.geometry.arrays import distinct
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import merge_meshes
@@ -105,7 +106,7 @@ def _outline(parts: Sequence[Part], whole: Box, axis: int, config: LyingWindowCo
 def _panes(outline: _Outline, config: LyingWindowConfig) -> Iterator[_Mask]:
     """Yields where each shell is seen from above and below, off both ends, that covers enough of the outline."""
     seen = outline.is_alone & outline.is_inside
-    for number in np.unique(outline.shell[seen]):
+    for number in distinct(outline.shell[seen]):
         pane = seen & (outline.shell == number)
         if pane.mean() >= config.pane:
             yield pane

@@ -17,7 +17,7 @@ from grafu.asset.standing_handles import without_handles
 from grafu.asset.straight_borders import plane_of, with_straight_borders
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Indices, Vec3
+from grafu.geometry.arrays import Indices, Vec3, distinct
 from grafu.geometry.components import edge_numbers, welded
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -102,7 +102,7 @@ def _borders(meshes: Sequence[TriangleMesh]) -> tuple[Indices, Indices]:
 def _board(part: Part, towards: Vec3, thick: float) -> Part:
     mesh = part.mesh
     plane = plane_of(mesh, towards)
-    handle = float((mesh.vertices[np.unique(mesh.faces)] @ towards).max()) - plane
+    handle = float((mesh.vertices[distinct(mesh.faces)] @ towards).max()) - plane
     back = back_of(mesh, towards, handle + thick)
     material = max(part.surfaces, key=lambda surface: surface.mesh.area).material
     return replace(part, surfaces=(*part.surfaces, Surface(back, material)))

@@ -22,6 +22,7 @@ from grafu.asset.names import spoken
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
+from grafu.geometry.arrays import distinct
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
@@ -268,7 +269,7 @@ def _carrier(handle: Part, others: list[Part], config: PieceConfig) -> str | Non
 
 
 def _points(mesh: TriangleMesh, most: int) -> np.ndarray:
-    points = np.vstack([mesh.vertices[np.unique(mesh.faces)], mesh.triangles.mean(axis=1)])
+    points = np.vstack([mesh.vertices[distinct(mesh.faces)], mesh.triangles.mean(axis=1)])
     return points[:: max(1, len(points) // most)]
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Final, Literal, final
 
 from grafu.asset.options import Limits, Tally, how_to_allow
+from grafu.asset.plain_png import plain_png
 from grafu.asset.regular_files import TooManyBytes, read_regular
 from grafu.dataclass import dataclass
 from grafu.errors import AssetTooLarge, UnreadableAsset
@@ -67,6 +68,11 @@ class TextureBook:
 
     def _flaw(self, data: bytes, mime: Mime) -> str:
         """Returns in words what is wrong with an image, or nothing; its size is known before it is decoded."""
+        if (plain := plain_png(data)) is not None:
+            flaw = self._too_large(plain.pixels)
+            if flaw or plain.is_whole:
+                return flaw
+            self._pixels -= plain.pixels  # Pillow counts them, and tells whether what is broken can be shown
         from PIL import Image  # local: models without images need it not
 
         with warnings.catch_warnings():

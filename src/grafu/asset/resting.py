@@ -11,7 +11,7 @@ import numpy as np
 from grafu.asset.options import DIRECTIONS
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Points, extremes
+from grafu.geometry.arrays import Points, distinct, extremes
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.sampling import sample_surface
@@ -160,7 +160,7 @@ def _is_plinth(ratio: _Places, config: RestConfig) -> bool:
     """Whether places, fractions of both sides of the outline, lie along nearly the whole of one of its borders."""
     low, high = extremes(ratio)
     at_border = (high <= config.border) | (low >= 1.0 - config.border)
-    spans = [len(np.unique((along * config.spans).astype(np.int64))) for along in np.minimum(ratio, 0.999).T]
+    spans = [len(distinct((along * config.spans).astype(np.int64))) for along in np.minimum(ratio, 0.999).T]
     return bool(((np.array(spans) >= config.kick * config.spans) & at_border[::-1]).any())
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from grafu.asset.loose import faces_of_part
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import Vec3, distinct
 from grafu.geometry.components import linked, welded
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
@@ -93,9 +93,9 @@ def _handles(
     edges = corners.ravel()
     group = linked(int(edges.max()) + 1, edges, np.roll(corners, -1, axis=1).ravel())[corners[:, 0]]
     across = np.flatnonzero(towards == 0)
-    board = np.ptp(mesh.vertices[np.unique(mesh.faces)][:, across], axis=0)
+    board = np.ptp(mesh.vertices[distinct(mesh.faces)][:, across], axis=0)
     found: list[_Numbers] = []
-    for k in np.unique(group):
+    for k in distinct(group):
         faces = out[group == k]
         points = mesh.triangles[faces].reshape(-1, 3)
         size = np.ptp(points[:, across], axis=0)

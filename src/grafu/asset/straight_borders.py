@@ -13,7 +13,7 @@ import numpy as np
 
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Points, Vec2, Vec3
+from grafu.geometry.arrays import Points, Vec2, Vec3, distinct
 from grafu.geometry.box import Box
 from grafu.geometry.components import edge_numbers, linked, welded
 from grafu.geometry.config_checks import require_positive, require_ratios
@@ -158,7 +158,7 @@ def _border(mesh: TriangleMesh) -> tuple[_Numbers, _Numbers]:
     start, end = corners.ravel()[alone], np.roll(corners, -1, axis=1).ravel()[alone]
     loop = linked(int(position.max()) + 1, start, end)[position]
     border = np.flatnonzero(np.isin(position, np.concatenate([start, end])))
-    sizes = {k: float(np.ptp(mesh.vertices[border[loop[border] == k]], axis=0).sum()) for k in np.unique(loop[border])}
+    sizes = {k: float(np.ptp(mesh.vertices[border[loop[border] == k]], axis=0).sum()) for k in distinct(loop[border])}
     largest = max(sizes, key=lambda k: sizes[k], default=-1)
     return border, border[loop[border] == largest]
 

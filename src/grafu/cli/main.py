@@ -14,6 +14,8 @@ from grafu.cli.argument_parser import ArgumentParser
 from grafu.cli.input_options import join_directions
 from grafu.cli.pool import run_supervised
 from grafu.cli.verb import EXIT_INTERRUPTED, EXIT_TERMINATED, exit_code, prepare_verb, unread
+from grafu.collecting import collect_seldom, end_without_collecting
+from grafu.linear_algebra import use_one_thread
 from grafu.processes.lifetime import end_requests_heard, keep_private
 from grafu.version import __version__
 
@@ -59,11 +61,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     `arguments` are those of the process (None), or given by a caller, without the program's name: then a single model
     stays in the caller's process, where nothing can stop it, while of several each has a process and limits.
     """
+    if arguments is None:
+        collect_seldom()
     try:
         try:
             return _run(arguments)
         finally:
             sys.stdout.flush()  # of a help that ends the process, too
+            if arguments is None:
+                end_without_collecting()
     except BrokenPipeError:
         return unread()
 
@@ -78,6 +84,8 @@ def _run(arguments: Sequence[str] | None) -> int:
     if begin := getattr(options, "on_begin", None):
         begin(options)
     keep_private()
+    if arguments is None:
+        use_one_thread()
     with end_requests_heard() as requests:
         code = exit_code(options, _supervised_or_here if arguments is None else _here)
     return EXIT_TERMINATED if code == EXIT_INTERRUPTED and requests.are_made else code

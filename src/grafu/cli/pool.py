@@ -6,7 +6,6 @@ The process is there before anything heavy is imported: nothing is started twice
 """
 
 import argparse
-import gc
 import sys
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
@@ -18,6 +17,7 @@ from grafu.cli.job import Failed, Job, JobResult, run_job
 from grafu.cli.limit_options import limits_of, why_stopped
 from grafu.cli.telling import beneath
 from grafu.cli.verb import EXIT_BAD_INPUT, EXIT_FAILED, complain, prepare_verb, run_verb
+from grafu.collecting import collect_seldom
 from grafu.processes.limits import Ending, ProcessLimits
 from grafu.processes.worker import ignore, quick_start, run_each
 
@@ -92,12 +92,9 @@ def run_all(
             yield outcome.results[0] if outcome.ending is Ending.DONE else failed(item, outcome.ending)
 
 
-_SELDOM = 100_000, 20, 20  # hardly a value is in a circle of references: 5 % of the time were spent to look for such
-
-
 def _begin() -> None:
     """Prepares a process of our own for a verb."""
-    gc.set_threshold(*_SELDOM)
+    collect_seldom()
     prepare_verb()
 
 

@@ -5,12 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import final
 
-from rich.markup import escape
-from rich.table import Table
-
 from grafu.articulation.motion_kind import motion_kind
 from grafu.cli.job import MODEL_PAGE, Failed, Job, JobResult, Succeeded
-from grafu.cli.terminal import plain_table, wide_console
+from grafu.cli.plain_text import TextTable, print_line, print_table
 from grafu.dataclass import dataclass
 from grafu.pipeline.report_schema import FaultRecord, JointRecord, Report, VerdictRecord
 from grafu.pipeline.verdict import fixed_by_user, parts_without_joint, verdict_of
@@ -55,17 +52,20 @@ def print_results(results: Sequence[JobResult]) -> None:
     if len(results) > 1:
         print_rows([row_of(result) for result in results])
     elif isinstance(results[0], Succeeded):
-        console = wide_console()
         report = results[0].report
         if report.joints or report.skipped or parts_without_joint(report):
-            console.print(_joints_table(report))
+            print_table(_joints_table(report))
         for line in _said_of_one(report):
-            console.print(line, markup=False, highlight=False)
+            print_line(line)
         print_place(*_place(results[0].job))
 
 
 def print_rows(rows: Sequence[SummaryRow]) -> None:
     """Prints a row per input, of many only of those of which there is something to state, and a line on all."""
+    from rich.markup import escape  # local: it takes long to import, and of one input nothing is drawn
+
+    from grafu.cli.terminal import plain_table, wide_console
+
     console = wide_console()
     shown = rows if len(rows) <= _ALL_ROWS else [row for row in rows if row.is_worth_a_row]
     if shown:
@@ -108,27 +108,21 @@ def _place(job: Job) -> tuple[str, Path]:
 
 def print_place(what: str, path: Path) -> None:
     """Prints where something was written; a path is never folded."""
-    wide_console().print(f"{what} {path}", soft_wrap=True, markup=False, highlight=False)
+    print_line(f"{what} {path}", folds=False)
 
 
-def _joints_table(report: Report) -> Table:
-    table = plain_table("part", "joint", "mechanism", "opening", "notes")
+def _joints_table(report: Report) -> TextTable:
+    rows: list[tuple[str, ...]] = []
     for joint in report.joints:
         mechanism = hardware_in_words(joint.count, joint.template, joint.mechanism)
-        table.add_row(
-            joint.part,
-            joint.type,
-            mechanism,
-            motion_kind(joint.type).worded(joint.opening),
-            escape("; ".join(_joint_notes(joint))),
-        )
+        opening = motion_kind(joint.type).worded(joint.opening)
+        rows.append((joint.part, joint.type, mechanism, opening, "; ".join(_joint_notes(joint))))
     for why, requests in _not_built(report).items():
-        table.add_row(requests[0], "skipped", "", "", escape(why))
+        rows.append((requests[0], "skipped", "", "", why))
         if len(requests) > 1:
-            table.add_row("", "", "", "", escape(f"so are {listed(requests[1:])}"))
-    for part in fixed_by_user(report):
-        table.add_row(part, "fixed", "", "", "by the user")
-    return table
+            rows.append(("", "", "", "", f"so are {listed(requests[1:])}"))
+    rows += [(part, "fixed", "", "", "by the user") for part in fixed_by_user(report)]
+    return TextTable(("part", "joint", "mechanism", "opening", "notes"), tuple(rows))
 
 
 def _not_built(report: Report) -> dict[str, list[str]]:

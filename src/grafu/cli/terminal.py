@@ -9,10 +9,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from grafu.cli.pipe_layout import NUMBERS, PIPE_WIDTH
 from grafu.visible import visible
-
-PIPE_WIDTH = 200  # a pipe or file has no width of its own; rich would fold at 80
-NUMBERS = ("doors", "drawers", "skipped", "seconds", "opening", "models", "movable")
 
 
 @final

@@ -19,7 +19,7 @@ from grafu.dataclass import dataclass
 from grafu.export.names import NameBook, number, numbers, printable
 from grafu.export.obj import ObjFolder
 from grafu.geometry.appearance import Material, Surface, Texture
-from grafu.geometry.arrays import Vec3
+from grafu.geometry.arrays import Vec3, distinct
 from grafu.geometry.mesh import TriangleMesh
 
 _WHITE = (1.0, 1.0, 1.0, 1.0)
@@ -43,7 +43,7 @@ def material_of(surface: Surface) -> MjcfMaterial:
     textured = surface.uv is not None and surface.material.base_color_texture is not None
     if surface.colors is None or not len(surface.colors):
         return MjcfMaterial(surface.material, textured)
-    used = surface.colors[np.unique(surface.mesh.faces)]
+    used = surface.colors[distinct(surface.mesh.faces)]
     return MjcfMaterial(surface.material, textured, tuple(np.round(used.mean(axis=0) / 255.0, 6).tolist()))
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, joined, selected
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mask, Points, distinct, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.components import patches_of, welded
 from grafu.geometry.mesh import TriangleMesh, merge_meshes, triangle_bounds
@@ -179,7 +179,7 @@ def _manifold(vertices: Points, faces: Faces) -> manifold3d.Manifold:
 def _solid(body: Bodywork, number: int) -> manifold3d.Manifold | None:
     """Returns a closed patch, its faces in order; None where manifold3d does not accept it."""
     faces = body.faces[body.patch == number]
-    used = np.unique(faces)
+    used = distinct(faces)
     place = welded(body.mesh.vertices[used])
     first = np.unique(place, return_index=True)[1]
     spot = np.zeros(len(body.mesh.vertices), np.int64)

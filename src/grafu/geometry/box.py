@@ -8,7 +8,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, extremes, frozen_array
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, distinct, extremes, frozen_array
 from grafu.geometry.transform import from_rotation
 from grafu.shapes import Float
 
@@ -193,7 +193,7 @@ def yaw_of(points: Points) -> float:
     if len(hull) < 3:  # an upright sheet: seen from above it is a line, or a point
         return _yaw_of_line(flat)
     edges = np.roll(hull, -1, axis=0) - hull
-    angles = np.unique(np.round(np.mod(np.arctan2(edges[:, 1], edges[:, 0]) + np.pi / 4, np.pi / 2) - np.pi / 4, 6))
+    angles = distinct(np.round(np.mod(np.arctan2(edges[:, 1], edges[:, 0]) + np.pi / 4, np.pi / 2) - np.pi / 4, 6))
     cosines, sines = np.cos(angles), np.sin(angles)
     u = np.outer(cosines, hull[:, 0]) + np.outer(sines, hull[:, 1])
     v = np.outer(cosines, hull[:, 1]) - np.outer(sines, hull[:, 0])

@@ -15,7 +15,7 @@ from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from embreex.rtcore import EmbreeDevice
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, freeze_arrays, median
+from grafu.geometry.arrays import ArrayValue, Indices, Points, Scalars, Vec3, distinct, freeze_arrays, median
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import repeated_faces
@@ -207,7 +207,7 @@ def outer_faces(mesh: TriangleMesh) -> Bool[np.ndarray, " n"]:
     if not len(mesh.faces):
         return np.zeros(0, dtype=np.bool_)
     first = repeated_faces(mesh)  # front and back of one sheet, as most are drawn, are seen alike
-    left = np.unique(first)
+    left = distinct(first)
     seen = np.ones(len(first), dtype=np.bool_)
     seen[left] = False
     caster, off = RayCaster(mesh), _OFF * float(mesh.box.size.max())

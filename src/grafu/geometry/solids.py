@@ -14,7 +14,7 @@ import numpy as np
 
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface, attribute_rows, from_attributes
-from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, Scalars, cross, frozen_array
+from grafu.geometry.arrays import ArrayValue, Faces, Indices, Points, Scalars, cross, distinct, frozen_array
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.directions import directions_around
@@ -225,4 +225,4 @@ def few_corners(points: Points, most: int) -> Float[np.ndarray, "k 3"]:
     if len(points) <= most:
         return points
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
-    return points[np.unique(np.argmax((directions_around(most) / size) @ points.T, axis=1))]
+    return points[distinct(np.argmax((directions_around(most) / size) @ points.T, axis=1))]

@@ -68,6 +68,8 @@ def line_at(frame: BorderFrame, request: JointRequest, model: DrawnModel) -> lis
 
     What slides needs more than barrels near it, which may be its neighbours'.
     """
+    if not request.kind.turns and not _is_lower(frame):
+        return []
     barrels = list(barrels_near(frame, request.moving, model))
     hinges = hinge_line(frame, barrels, model.drawn) if request.kind.turns else []
     return hinges or [barrel for barrel in barrels if _is_rod(barrel, frame, model)][:1]
@@ -81,15 +83,19 @@ def hinge_line(frame: BorderFrame, barrels: Sequence[Barrel], config: DrawnConfi
     return max(spread, key=len, default=[])
 
 
+def _is_lower(frame: BorderFrame) -> bool:
+    """Whether a border is the lower one of an upright leaf."""
+    return bool(frame.rotation[2, 0] > SNAP)
+
+
 def _is_rod(barrel: Barrel, frame: BorderFrame, model: DrawnModel) -> bool:
     """Whether a barrel runs along the whole lower border of an upright leaf, and is held by static parts at both ends.
 
     A bar to pull it by ends before the leaf, where nothing holds it; what is called a handle is none.
     """
-    is_lower = bool(frame.rotation[2, 0] > SNAP)
     if model.scene.parts[barrel.part].label is PartLabel.HANDLE:
         return False
-    if not is_lower or not model.drawn.rod <= barrel.length / frame.length <= 1 / model.drawn.rod:
+    if not _is_lower(frame) or not model.drawn.rod <= barrel.length / frame.length <= 1 / model.drawn.rod:
         return False
     if barrel.part not in model.scene.moving_ids:
         return True

@@ -6,7 +6,7 @@ from typing import final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Vec3, distinct, freeze_arrays
 from grafu.geometry.components import connected_parts
 from grafu.geometry.mesh import TriangleMesh
 
@@ -47,7 +47,7 @@ class Bar(ArrayValue):
 def bars_of(mesh: TriangleMesh, slim: float) -> Iterator[Bar]:
     """Yields the shells of a mesh that are at least `slim` times as long as wide, from their lower end up."""
     for shell in connected_parts(mesh):
-        points = shell.vertices[np.unique(shell.faces)]
+        points = shell.vertices[distinct(shell.faces)]
         if len(points) <= points.shape[1]:
             continue
         middle = points.mean(axis=0)

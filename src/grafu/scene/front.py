@@ -12,7 +12,7 @@ from typing import Literal, final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, Mat3, Points, Vec3, freeze_arrays, vec3
+from grafu.geometry.arrays import ArrayValue, Mat3, Points, Vec3, distinct, freeze_arrays, vec3
 from grafu.geometry.box import Box, yaw_of
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.scene.border import border_frame, part_axes
@@ -153,6 +153,6 @@ def _upmost(directions: Sequence[Vec3], out: Vec3) -> Vec3:
 
 def _framed(mesh: TriangleMesh, out: Vec3, up: Vec3) -> Front:
     rotation = np.column_stack([np.cross(up, out), -out, up])
-    box = Box.around(mesh.vertices[np.unique(mesh.faces)] @ rotation)
+    box = Box.around(mesh.vertices[distinct(mesh.faces)] @ rotation)
     width, depth, height = (float(side) for side in box.size)
     return Front(rotation @ box.low, rotation, width, depth, height, None, None)

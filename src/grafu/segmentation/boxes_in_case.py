@@ -10,7 +10,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Indices
+from grafu.geometry.arrays import Indices, distinct
 from grafu.geometry.components import linked
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh
@@ -97,7 +97,7 @@ def boxes_in_cases(
                 taken[box] = True
                 faces = np.flatnonzero(np.isin(shells.shell, box))
                 owner = shells.owner[shells.shell[faces]]
-                found[front] = {k: faces[owner == k] - starts[k] for k in np.unique(owner).tolist()}
+                found[front] = {k: faces[owner == k] - starts[k] for k in distinct(owner).tolist()}
     return found
 
 
@@ -184,7 +184,7 @@ class _BoxFinder:
     def _is_of_one(self, group: Indices) -> bool:
         """Whether shells are of one object, or all that several consist of: a drawer, and no piece of its case."""
         owner = self._view.owner
-        owners = np.unique(owner[group])
+        owners = distinct(owner[group])
         return len(owners) == 1 or int(np.isin(owner, owners).sum()) == len(group)
 
     def _stands_in_case(self, rest: MaskOfShells, low: np.ndarray, high: np.ndarray, near: float) -> bool:

@@ -31,48 +31,58 @@ from grafu.segmentation.surroundings import (
 from grafu.segmentation.view import MaskOfShells, ShellsView
 
 
-def candidates(view: ShellsView, open_to: MaskOfShells, config: CandidateConfig) -> Indices:
+def candidates(
+    view: ShellsView, open_to: MaskOfShells, config: CandidateConfig, sizes: tuple[float, float] | None = None
+) -> Indices:
     """Returns the shells that could be fronts, the largest first.
 
     Args:
         view: what is seen.
         open_to: for each shell whether its object may be cut.
         config: the thresholds.
+        sizes: others than `least` and `most_narrow` of the config.
     """
+    least, most_narrow = sizes or (config.least, config.most_narrow)
     scale, size = Scale.of(view), view.size
     shorter, longer = size[:, :2].min(axis=1), size[:, :2].max(axis=1)
     area = size[:, 0] * size[:, 1]
     cover = np.minimum(view.faced[:, 2] / np.maximum(area, NO_AREA), 1.0)
-    large = (shorter >= config.least * scale.extent) & (longer <= config.most_narrow * shorter)
+    large = (shorter >= least * scale.extent) & (longer <= most_narrow * shorter)
     thick = size[:, 2].copy()
     for k in np.flatnonzero(open_to & large & (thick > config.plate * shorter) & (thick <= config.bowed * shorter)):
         thick[k] -= bulge(view, int(k), config)
     plate = (thick <= config.plate * shorter) & (cover >= config.ring)
     body = (thick > config.plate * shorter) & (cover >= config.solid)
     body &= area <= config.body * scale.outline
-    beam = body & (longer >= config.beam * shorter) & (size[:, 2] <= config.square * shorter)
     found = np.flatnonzero(open_to & large & (plate | body))
     found = found[np.argsort(-area[found], kind="stable")]
-    kept = [
-        k
-        for k in found.tolist()
-        if (  # rays come last: many views are never asked for any
-            (body[k] and has_handle(view, k, config.near * float(scale.extent[k]), config))
+    could_be: dict[int, bool] = view.remembered.setdefault((candidates, config), {})
+    for shell in found.tolist():
+        if shell not in could_be:  # the same shell is asked for of several objects, and of several sizes
+            could_be[shell] = _stands_as_front(view, shell, bool(plate[shell]), float(cover[shell]), scale, config)
+    return np.array([shell for shell in found.tolist() if could_be[shell]], dtype=np.int64)
+
+
+def _stands_as_front(
+    view: ShellsView, k: int, is_plate: bool, cover: float, scale: Scale, config: CandidateConfig
+) -> bool:
+    """Whether a plate, or else a body, has room behind it or stands in its case, and is seen."""
+    size, near = view.size[k], config.near * float(scale.extent[k])
+    shorter = float(size[:2].min())
+    is_beam = not is_plate and size[:2].max() >= config.beam * shorter and size[2] <= config.square * shorter
+    return bool(
+        (
+            (not is_plate and has_handle(view, k, near, config))
             or (
-                has_room(view, k, config.room * float(shorter[k]), config)
-                and not beam[k]
-                and (
-                    plate[k]
-                    or is_flanked(view, k, scale, config)
-                    or is_before_case(view, k, config.near * float(scale.extent[k]), config)
-                )
+                has_room(view, k, config.room * shorter, config)
+                and not is_beam
+                and (is_plate or is_flanked(view, k, scale, config) or is_before_case(view, k, near, config))
             )
-            or (plate[k] and is_leaf_in_frame(view, k, scale, config))
+            or (is_plate and is_leaf_in_frame(view, k, scale, config))
         )
-        and not is_recess(view, k, scale, config)
-        and is_seen(view, k, bool(cover[k] < config.full), config.near * float(scale.extent[k]), config)
-    ]
-    return np.array(kept, dtype=np.int64)
+        and not is_recess(view, k, scale, config)  # rays come last: many views are never asked for any
+        and is_seen(view, k, cover < config.full, near, config)
+    )
 
 
 def framed(view: ShellsView, segmentation: SegmentationConfig) -> list[tuple[int, ...]]:
@@ -111,13 +121,17 @@ def halves(view: ShellsView, config: SegmentationConfig) -> list[tuple[int, ...]
     for k in plates.tolist():
         seam = float(view.high[k, 0])
         beside = plates[(view.owner[plates] == view.owner[k]) & (np.abs(view.low[plates, 0] - seam) <= same[k])]
-        ends = np.maximum(np.abs(view.low - view.low[k])[:, 1:], np.abs(view.high - view.high[k])[:, 1:]).max(axis=1)
-        alike = beside[(np.abs(size[beside] - size[k]).max(axis=1) <= same[k]) & (ends[beside] <= same[k])]
+        if not len(beside):
+            continue
+        ends = np.maximum(np.abs(view.low[beside] - view.low[k]), np.abs(view.high[beside] - view.high[k]))[:, 1:]
+        alike = beside[(np.abs(size[beside] - size[k]).max(axis=1) <= same[k]) & (ends.max(axis=1) <= same[k])]
+        if len(alike) != 1:
+            continue
         across = (np.abs(view.low[:, 0] + view.high[:, 0] - 2 * seam) <= same[k]) & (size[:, 0] > 2 * near[k])
         across &= (view.low[:, 1:] >= view.low[k, 1:] - near[k]).all(axis=1) & (view.high[:, 1] <= view.high[k, 1])
         face = view.high[k, 2] - min(float(near[k]), float(size[k, 2]) / 2)  # what ends farther back is a board behind
         across &= (area <= config.members.handle_area * area[k]) & (view.high[:, 2] >= face)
-        if len(alike) == 1 and across.any():
+        if across.any():
             found.append((k, int(alike[0])))
     return _without_shared(found)
 
@@ -125,6 +139,8 @@ def halves(view: ShellsView, config: SegmentationConfig) -> list[tuple[int, ...]
 def merged(view: ShellsView, groups: list[tuple[int, ...]]) -> tuple[ShellsView, list[tuple[int, ...]]]:
     """Returns the view with the shells of each group as one, and for each new shell those that it is made of."""
     count = len(view.owner)
+    if not groups:
+        return view, [(k,) for k in range(count)]
     ends = np.array([(group[0], shell) for group in groups for shell in group], dtype=np.int64).reshape(-1, 2)
     number = linked(count, ends[:, 0], ends[:, 1])
     order = np.argsort(number, kind="stable")

@@ -5,7 +5,7 @@ from typing import final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Faces, Vec3
+from grafu.geometry.arrays import Faces, Vec3, distinct
 from grafu.geometry.components import drawn_once, linked, repeated_faces, welded
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.surface_config import CreaseConfig
@@ -61,8 +61,9 @@ class CreasedSurface:
         ahead = mesh.face_normals @ towards > config.facing
         both = ahead[self.first] & ahead[self.second]
         facet = linked(len(mesh.faces), self.first[both], self.second[both])
-        shown = np.unique(np.column_stack([patch[ahead], facet[ahead]]), axis=0)
-        counts = np.bincount(shown[:, 0], minlength=int(patch.max()) + 1)
+        most = len(mesh.faces)  # facets
+        shown = distinct(patch[ahead] * most + facet[ahead]) // most
+        counts = np.bincount(shown, minlength=int(patch.max()) + 1)
         number, order = patch.copy(), np.argsort(patch, kind="stable")
         ends = np.searchsorted(patch[order], np.flatnonzero(counts > 1), "right")
         starts = np.searchsorted(patch[order], np.flatnonzero(counts > 1), "left")

@@ -10,7 +10,7 @@ from typing import Literal, final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Indices, Vec3
+from grafu.geometry.arrays import Indices, Vec3, distinct
 from grafu.geometry.mesh import TriangleMesh
 from grafu.segmentation.candidates import candidates, framed, halves, merged
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
@@ -76,7 +76,7 @@ def divided(
     found = _from_the_best_side(shells, (may, loose), whole, config)
     pieces = found.pieces(shells)
     if materials is not None:
-        left = may & [k not in pieces and len(np.unique(m)) > 1 for k, m in enumerate(materials)]
+        left = may & [k not in pieces and len(distinct(m)) > 1 for k, m in enumerate(materials)]
         parted = shells.parted(materials) if left.any() else shells
         single = _from_the_best_side(parted, (left, np.zeros_like(left)), whole, config).with_handles
         pieces |= FoundFronts({}, single).pieces(parted)
@@ -173,7 +173,7 @@ def fronts_by_object(
     `loose` are the shells of objects that may be handles, and are parted by the fronts that they lie on, also where
     these are objects of their own; None: of those that may be cut.
     """
-    view, members = merged(view, [*framed(view, config), *halves(view, config)])
+    view, members = _with_whole_fronts(view, config)
     first = [shells[0] for shells in members]
     may, loose = may[first], (may if loose is None else loose)[first]
     found: dict[int, list[FrontShells]] = {}
@@ -196,6 +196,14 @@ def fronts_by_object(
         {o: front.made_of(members) for o, front in single.items()},
         {o: tuple(tuple(m for k in group for m in members[k]) for group in groups) for o, groups in lying.items()},
     )
+
+
+def _with_whole_fronts(view: ShellsView, config: SegmentationConfig) -> tuple[ShellsView, list[tuple[int, ...]]]:
+    """Returns the view with framed and mirrored fronts as one shell each, and what each shell is made of."""
+    known: tuple[ShellsView, list[tuple[int, ...]]] | None = view.remembered.get((merged, config))
+    if known is None:
+        known = view.remembered[merged, config] = merged(view, [*framed(view, config), *halves(view, config)])
+    return known
 
 
 def _pieces(

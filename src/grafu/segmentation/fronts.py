@@ -54,6 +54,14 @@ def fronts_among(view: ShellsView, plates: Indices, config: SegmentationConfig) 
         plates: the candidates, the largest first.
         config: the thresholds.
     """
+    key = fronts_among, plates.tobytes(), config
+    known: tuple[FrontShells, ...] | None = view.remembered.get(key)
+    if known is None:
+        known = view.remembered[key] = _fronts_of(view, plates, config)
+    return known
+
+
+def _fronts_of(view: ShellsView, plates: Indices, config: SegmentationConfig) -> tuple[FrontShells, ...]:
     finder: Final = _FrontFinder(view, config)
     chosen: list[int] = []
     for plate in _ranked(view, plates):

@@ -11,7 +11,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Indices, Mask
+from grafu.geometry.arrays import Indices, Mask, distinct
 from grafu.geometry.box import Box
 from grafu.geometry.components import linked
 from grafu.geometry.config_checks import require_positive
@@ -149,7 +149,7 @@ def without_room(shells: SceneShells, config: FurnitureConfig, by_boxes: bool = 
 def _groups(touching: np.ndarray, among: Mask) -> Groups:
     kept = touching[among[touching].all(axis=1)]
     label = linked(len(among), kept[:, 0], kept[:, 1])
-    return [np.flatnonzero(among & (label == k)) for k in np.unique(label[among])]
+    return [np.flatnonzero(among & (label == k)) for k in distinct(label[among])]
 
 
 def _plates_of_room(shells: SceneShells, config: FurnitureConfig) -> Mask:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from grafu.geometry.arrays import Indices
+from grafu.geometry.arrays import Indices, median, without
 from grafu.segmentation.config import DivisionConfig, SegmentationConfig
 from grafu.segmentation.fronts import FrontShells
 from grafu.segmentation.surroundings import Scale, is_behind, is_leaf_in_frame, overlaps
@@ -52,7 +52,7 @@ def is_flush(view: ShellsView, front: FrontShells, config: DivisionConfig) -> bo
     """
     plate = front.shells[0]
     handles = [shell for handle in front.handles for shell in handle]
-    own = np.setdiff1d(np.flatnonzero(view.owner == view.owner[plate]), handles)
+    own = without(np.flatnonzero(view.owner == view.owner[plate]), handles)
     depth = float(view.high[own, 2].max() - view.low[own, 2].min())
     extent = float((view.high.max(axis=0) - view.low.min(axis=0)).max())
     inside = float(view.high[own, 2].max() - view.high[plate, 2])
@@ -141,9 +141,9 @@ def _are_battened(view: ShellsView, own: Indices, major: tuple[FrontShells, ...]
     plates = [front.shells[0] for front in major]
     near = config.candidates.near * float(Scale.of(view).extent[plates[0]])
     low, high = view.low[plates], view.high[plates]
-    thick = config.division.batten_thick * float(np.median(view.size[plates, 2]))
+    thick = config.division.batten_thick * median(view.size[plates, 2])
     found = 0
-    for k in np.setdiff1d(own, plates).tolist():
+    for k in without(own, plates).tolist():
         touch = (view.low[k, 2] <= high[:, 2] + near) & (view.high[k, 2] >= low[:, 2] - near)
         shared = np.minimum(high, view.high[k])[:, :2] - np.maximum(low, view.low[k])[:, :2]
         along = int(np.argmax(view.size[k, :2]))
@@ -169,9 +169,9 @@ def _is_beside_panel(view: ShellsView, own: Indices, major: tuple[FrontShells, .
 def _is_shallow_case(view: ShellsView, own: Indices, fronts: tuple[FrontShells, ...], config: DivisionConfig) -> bool:
     """Whether an object is far deeper than the fronts before it: a bookcase, and no door with panels."""
     handles = [shell for front in fronts for handle in front.handles for shell in handle]
-    body, plates = np.setdiff1d(own, handles), [front.shells[0] for front in fronts]
+    body, plates = without(own, handles), [front.shells[0] for front in fronts]
     size = view.high[body].max(axis=0) - view.low[body].min(axis=0)
-    thick = float(np.median(view.size[plates, 2]))  # one may be a drawer drawn as one body
+    thick = median(view.size[plates, 2])  # one may be a drawer drawn as one body
     return bool(size[2] >= config.shallow * size[:2].min() and size[2] >= config.deeper * thick)
 
 

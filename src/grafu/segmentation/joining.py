@@ -5,7 +5,6 @@ above them, or hardly each other, and so are not joined. What hangs on a front a
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Final, final
 
 import numpy as np
@@ -228,7 +227,7 @@ def _front_objects(
     first = np.unique(shell, return_index=True)[1]
     seen = shells.sorted(shell, of[owner[first]].astype(np.int64)).seen(axes_from(0))
     view, members = merged(seen, framed(seen, config))
-    plates = candidates(view, view.owner == 0, replace(config.candidates, least=config.joining.least))
+    plates = candidates(view, view.owner == 0, config.candidates, (config.joining.least, config.candidates.most_narrow))
     found = [front.made_of(members) for front in fronts_among(view, plates, config)]
     objects: Final = _ObjectsOfShells(shell, owner)
     return [

@@ -4,7 +4,6 @@ It asks geometry alone.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -29,8 +28,7 @@ def with_low(
     left[[*taken]] = False
     for front in fronts:
         left &= overlaps(view, front.shells[0]) <= 0
-    sizes = replace(config.candidates, least=division.lowest, most_narrow=division.flattest)
-    free = candidates(view, left, sizes).tolist()
+    free = candidates(view, left, config.candidates, (division.lowest, division.flattest)).tolist()
     shorter, extent = view.size[:, :2].min(axis=1), Scale.of(view).extent
     low = {k for k in free if view.size[k, 0] > view.size[k, 1] and shorter[k] >= division.low * extent[k]}
     plates = [front.shells[0] for front in fronts]

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from grafu.geometry.arrays import Indices
+from grafu.geometry.arrays import Indices, distinct
 from grafu.geometry.components import linked
 from grafu.geometry.touching import near_ends
 from grafu.segmentation.config import SegmentationConfig
@@ -39,7 +39,7 @@ def lying_on_fronts(
     thin = float(SHEET * near.max(initial=0.0))
     area = np.prod(view.size[:, :2], axis=1)
     found: dict[int, tuple[tuple[int, ...], ...]] = {}
-    for owner in np.unique(view.owner[may[0] | may[1]]).tolist() if len(plates) else ():
+    for owner in distinct(view.owner[may[0] | may[1]]).tolist() if len(plates) else ():
         own = np.flatnonzero(view.owner == owner)
         low, high = view.low[own, None], view.high[own, None]
         grown = low[..., :2] - thin, high[..., :2] + thin  # a sheet seen from its edge has an outline, too
@@ -54,7 +54,7 @@ def lying_on_fronts(
         on &= low[..., 2] <= view.high[plates, 2] + gap * near
         on |= _behind(view, own, on & is_small, (view.low[plates, 2], near, gap), config.members.on_front)
         lies, front = on.any(axis=1), on.argmax(axis=1)
-        served = np.unique(front[lies]).tolist()
+        served = distinct(front[lies]).tolist()
         in_others = bool(served) and is_hidden[served].any()
         if in_others and len(served) == 1:
             behind = ~lies & (high[:, 0, 2] <= view.high[plates[served[0]], 2]) & in_outline[:, served[0]]

@@ -31,7 +31,7 @@ class MeshShells:
         shell = shell_numbers(*meshes)
         of = np.repeat(np.arange(len(meshes)), [len(mesh.faces) for mesh in meshes])
         mesh = merge_meshes(meshes)
-        return cls(mesh, shell, of[np.unique(shell, return_index=True)[1]], RaysFromSides(mesh))
+        return cls(mesh, shell, of[np.unique(shell, return_index=True)[1]], RaysFromSides.towards(mesh))
 
     def sorted(self, shell: Indices, owner: OfShells) -> "MeshShells":
         """Returns the same faces sorted otherwise: the number of each face's shell, and the mesh that holds each."""
@@ -45,6 +45,8 @@ class MeshShells:
         number = np.concatenate(numbers)
         pair = self.shell * (int(number.max(initial=0)) + 1) + number
         _, first, shell = np.unique(pair, return_index=True, return_inverse=True)
+        if len(first) == len(self.owner):
+            return self  # each shell has one number
         return self.sorted(shell.reshape(-1).astype(np.int64), self.owner[self.shell[first]])
 
     @cached_property
@@ -53,8 +55,16 @@ class MeshShells:
 
     def seen(self, axes: Mat3) -> ShellsView:
         """Returns the shells as they are seen against the third row of `axes` (`axes_from`)."""
-        bounds = self._bounds.seen(axes)
-        return ShellsView(self.owner, bounds.low, bounds.high, bounds.faced, self.shell, self.rays.along(axes))
+        key = axes.tobytes()
+        if key not in self._views:
+            bounds, rays = self._bounds.seen(axes), self.rays.along(axes)
+            self._views[key] = ShellsView(self.owner, bounds.low, bounds.high, bounds.faced, self.shell, rays)
+        return self._views[key]
+
+    @cached_property
+    def _views(self) -> dict[bytes, ShellsView]:
+        """The views that were asked for, by their axes."""
+        return {}
 
 
 def axes_from(turn: int) -> Mat3:

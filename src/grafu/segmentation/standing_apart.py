@@ -11,7 +11,7 @@ from typing import Final, final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Mask
+from grafu.geometry.arrays import Mask, distinct, without
 from grafu.geometry.components import linked
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.touching import near_pairs
@@ -81,7 +81,7 @@ def standing_apart(
         return GroupsApart((), np.zeros(0, np.int64), np.arange(len(shells.meshes)))
     found, alone = with_what_belongs(shells, touching, furniture)
     taken = np.concatenate([*found, *alone, np.zeros(0, np.int64)])
-    room = np.setdiff1d(np.arange(len(shells.meshes)), taken)
+    room = without(np.arange(len(shells.meshes)), taken)
     bodies = tuple(tuple(_bodies(shells, group, config, furniture)) for group in found)
     return GroupsApart(bodies, np.concatenate([np.zeros(0, np.int64), *alone]).astype(np.int64), room)
 
@@ -117,7 +117,7 @@ def _parted(shells: SceneShells, group: np.ndarray, config: ApartConfig) -> Grou
     pairs = near_pairs([shells.meshes[k].box for k in group.tolist()], config.touch)
     ends = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     label = linked(len(group), ends[:, 0], ends[:, 1])
-    return [group[label == k] for k in np.unique(label)]
+    return [group[label == k] for k in distinct(label)]
 
 
 def _with_nearest(shells: SceneShells, bodies: Groups, others: Groups) -> Groups:

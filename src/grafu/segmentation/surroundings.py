@@ -5,8 +5,10 @@ from typing import Final, final
 import numpy as np
 
 from grafu.dataclass import dataclass
+from grafu.geometry.arrays import median, row_medians
 from grafu.segmentation.config import CandidateConfig
 from grafu.segmentation.view import MaskOfShells, ScalarsOfShells, ShellsView
+from grafu.shapes import Float
 
 NO_AREA: Final = 1e-300
 RING_CELLS: Final = 3
@@ -25,6 +27,13 @@ class Scale:
     @classmethod
     def of(cls, view: ShellsView) -> "Scale":
         """Returns the scale of each shell."""
+        known: Scale | None = view.remembered.get(cls)
+        if known is None:
+            known = view.remembered[cls] = cls._measured(view)
+        return known
+
+    @classmethod
+    def _measured(cls, view: ShellsView) -> "Scale":
         count = int(view.owner.max()) + 1
         low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
         np.minimum.at(low, view.owner, view.low)
@@ -117,7 +126,7 @@ def bulge(view: ShellsView, shell: int, config: CandidateConfig) -> float:
 
     rows, columns = (inner(rays) for rays in view.window(shell))
     depth = np.where(view.seen[rows, columns] == shell, view.depth[rows, columns], np.nan)
-    levels = [np.nanmedian(lines[~np.isnan(lines).all(axis=1)], axis=1) for lines in (depth, depth.T)]
+    levels = [row_medians(lines) for lines in (depth, depth.T)]
     smooth = (one for one in levels if len(one) > 1 and np.abs(np.diff(one)).max() <= config.step * np.ptp(one))
     return float(max((np.ptp(level) for level in smooth), default=0.0))
 
@@ -153,13 +162,26 @@ def is_recess(view: ShellsView, shell: int, scale: Scale, config: CandidateConfi
     inside = view.depth[rows, columns][view.seen[rows, columns] == shell]
     if not len(inside):
         return False
-    depth = view.depth[with_ring(rows, columns)].copy()
-    first = rows.start - max(rows.start - RING_CELLS, 0), columns.start - max(columns.start - RING_CELLS, 0)
-    depth[first[0] : first[0] + rows.stop - rows.start, first[1] : first[1] + columns.stop - columns.start] = -np.inf
-    around = depth[depth > -np.inf]
-    rim = min(float(view.high[shell, 2]), float(np.median(around)) if len(around) else np.inf)
+    high = float(view.high[shell, 2])
     least = max(config.recess * float(scale.depth[shell]), config.sunk * float(view.size[shell, :2].min()))
-    return rim - float(np.median(inside)) > least
+    if high - float(inside.min()) <= least:
+        return False  # wherever its rim is
+    around = _depths_around(view, rows, columns)
+    rim = min(high, median(around) if len(around) else np.inf)
+    return rim - median(inside) > least
+
+
+def _depths_around(view: ShellsView, rows: slice, columns: slice) -> Float[np.ndarray, " _"]:
+    """Returns the depths that the rays around some rows and columns meet."""
+    beyond, beside = with_ring(rows, columns)
+    strips = (
+        view.depth[beyond.start : rows.start, beside],
+        view.depth[rows.stop : beyond.stop, beside],
+        view.depth[rows, beside.start : columns.start],
+        view.depth[rows, columns.stop : beside.stop],
+    )
+    around = np.concatenate([strip.ravel() for strip in strips])
+    return np.asarray(around[around > -np.inf])
 
 
 def is_behind(view: ShellsView, shell: int, reach: float) -> bool:
@@ -173,10 +195,7 @@ def is_behind(view: ShellsView, shell: int, reach: float) -> bool:
     below, above = view.depth[first[0] : rows.start, columns], view.depth[rows.stop : rows.stop + counts[0], columns]
     left, right = view.depth[rows, first[1] : columns.start], view.depth[rows, columns.stop : columns.stop + counts[1]]
     level = float(view.high[shell, 2]) + view.rays.cell
-    stands = [
-        bool(rays.size) and float(np.median(rays, axis=along).max()) > level
-        for rays, along in ((below, 1), (above, 1), (left, 0), (right, 0))
-    ]
+    stands = [bool(rays.size) and float(row_medians(rays).max()) > level for rays in (below, above, left.T, right.T)]
     return stands[0] or stands[1] or (stands[2] and stands[3])
 
 

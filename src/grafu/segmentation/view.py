@@ -5,7 +5,7 @@ Coordinates are those of the viewer: x to the right, y up, z towards the viewer.
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import final
+from typing import Any, Final, final
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from grafu.geometry.arrays import ArrayValue, Faces, Indices, Mat3, Points, cros
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.raycast import RayCaster
+from grafu.geometry.remembered import RememberedByContent
 from grafu.shapes import Bool, Float, Int
 
 OfShells = Int[np.ndarray, " shells"]
@@ -25,6 +26,8 @@ _RAYS = 288  # along the longer side of what is seen
 _FAR = 2.0  # fractions of the largest side that rays begin in front
 _MANY = 100_000  # faces, of which most are smaller than the distance between rays
 _TOGETHER = 200_000  # faces that are looked at in one step: arrays of all of a large mesh take much room
+_ROOM = 400_000  # faces of the meshes whose rays are kept
+_FEW = 100_000  # faces that those of one mesh count at least: its rays take room, too
 _SPARE = 0.01  # of that distance: rays are traced in single precision
 
 
@@ -107,6 +110,11 @@ class ShellsView(ArrayValue):
         """The extents of the shells."""
         return frozen_array(self.high - self.low)
 
+    @cached_property
+    def remembered(self) -> dict[object, Any]:
+        """What was worked out of this view, by what it is: the view stays as it is, and is asked by several."""
+        return {}
+
     def of_shells(self, shells: Indices) -> "ShellsView":
         """Returns the view of some shells, numbered in their order; what rays meet keeps its number."""
         owner, low, high, faced = (a[shells] for a in (self.owner, self.low, self.high, self.faced))
@@ -139,12 +147,20 @@ class RaysFromSides:
         self._mesh = mesh
         self._grids: dict[bytes, RayGrid] = {}
 
+    @classmethod
+    def towards(cls, mesh: TriangleMesh) -> "RaysFromSides":
+        """Returns the rays towards a mesh, those that are known where it, or an equal one, came lately."""
+        return _by_content.of(lambda: cls(mesh), len(mesh.faces) + _FEW, mesh.vertices, mesh.faces)
+
     def along(self, axes: Mat3) -> RayGrid:
         """Returns the rays against the third row of `axes`."""
         key = axes.tobytes()
         if key not in self._grids:
             self._grids[key] = RayGrid(self._mesh, axes)
         return self._grids[key]
+
+
+_by_content: Final = RememberedByContent["RaysFromSides"](_ROOM)
 
 
 @final

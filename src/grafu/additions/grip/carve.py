@@ -18,7 +18,7 @@ from grafu.additions.likeness import surface_like
 from grafu.asset.part import Part, PartSource
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import ArrayValue, Points, Vec3, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Points, Vec3, distinct, freeze_arrays
 from grafu.geometry.bodywork import CutOut, cut_out
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
@@ -74,7 +74,7 @@ def carve_grip(scene: Scene, moving_id: str, config: GripConfig, spot: Vec3 | No
     frame = grip_frame(scene.parts[moving.id].mesh, front_of(scene, moving_id), config)
     part = front_part(scene, moving_id, frame)
     if part.id != moving_id:
-        local = Box.around(frame.local(part.mesh.vertices[np.unique(part.mesh.faces)]))
+        local = Box.around(frame.local(part.mesh.vertices[distinct(part.mesh.faces)]))
         frame = replace(frame, box=local)
     site = site_of(scene, moving_id, frame, part, config.ground)
     reasons: list[tuple[GripKind, Counter[Reason]]] = []

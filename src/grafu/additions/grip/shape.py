@@ -15,7 +15,7 @@ import numpy as np
 
 from grafu.additions.grip.config import GripConfig, GripKind, GripProfile, GripSize, GripSizes
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, freeze_arrays
+from grafu.geometry.arrays import ArrayValue, Mat3, Points, Scalars, distinct, freeze_arrays
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.solids import ConvexSolid
@@ -65,7 +65,7 @@ def grip_frame(mesh: TriangleMesh, front: Front, config: GripConfig) -> GripFram
         towards = {"left": -front.right, "right": front.right, "top": front.up, "bottom": -front.up}[front.held]
     out = -front.inwards
     rotation = np.column_stack([np.cross(towards, out), towards, out])
-    return GripFrame(rotation, Box.around(mesh.vertices[np.unique(mesh.faces)] @ rotation))
+    return GripFrame(rotation, Box.around(mesh.vertices[distinct(mesh.faces)] @ rotation))
 
 
 Outline = Float[np.ndarray, "n 2"]

@@ -15,7 +15,7 @@ from grafu.additions.top.height_map import CellMask, Grid, Heights, islands, wit
 from grafu.additions.top.supports import levels_of, spanned_at
 from grafu.additions.top.views import Views
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, frozen_array, median
+from grafu.geometry.arrays import ArrayValue, distinct, frozen_array, median
 from grafu.shapes import Float
 
 Opening = tuple[float, CellMask]
@@ -170,4 +170,4 @@ def _higher(opening: Opening | None, bare: Opening | None, ratio: float) -> Open
 def _touching(cells: CellMask, seed: CellMask) -> CellMask:
     """Returns those connected cells that hold a seed."""
     labels, _ = islands(cells, corners=True)
-    return np.isin(labels, np.unique(labels[seed & (labels > 0)]))
+    return np.isin(labels, distinct(labels[seed & (labels > 0)]))

@@ -16,7 +16,7 @@ from grafu.additions.top.config import SupportConfig, TopConfig
 from grafu.additions.top.height_map import CellMask, Grid, grown, islands, without_narrow
 from grafu.additions.top.views import Views
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import median
+from grafu.geometry.arrays import distinct, median
 
 ALONG_AXES = 1.05
 """Area of the rectangle along the axes, over that of the smallest one, up to which it is taken instead (ratio)."""
@@ -87,8 +87,8 @@ def _stand_apart(supports: _Supports) -> bool:
         return False
     wide = max(1, round(0.5 * supports.config.supports.widest * supports.metre / supports.views.grid.cell))
     surfaces = without_narrow(supports.ends, wide, corners=True)
-    covered = set(np.unique(labels[surfaces & ~supports.opened]).tolist())
-    covered -= set(np.unique(labels[supports.opened]).tolist())
+    covered = set(distinct(labels[surfaces & ~supports.opened]).tolist())
+    covered -= set(distinct(labels[supports.opened]).tolist())
     return bool(set(range(1, count + 1)) - covered)
 
 

@@ -13,7 +13,7 @@ from grafu.asset.labels import sense_of
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Mat3, Points, Scalars, Vec3
+from grafu.geometry.arrays import Mat3, Points, Scalars, Vec3, distinct
 from grafu.geometry.box import Box
 from grafu.geometry.components import part_numbers
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -236,7 +236,7 @@ def _cutting_pieces(
     mesh = scene.moving_mesh(path.moving)
     cutting = scene.once(_cutting_faces, path, tuple(ids), config)
     numbers = part_numbers(mesh)
-    for number in np.unique(numbers[cutting]):
+    for number in distinct(numbers[cutting]):
         piece = mesh.with_faces(numbers == number)
         faces = cutting[numbers[cutting] == number]
         hull = ConvexSolid.around(piece.vertices)

@@ -11,7 +11,7 @@ import numpy as np
 
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Mat3, Vec3
+from grafu.geometry.arrays import Mat3, Vec3, distinct
 from grafu.geometry.box import Box
 from grafu.geometry.components import faces_of_parts, part_numbers
 from grafu.geometry.mesh import TriangleMesh
@@ -122,4 +122,4 @@ def _pressed(part: Part, edge: _Edge, amount: float) -> Part | None:
 
 
 def _vertices_of_pieces(mesh: TriangleMesh) -> list[np.ndarray]:
-    return [np.unique(mesh.faces[faces]) for faces in faces_of_parts(part_numbers(mesh))]
+    return [distinct(mesh.faces[faces]) for faces in faces_of_parts(part_numbers(mesh))]

@@ -13,7 +13,7 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.dataclass import dataclass
 from grafu.geometry.appearance import Surface
-from grafu.geometry.arrays import Points, Scalars
+from grafu.geometry.arrays import Points, Scalars, distinct
 from grafu.geometry.box import Box
 from grafu.geometry.budget import require_time
 from grafu.geometry.components import BoxEnds, faces_of_parts, part_boxes, part_numbers
@@ -188,7 +188,7 @@ def _pressed(
     deepest = 0.0
     for faces in faces_of_parts(numbers):
         require_time()
-        for used in _sections(local, np.unique(surface.mesh.faces[faces]), limits):
+        for used in _sections(local, distinct(surface.mesh.faces[faces]), limits):
             for press in _presses(Box.around(local[used]), theirs, path, limits, play):
                 local[used, press.axis] = press.applied(local[used, press.axis])
                 deepest = max(deepest, press.depth)

@@ -12,7 +12,7 @@ from typing import final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, median, vec3
+from grafu.geometry.arrays import ArrayValue, Mat3, Mat4, Points, Vec3, freeze_arrays, median, row_medians, vec3
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.raycast import RayCaster
@@ -142,11 +142,11 @@ def body_region(
     caster, body = RayCaster(mesh), config.body
     y, z = _grid(frame)
     flanks = _flanks(caster, frame, y, z, body)
-    columns = np.array([[_median(column) for column in flank] for flank in flanks])
+    columns = _medians(flanks)
     if min(np.isfinite(columns).sum(axis=1)) < config.shortest * _SLIDE:
         return None
     band = max(tolerance * frame.width, body.even)
-    medians = np.nanmedian(columns, axis=1)
+    medians = row_medians(columns)
     in_body = (np.abs(flanks - medians[:, None, None]) < band).all(axis=0)
     enough = max(body.met, body.met_ratio * float(in_body.sum(axis=1).max()))
     run = _longest_run(_bridged(in_body.sum(axis=1) >= enough, body))
@@ -208,9 +208,12 @@ def board_before_rack(
     return None
 
 
-def _median(values: np.ndarray) -> float:
-    found = values[np.isfinite(values)]
-    return median(found) if len(found) else float("nan")
+def _medians(flanks: np.ndarray) -> np.ndarray:
+    """Returns the median of each column of cells, of those that were met; NaN where none was."""
+    count = np.isfinite(flanks).sum(axis=2)[..., None]
+    rising = np.sort(flanks, axis=2)  # what was not met comes last
+    lower, upper = (np.take_along_axis(rising, np.maximum(k, 0), axis=2) for k in ((count - 1) // 2, count // 2))
+    return np.asarray(np.where(count > 0, (lower + upper) / 2, np.nan)[..., 0])
 
 
 def _grid(frame: DrawerFrame) -> tuple[np.ndarray, np.ndarray]:
