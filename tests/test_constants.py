@@ -44,6 +44,7 @@ from grafu.asset.lying_handles import LyingHandleConfig
 from grafu.asset.lying_windows import LyingWindowConfig
 from grafu.asset.named_fittings import NamedFittingConfig
 from grafu.asset.one_front import HeldTogetherConfig
+from grafu.asset.open_side import OpenSideConfig
 from grafu.asset.parted_surface import PartedSurfaceConfig
 from grafu.asset.partnet_mobility import StandingConfig
 from grafu.asset.pieces import PieceConfig
@@ -162,6 +163,7 @@ OF_MODULES = {
     "asset": {
         "bodies.py": {},
         "closed_side.py": {"_STEPS": SAMPLES},
+        "open_side.py": {"_STEPS": SAMPLES},
         "cutting.py": {},
         "door_frames.py": {"_RAYS": SAMPLES},
         "drafts.py": {},
@@ -305,7 +307,7 @@ CONFIGS = (
     MassConfig, MatchConfig, NamedFittingConfig,
     MemberConfig, MisnamedConfig, PieceConfig, PlaceNamesConfig, PlausibilityConfig,
     RehangConfig, RestConfig, RoomSearchConfig, RoundDoorConfig, RowConfig, RuleConfig,
-    PolygonConfig, ScaleConfig, SeenSideConfig, SegmentationConfig, ShownLidConfig,
+    OpenSideConfig, PolygonConfig, ScaleConfig, SeenSideConfig, SegmentationConfig, ShownLidConfig,
     StandingConfig, StandingOutConfig, StaticGuessConfig,
     ApplianceFrontConfig, CreaseConfig, DrawnCutConfig, DrawerAboveConfig, DroppingDoorConfig, JoiningConfig,
     TallDoorConfig, ThickDoorConfig, TubConfig, UpEvidenceConfig, VerdictConfig,

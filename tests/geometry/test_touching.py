@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grafu.geometry.box import Box
+from grafu.geometry.budget import Budget
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.touching import touching_pairs
+from grafu.geometry.touching import near_pairs, touching_pairs
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.samples import KINDS
 
@@ -107,3 +108,14 @@ def test_no_pairs_and_no_faces_touch_nothing():
     empty = TriangleMesh(np.zeros((1, 3)), np.zeros((0, 3), int))
     assert touching_pairs([], [], 0.1) == []
     assert touching_pairs([empty, empty, box(np.zeros(3), np.ones(3))], [(0, 1), (1, 2)], 0.1) == []
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_boxes_in_a_row_are_swept_along_it_whichever_way_it_runs(axis):
+    """Swept along X, all of a stack would be looked at as neighbours of all: more than fits into little room."""
+    ends = np.zeros((1000, 2, 3))
+    ends[:, 1] = 1.0
+    ends[:, :, axis] = np.arange(1000)[:, None] + np.array([0.0, 1.0])
+    with Budget(room=5_000_000).in_force():
+        found = near_pairs([Box(low, high) for low, high in ends], 0.001)
+    assert found == [(k, k + 1) for k in range(999)]

@@ -52,6 +52,7 @@ from grafu.joints.tilting_fronts import TiltConfig
 from grafu.joints.trays import TrayConfig
 from grafu.joints.waste_bins import WasteBinConfig
 from grafu.joints.wide_bars import WideBarConfig
+from grafu.joints.wide_door_config import WideDoorConfig
 from grafu.joints.window_config import WindowConfig
 from module_numbers import explanations, factors_in_functions, floats_in_functions, modules_of, named_numbers
 
@@ -168,7 +169,8 @@ CONFIGS = (
     PlanConfig, PortholeConfig, PullOutConfig, RackConfig, RackGuideConfig, RailConfig, RailFootingConfig,
     RaisedLeafConfig,
     RealizationConfig,
-    StayConfig, SurveyConfig, TiltConfig, TimeConfig, TrayConfig, WasteBinConfig, WideBarConfig, WindowConfig,
+    StayConfig, SurveyConfig, TiltConfig, TimeConfig, TrayConfig, WasteBinConfig, WideBarConfig, WideDoorConfig,
+    WindowConfig,
 )  # fmt: skip
 
 

@@ -14,6 +14,7 @@ from grafu.asset.closed_side import faces_across, side_of_door
 from grafu.asset.fronts_above import has_fronts_above
 from grafu.asset.labels import label_of
 from grafu.asset.lying_windows import lies_as_a_window
+from grafu.asset.open_side import open_side
 from grafu.asset.options import LoadOptions
 from grafu.asset.part import ROBOTS, Frame, Part
 from grafu.asset.reading import Placing, Reading
@@ -193,6 +194,9 @@ def _front(reading: Reading, options: LoadOptions, whole: Box, up: str) -> _Choi
         is_known = shown is not None
         if shown is not None and shown != stated:
             return _Choice(shown, _BY_HANDLES if held else "most parts, and steps between them, are seen there")
+        usual = None if reading.kind in ROBOTS else stated or _USUAL_FRONT[up]
+        if usual is not None and (opened := open_side(reading.parts, whole, up, usual)) is not None:
+            return _Choice(opened, "its compartments open to that side, and boards close its ends")
         if reading.fronts_face is not None and stated is None and reading.fronts_face[1] != up[1]:
             return _Choice(reading.fronts_face, "what was cut out of a mesh as a front faces there")
     usual = "+X" if reading.kind in ROBOTS and up[1] != "X" else _USUAL_FRONT[up]

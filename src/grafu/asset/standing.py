@@ -265,11 +265,11 @@ def _add(votes: dict[str, float], direction: str | None, weight: float) -> None:
 
 
 def _side(part: Part, whole: Box, votes: dict[str, float], config: FrontEvidenceConfig) -> str | None:
-    """Returns the side of the object that a part's thin axis faces, or for a bulky part the side nearest to it."""
+    """Returns the side that a part's thin axis faces; for a bulky one, such as a low deep drawer, the nearest."""
     horizontal = sorted({"XYZ".index(d[1]) for d in votes})
     size = part.box.size[horizontal]
     thin = horizontal[int(np.argmin(size))]
-    if size.min() > config.bulky * size.max():
+    if size.min() > min(config.bulky * size.max(), part.box.size.min()):
         return _nearest_side(part.box, whole, votes, config)
     offset = part.box.center[thin] - whole.center[thin]
     return spelled(thin, bool(offset > 0)) if abs(offset) > config.aside * whole.half[thin] else None

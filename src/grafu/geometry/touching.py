@@ -27,13 +27,14 @@ _MOST_FACES = 1000  # a mesh of more is rarely boards, and looking costs more th
 _MOST_PAIRS = 20_000  # of rectangles and corners between two meshes, likewise
 _EXACT = 1e-9  # metres by which a corner may miss its rectangle
 _LOOKED_AT = 200  # bytes of a pair that is looked at: its numbers and the corners of two boxes
+_MOST_LOOKED_AT = 100_000  # pairs along X from which on the other axes are tried, too
 _JOINED = 800  # bytes of a pair that is found, until it is an edge of a graph
 
 
 def near_pairs(boxes: list[Box], margin: float) -> list[tuple[int, int]]:
     """Returns the index pairs (i < j, in order) of boxes whose gap is at most `margin` metres along every axis.
 
-    Boxes are swept along X, so that time grows with the number of pairs that are near along it, not with all.
+    Boxes are swept along one axis, so that time grows with the number of pairs that are near along it, not with all.
 
     Raises:
         TooComplex: if so many boxes overlap that their pairs do not fit into the budget.
@@ -52,15 +53,23 @@ def near_ends(low: Points, high: Points, margin: float) -> tuple[np.ndarray, np.
     Raises:
         TooComplex: if so many boxes overlap that their pairs do not fit into the budget.
     """
-    order = np.argsort(low[:, 0], kind="stable")
-    ends = np.searchsorted(low[order, 0], high[order, 0] + margin, side="right")
-    counts = np.maximum(ends - np.arange(len(order)) - 1, 0)
+    order, counts = _swept(low, high, margin, 0)
+    if counts.sum() > _MOST_LOOKED_AT:  # a row along Y, or a stack, overlaps along X: another axis parts it
+        others = ((order, counts), *(_swept(low, high, margin, axis) for axis in (1, 2)))
+        order, counts = min(others, key=lambda found: int(found[1].sum()))
     require_room(int(counts.sum()), _LOOKED_AT, f"looking at the neighbours of {len(low):,} parts")
     first = np.repeat(np.arange(len(order)), counts)
     second = first + 1 + counters(counts)
     a, b = order[first], order[second]
     near = np.all(np.maximum(low[a] - high[b], low[b] - high[a]) <= margin, axis=1)
     return a[near], b[near]
+
+
+def _swept(low: Points, high: Points, margin: float, axis: int) -> tuple[Indices, Indices]:
+    """Returns the boxes in the order in which they begin along an axis, and how many begin before each of them ends."""
+    order = np.argsort(low[:, axis], kind="stable")
+    ends = np.searchsorted(low[order, axis], high[order, axis] + margin, side="right")
+    return order, np.maximum(ends - np.arange(len(order)) - 1, 0)
 
 
 def touching_pairs(meshes: Sequence[TriangleMesh], pairs: Pairs, tolerance: float) -> list[tuple[int, int]]:

@@ -16,6 +16,7 @@ from grafu.joints.lever_config import LeverConfig
 from grafu.joints.plan import PlanConfig
 from grafu.joints.rail_config import ClosingConfig, DrawerConfig, RailConfig
 from grafu.joints.stay_config import StayConfig
+from grafu.joints.wide_door_config import WideDoorConfig
 from grafu.visible import ShortRepr
 
 
@@ -266,6 +267,8 @@ class RealizationConfig(ShortRepr):
     """Of doors that fold."""
     stay: StayConfig = StayConfig()
     """Of stays on lids and flaps."""
+    wide_doors: WideDoorConfig = WideDoorConfig()
+    """Of doors that open wider for what is behind them."""
     small: SmallPartConfig = SmallPartConfig()
     """Of knobs, buttons, wheels and casters."""
     lever: LeverConfig = LeverConfig()

@@ -25,6 +25,7 @@ from grafu.joints.measuring import Figures, Measured, measure_all
 from grafu.joints.nesting import above, brought_back, riding, seen_from
 from grafu.joints.order import BuiltJoint, OpeningOrder, order_joints, stand_aside
 from grafu.joints.plan import JointRequest, MotionRole
+from grafu.joints.wide_doors import OrderedJoints, with_wide_doors
 from grafu.processes.cache import Cache
 from grafu.refusal import Refusal
 from grafu.scene.scene import Scene
@@ -96,10 +97,16 @@ class Builder:
     def _level(self, requests: Sequence[JointRequest], scene: Scene) -> Measured:
         """Returns the joints of one body that were built, ordered and measured in its view."""
         built, failed, scene = build_fairly(requests, scene, self.gallery, self.config, self.cache)
-        order = partial(self.cache.value, "order", _orders, tuple(built), scene, self.config)
-        orders = within(self.config.time.ordering, order, partial(_without_order, built))
-        measured = measure_all(built, orders, scene, self.config, self.cache)
+        order = partial(self._orders, scene)
+        usual = OrderedJoints(tuple(built), order(built))
+        wider = partial(with_wide_doors, usual, scene, self.gallery.at_scale(scene.metre), order, self.config)
+        made = within(self.config.wide_doors.time, wider, lambda _: usual)
+        measured = measure_all(made.built, made.orders, scene, self.config, self.cache)
         return replace(measured, skipped=(*failed, *measured.skipped))
+
+    def _orders(self, scene: Scene, built: Sequence[Built]) -> Mapping[str, OpeningOrder]:
+        order = partial(self.cache.value, "order", _orders, tuple(built), scene, self.config)
+        return within(self.config.time.ordering, order, partial(_without_order, built))
 
     def _with_nested(self, levels: Levels, request: JointRequest) -> Levels:
         """Returns the levels with a joint on a moving body, or on what carries that where it has no joint itself."""

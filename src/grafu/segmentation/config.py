@@ -103,8 +103,8 @@ class FrameConfig:
     """How far the ends of one frame differ (of its object's largest side)."""
     gap: float = 0.0007
     """How far a panel may lie from its frame: inset fronts lie farther off (of its object's largest side)."""
-    groove: float = 0.6
-    """How far others reach into a bar (of its width)."""
+    groove: float = 1.0
+    """How far others reach into a bar (of its width): rails are lapped over stiles, panels end below their edges."""
     filled: float = 0.5
     """What the panels of a frame cover (of its inside)."""
     muntin: float = 1.5
@@ -193,6 +193,8 @@ class MemberConfig(ShortRepr):
     """How thick the side of a drawer's box is at most (of the front's width) ..."""
     side_height: float = 0.3
     """... how high at least (of the front's height) ..."""
+    low_side: float = 0.12
+    """... or, where a bottom or a back joins both: a drawer for pans has sides of 84 mm behind a front of 400 mm ..."""
     side_depth: float = 2.0
     """... and how deep at least (of its thickness)."""
     walls: float = 1.5
@@ -226,8 +228,7 @@ class DivisionConfig:
     board: float = 5.0
     """How many times as high as wide the boards of a panel are at least."""
     batten: float = 0.6
-    """How much of each board's width a batten lies on that holds the boards of a leaf together (fraction); they end
-    short of the leaf's edges ..."""
+    """What a batten that holds a leaf's boards together, short of its edges, covers of each (of its width) ..."""
     batten_wide: float = 0.25
     """... how wide it is at most (of the boards' length) ..."""
     batten_thick: float = 3.0

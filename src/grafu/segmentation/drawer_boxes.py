@@ -35,6 +35,8 @@ def drawer_boards(
 ) -> MaskOfShells:
     """Whether each shell is a board of a box behind the plate: two sides, what lies between them, and no lid.
 
+    Low sides, as of a deep drawer for pans, are runners unless a bottom or a back joins them.
+
     Args:
         view: what is seen.
         plate: the front.
@@ -48,9 +50,7 @@ def drawer_boards(
     amid = ((middles >= view.low[plate, :2]) & (middles <= view.high[plate, :2])).all(axis=1)
     behind = inside & amid & (view.high[:, 2] <= view.high[plate, 2] + near)
     thick = size[:, 2] > near
-    upright = (
-        behind & thick & (size[:, 0] <= config.side_width * whole[0]) & (size[:, 1] >= config.side_height * whole[1])
-    )
+    upright = behind & thick & (size[:, 0] <= config.side_width * whole[0]) & (size[:, 1] >= config.low_side * whole[1])
     upright &= (size[:, 2] >= config.side_depth * size[:, 0]) & (view.high[:, 2] >= view.low[plate, 2] - near)
     middle = (view.low[plate, 0] + view.high[plate, 0]) / 2
     left, right = upright & (view.high[:, 0] < middle), upright & (view.low[:, 0] > middle)
@@ -63,7 +63,9 @@ def drawer_boards(
     lies = box & (size[:, 1] <= config.flat * size[:, [0, 2]].min(axis=1))
     top = float(view.high[left | right, 1].max())
     lid = lies & (np.abs(view.low[:, 1] - top) <= near + size[:, 1]) & (size[:, 0] >= config.lid * whole[0])
-    return nothing if lid.any() or _is_case(view, box, near) else box
+    is_low = float(size[left | right, 1].max()) < config.side_height * whole[1]
+    joined = (box & ~upright & (size[:, 0] >= config.half * (ends[1] - ends[0]))).any()
+    return nothing if lid.any() or (is_low and not joined) or _is_case(view, box, near) else box
 
 
 def _is_case(view: ShellsView, box: MaskOfShells, near: float) -> bool:

@@ -17,14 +17,14 @@ from grafu.templates.template import Gallery, HandleTemplate, HingeModel, HingeS
 from grafu.vocabulary import MechanismClass
 
 _C, _F, _P = MechanismClass.C, MechanismClass.F, MechanismClass.P
-_BUTT = HingeStyle(_C, radians(110), STEEL, leaves.plain, leaves.plain, leaves.screws_in_column, leaves.FLAT_HEAD)
-_BALL = HingeStyle(_C, radians(110), BRASS, leaves.rounded, leaves.rounded, leaves.screws_in_column, leaves.BALL_TIP)
+_BUTT = HingeStyle(_C, radians(170), STEEL, leaves.plain, leaves.plain, leaves.screws_in_column, leaves.FLAT_HEAD)
+_BALL = HingeStyle(_C, radians(170), BRASS, leaves.rounded, leaves.rounded, leaves.screws_in_column, leaves.BALL_TIP)
 _LIFT = HingeStyle(
     _C, radians(105), BLACK, leaves.square, leaves.square, leaves.screws_in_column, leaves.ACORN, knuckles=2
 )
 _PIANO = HingeStyle(
     _C,
-    radians(110),
+    radians(170),
     NICKEL,
     leaves.square,
     leaves.square,
