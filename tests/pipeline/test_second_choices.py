@@ -113,6 +113,38 @@ def test_a_door_on_another_border_opens_to_the_same_face(asset: Asset) -> None:
         assert "opens to the front" in words
 
 
+def opening_backwards(asset: Asset, other: float, by: str = "") -> GraphCompletion:
+    """The rule's completion in which the door is to open into the case."""
+    right = complete_by_rule(parse_graph(asset))
+    hinge = right.completed.hinges[0]
+    inwards = str(1 - hinge.sign)
+    stated = Decision(hinge.child, "sign", inwards, 1.0 - other, str(hinge.sign), other, by)
+    edges = tuple(replace(e, sign=1 - e.sign) if isinstance(e, Hinge) else e for e in right.completed.edges)
+    decisions = tuple(stated if d.question == "sign" else d for d in right.decisions)
+    return replace(right, completed=replace(right.completed, edges=edges), decisions=decisions)
+
+
+def test_a_door_that_is_blocked_inwards_opens_outwards(asset: Asset) -> None:
+    first = opening_backwards(asset, 0.14)
+    made = built(asset, first)
+    hinge = made.completion.completed.hinges[0]
+    assert hinge == complete_by_rule(parse_graph(asset)).completed.hinges[0]
+    done = next(one for one in made.realized.report.installed if one.moving == hinge.child)
+    assert "towards the back (86%) it is blocked" in done.notes
+    decision = made.completion.decision(hinge.child, "sign")
+    assert decision is not None
+    assert (decision.choice, decision.score, decision.by) == (str(hinge.sign), 0.14, BY_BOTH)
+    assert len(made.realized.report.installed) == 2
+
+
+@pytest.mark.parametrize(("other", "by"), [(0.005, ""), (0.14, BY_RULE)], ids=["ruled out", "of a rule"])
+def test_a_face_that_is_ruled_out_is_not_tried(asset: Asset, other: float, by: str) -> None:
+    first = opening_backwards(asset, other, by)
+    made = built(asset, first)
+    assert made.completion is first
+    assert [refusal.reason for refusal in made.realized.report.skipped] == [Reason.BLOCKED]
+
+
 def two_doors_without_a_divider() -> Asset:
     """A case whose two doors meet in the middle, with nothing there that could hold a hinge."""
     boards = {

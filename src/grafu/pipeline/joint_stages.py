@@ -28,7 +28,7 @@ from grafu.pipeline.mechanisms import with_mechanisms
 from grafu.pipeline.motion_methods import MotionMethod
 from grafu.pipeline.motion_source import MotionSource
 from grafu.pipeline.pipeline_config import PipelineConfig
-from grafu.pipeline.second_choices import noted, second_choices
+from grafu.pipeline.second_choices import noted, other_faces, second_choices
 from grafu.pipeline.shown_by_shape import shown_by_shape
 from grafu.pipeline.stages import Stages, nothing_before_joints, without_joints
 from grafu.pipeline.turned_doors import turned_doors
@@ -65,8 +65,8 @@ class JointStages:
     def with_second_choices(self, completion: GraphCompletion) -> BuiltJoints:
         """Returns the joints of a completion, with another direction where the likeliest one is blocked.
 
-        A door that cannot slide turns. What was stated is not chosen again. What was only guessed to move stays where
-        it cuts into other parts.
+        A door that cannot open to the face that was decided opens to the other, and one that cannot slide turns. What
+        was stated is not chosen again. What was only guessed to move stays where it cuts into other parts.
         """
         first = best = self.built(completion)
         config = self.config.joints.plan
@@ -76,6 +76,10 @@ class JointStages:
             if other is None:
                 break
             best = self._better(best, other)
+        faced = (
+            None if self.method.reads_annotation else other_faces(best.completion, best.realized.report.skipped, config)
+        )
+        best = best if faced is None else self._better(best, faced)
         turned = None if self.method.reads_annotation else turned_doors(best.completion, best.realized.report.skipped)
         best = self._without_colliding(best if turned is None else self._better(best, turned))
         if best is first:

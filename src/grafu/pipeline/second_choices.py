@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Final, cast
 
-from grafu.graph.completion import BY_BOTH, Decision, GraphCompletion
-from grafu.graph.edges import Edge, Hinge, HingeBorder, Rail, SignedAxis, Slide
+from grafu.graph.completion import BY_BOTH, BY_RULE, Decision, GraphCompletion
+from grafu.graph.edges import SIGNS, Edge, Hinge, HingeBorder, Rail, SignedAxis, Slide
 from grafu.graph.edit import rehung
 from grafu.graph.functional_graph import FunctionalGraph
 from grafu.joints.plan import PlanConfig
@@ -41,6 +41,36 @@ def second_choices(
     return replace(completion, completed=replace(graph, edges=edges), decisions=decisions)
 
 
+def other_faces(
+    completion: GraphCompletion, skipped: Iterable[Refusal], config: PlanConfig = PlanConfig()
+) -> GraphCompletion | None:
+    """Returns the completion in which doors that are blocked open to the other face, where that is not ruled out.
+
+    None where no door is. What the user or the input stated, and what a rule decided, has no other face.
+    """
+    blocked = {refusal.part for refusal in skipped if refusal.reason is Reason.BLOCKED}
+    turned = {d.part: d for d in completion.decisions if d.part in blocked and _has_other_face(d, config)}
+    if not turned:
+        return None
+    graph = completion.completed
+    edges = tuple(
+        replace(edge, sign=SIGNS[1 - edge.sign]) if isinstance(edge, Hinge) and edge.child in turned else edge
+        for edge in graph.edges
+    )
+    decisions = tuple(
+        replace(d, choice=d.runner_up, score=d.runner_up_score, runner_up=d.choice, runner_up_score=d.score, by=BY_BOTH)
+        if d is turned.get(d.part)
+        else d
+        for d in completion.decisions
+    )
+    return replace(completion, completed=replace(graph, edges=edges), decisions=decisions)
+
+
+def _has_other_face(decision: Decision, config: PlanConfig) -> bool:
+    is_open = decision.question == "sign" and decision.by != BY_RULE and bool(decision.runner_up)
+    return is_open and decision.runner_up_score >= config.other_direction
+
+
 def noted(
     report: RealizationReport, first: GraphCompletion, second: GraphCompletion, skipped: Iterable[Refusal] = ()
 ) -> RealizationReport:
@@ -50,12 +80,13 @@ def noted(
     """
     why = {refusal.part: _WHY.get(refusal.reason, _WHY[Reason.BLOCKED]) for refusal in skipped}
     kept = {(d.part, d.question, d.choice) for d in second.decisions}
-    given_up = {
-        d.part: f"towards the {named_choice(d, d.choice, first.completed)} ({d.score:.0%}) "
-        + why.get(d.part, _WHY[Reason.BLOCKED])
-        for d in first.decisions
-        if d.question in _DIRECTIONS and (d.part, d.question, d.choice) not in kept
-    }
+    hinges = {hinge.child: hinge for hinge in first.completed.hinges}
+    given_up: dict[str, str] = {}
+    for d in sorted(first.decisions, key=lambda d: d.question == "sign"):  # a sign is counted about its border
+        if d.question in (*_DIRECTIONS, "sign") and (d.part, d.question, d.choice) not in kept:
+            towards = named_choice(d, d.choice, first.completed, hinges.get(d.part))
+            why_not = why.get(d.part, _WHY[Reason.BLOCKED])
+            given_up.setdefault(d.part, f"towards the {towards} ({d.score:.0%}) {why_not}")
     outcomes = tuple(
         replace(done, notes=(*done.notes, given_up[done.moving]))
         if isinstance(done, Installed) and done.moving in given_up
