@@ -14,7 +14,7 @@ SHAPE = "how exactly an outline is drawn, and when it is taken as a simpler one;
 WORDS = "how many names a sentence has"
 NUMBERING = "numbers of axes, of faces and of steps between cells"
 LIMIT = "the most that an input may ask for, or that is computed in a reasonable time"
-GLASS = "what counts as glass, and textures of unknown size: of materials, not of furniture, and the same for all steps"
+GLASS = "textures of unknown size: of materials, not of furniture, and the same for all steps"
 
 REASONS = {
     "carcass/bays.py": {"FRONT_HEIGHTS": SAMPLES, "DEPTHS": SAMPLES, "FINE_DEPTHS": SAMPLES},
@@ -98,7 +98,7 @@ REASONS = {
         "FRONT_FACES": NUMBERING,
     },
     "interior/turned.py": {"LEAST_STRAIGHT": SHAPE},
-    "likeness.py": {"OPAQUE_ALPHA": GLASS, "DEFAULT_TEXTURE_DENSITY": GLASS},
+    "likeness.py": {"DEFAULT_TEXTURE_DENSITY": GLASS},
     "top/complete.py": {"NARROWEST_GROOVE": SHAPE, "GROOVE_DETAIL": SHAPE, "RECTANGLE": SHAPE},
     "top/cutouts.py": {"SWEEP_POSES": SAMPLES, "ROUNDED_UP": TOLERANCE},
     "top/sloping.py": {"TOUCH": TOLERANCE},

@@ -38,7 +38,8 @@ REASONS = {
         "collision_shapes.py": {"_DENSE": EFFORT},
         "convex_pieces.py": {"_DIRECTIONS": SAMPLES, "_HULL_CORNERS": SAMPLES, "_GRID": SAMPLES, "_TRIES": EFFORT},
         "coupled_weight.py": {"_STEP": SAMPLES, "_EXACT": TOLERANCE, "_AT": SAMPLES},
-        "finger_fit.py": dict.fromkeys(("_ACROSS", "_LEVELS", "_ON_FINGER", "_PLACES"), SAMPLES),
+        "finger_fit.py": dict.fromkeys(("_ACROSS", "_LEVELS", "_ON_FINGER", "_PLACES"), SAMPLES)
+        | {"_LOOKED_AT": EFFORT, "_ROUNDING": TOLERANCE},
         "grasp_frame.py": dict.fromkeys(("FINGER_GAP", "FINGER_REACH", "FINGER_THICKNESS", "FINGER_WIDTH"), GRIPPER)
         | {"_RIGHT_ANGLE": TOLERANCE},
         "floor_clearance.py": {"_LEVEL": TOLERANCE, "_NOTHING": TOLERANCE},
