@@ -95,6 +95,20 @@ def test_the_rack_behind_a_front_is_attached_to_it():
     assert set(request.attached) == {part.id for part in RACK}
 
 
+def test_what_is_called_a_drawer_and_slides_takes_its_rack_with_it():
+    rail = JointRequest("door", JointType.PRISMATIC, Axis(vec3(0.15, -0.01, 0.45), vec3(0.0, -1.0, 0.0)), "network")
+    aside = replace(rail, axis=Axis(rail.axis.point, vec3(-1.0, 0.0, 0.0)))
+
+    def attached(request, *parts):
+        asset = scene(*parts)
+        (made,) = with_pull_outs(RealizationPlan((request,), ()), asset, parse_graph(asset)).joints
+        return made.type, set(made.attached)
+
+    assert attached(rail, FRONT, *CASE, *RACK) == (JointType.PRISMATIC, {part.id for part in RACK})
+    assert attached(rail, FRONT, *CASE) == (JointType.PRISMATIC, set())
+    assert attached(aside, FRONT, *CASE, *RACK) == (JointType.PRISMATIC, set())  # a sliding door before a rack
+
+
 def test_a_bin_on_its_front_slides_out_with_it_and_a_board_does_not():
     walls = [
         box("b", (0.05, 0.0, 0.15), (0.25, 0.4, 0.155)),

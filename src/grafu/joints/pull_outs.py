@@ -50,7 +50,8 @@ class PullOutConfig:
     touching: float = 0.0003
     """As near as this a rack touches its front, or what holds it (metres): rounding, and no clearance."""
     upright: float = 0.9
-    """From this cosine on to the vertical the predicted hinge is at a side of the front."""
+    """From this cosine on to the vertical the predicted hinge is at a side of the front, and to the front what slides
+    comes out there."""
     pieces: int = 3
     """How many parts a rack has at least, or shells that hang together where it is drawn in fewer parts, unless it is
     a bin: one board may be a shelf whose pins are not drawn."""
@@ -97,11 +98,12 @@ def with_pull_outs(
 def _pulled_out(
     request: JointRequest, asset: Asset, static: list[Part], graph: FunctionalGraph, config: PullOutConfig
 ) -> JointRequest:
-    """Returns the request of a door with a rack behind it as one that slides out; any other as it is."""
+    """Returns the request of a front with a rack behind it as one that slides out with it; any other as it is."""
     front = asset.part(request.moving).box
     hinged = request.kind.turns and abs(float(request.axis.direction[_UP])) >= config.upright
+    pulled = not request.kind.turns and float(request.axis.direction @ _OUT) >= config.upright
     ratio = float(front.size[0] / max(front.size[_UP], 1e-9)) if front.thin_axis == _DEPTH else np.inf
-    if not (hinged and ratio <= config.wide) or request.parent or request.coupling:
+    if not ((hinged or pulled) and ratio <= config.wide) or request.parent or request.coupling:
         return request
     rack = _rack(request, front, asset, static, graph, config) if ratio <= config.slim else []
     rack = rack or _carried_rack(request, front, asset, static, config)
