@@ -163,7 +163,7 @@ OF_MODULES = {
     "asset": {
         "bodies.py": {},
         "closed_side.py": {"_STEPS": SAMPLES},
-        "open_side.py": {"_STEPS": SAMPLES},
+        "open_side.py": {},
         "cutting.py": {},
         "door_frames.py": {"_RAYS": SAMPLES},
         "drafts.py": {},

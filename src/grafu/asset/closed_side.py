@@ -12,6 +12,7 @@ import numpy as np
 from grafu.asset.part import Part
 from grafu.asset.standing import spelled
 from grafu.dataclass import dataclass
+from grafu.geometry.arrays import Points, Vec3
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
@@ -86,10 +87,20 @@ def _closes(box: Box, whole: Box, axis: int, positive: bool, config: ClosedSideC
 
 def _is_closed(mesh: TriangleMesh, whole: Box, axis: int, positive: bool, config: ClosedSideConfig) -> bool:
     """Whether rays into a side meet a mesh close to the end of the whole there."""
-    across, deep = np.delete(np.arange(3), axis), float(whole.size[axis])
+    near = config.near * float(whole.size[axis])
+    starts, towards = rays_into(whole, axis, positive, near)
+    return float((RayCaster(mesh).along(starts, towards) <= 2 * near).mean()) >= config.closed
+
+
+def rays_into(whole: Box, axis: int, positive: bool, off: float) -> tuple[Points, Vec3]:
+    """Returns the starts of rays into a side of a box, metres, `off` before it, and their direction.
+
+    They are spread over the side; `positive` is the side at the high end of the axis.
+    """
+    across = np.delete(np.arange(3), axis)
     places = np.meshgrid(*(whole.low[k] + _STEPS * whole.size[k] for k in across), indexing="ij")
     starts, towards = np.empty((len(_STEPS) ** 2, 3)), np.zeros(3)
     starts[:, across] = np.stack(places, axis=-1).reshape(-1, 2)
     towards[axis] = -1.0 if positive else 1.0
-    starts[:, axis] = (whole.high if positive else whole.low)[axis] - towards[axis] * config.near * deep
-    return float((RayCaster(mesh).along(starts, towards) <= 2 * config.near * deep).mean()) >= config.closed
+    starts[:, axis] = (whole.high if positive else whole.low)[axis] - towards[axis] * off
+    return starts, towards

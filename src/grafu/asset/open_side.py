@@ -5,10 +5,9 @@ are the input's; directions are spelled like `-Y`.
 """
 
 from collections.abc import Sequence
-from typing import Final, final
+from typing import final
 
-import numpy as np
-
+from grafu.asset.closed_side import rays_into
 from grafu.asset.part import Part
 from grafu.asset.standing import spelled
 from grafu.dataclass import dataclass
@@ -16,8 +15,6 @@ from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
 from grafu.geometry.mesh import merge_meshes
 from grafu.geometry.raycast import RayCaster
-
-_STEPS: Final = (np.arange(16) + 0.5) / 16  # where rays go into a side
 
 
 @final
@@ -68,10 +65,6 @@ def open_side(
 
 def _open_ratio(caster: RayCaster, whole: Box, axis: int, positive: bool, config: OpenSideConfig) -> float:
     """Returns the fraction of rays into a side that meet nothing near it."""
-    across, deep = np.delete(np.arange(3), axis), float(whole.size[axis])
-    places = np.meshgrid(*(whole.low[k] + _STEPS * whole.size[k] for k in across), indexing="ij")
-    starts, towards = np.empty((len(_STEPS) ** 2, 3)), np.zeros(3)
-    starts[:, across] = np.stack(places, axis=-1).reshape(-1, 2)
-    towards[axis] = -1.0 if positive else 1.0
-    starts[:, axis] = (whole.high if positive else whole.low)[axis] - towards[axis] * deep
+    deep = float(whole.size[axis])
+    starts, towards = rays_into(whole, axis, positive, deep)
     return float((caster.along(starts, towards) > (1.0 + config.deep) * deep).mean())
