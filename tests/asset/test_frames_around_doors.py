@@ -85,6 +85,16 @@ def test_what_is_called_a_doors_frame_holds_leaves_without_a_name(name):
     assert frames(ring(name, sill=True), pane) == []
 
 
+@pytest.mark.parametrize("name", ["door_frame_0", "Türrahmen"])
+def test_what_is_called_a_doors_frame_may_have_a_threshold(name):
+    """A "frame door" is a door that has a frame: what stands in it is its panel, whatever that is called."""
+    door = leaf("door_1", 0.06, 1.74, floor=0.06)
+    assert frames(ring(name, sill=True), door) == [name]
+    assert frames(ring("frame_door", sill=True), door) == []
+    assert frames(ring(name, sill=True), leaf("door_panel", 0.06, 1.74, floor=0.06)) == []
+    assert frames(ring(name, sill=True), leaf("door_1", 0.5, 1.2, floor=0.06)) == []
+
+
 def test_what_the_input_states_to_open_is_the_leaf_and_what_stands_around_it_is_not():
     opening = "sweethome3d_opening_on_hinge_1_door"
     stated = leaf(opening, 0.06, 1.74, floor=0.06)

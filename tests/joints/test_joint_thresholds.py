@@ -13,6 +13,7 @@ from grafu.joints.building_doors import BuildingDoorConfig
 from grafu.joints.clearance_config import ClearanceConfig
 from grafu.joints.concealed_config import ConcealedConfig
 from grafu.joints.config import BlockConfig, RealizationConfig, TimeConfig
+from grafu.joints.door_grips import DoorGripConfig
 from grafu.joints.drawn_across import DrawnAcrossConfig
 from grafu.joints.drawn_arm_config import DrawnArmConfig
 from grafu.joints.drawn_config import DrawnConfig
@@ -105,6 +106,7 @@ REASONS = {
     "barrels.py": {"_ALONG": EFFORT, "_POINT": TOLERANCE, "_CORNERS": NUMBERING},
     "drop_leaves.py": {"_UP": NUMBERING},
     "drop_supports.py": {"_UP": NUMBERING, "_QUARTER": GEOMETRY},
+    "door_grips.py": {"(_WIDTH, _DEPTH, _UP)": NUMBERING},
     "door_levers.py": {"(_ACROSS, _DEPTH, _UP)": NUMBERING, "_UPRIGHT": NUMBERING},
     "extension_leaves.py": {"_UP": NUMBERING},
     "lifts.py": {"_LEVEL": NUMBERING},
@@ -161,8 +163,8 @@ REASONS = {
 CONFIGS = (
     BehindConfig, BlockConfig, BodyConfig, BoxBehindConfig, BuildingDoorConfig, ClearanceConfig, ClosingConfig,
     ConcealedConfig,
-    DrawerConfig, DrawnAcrossConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig, FlankConfig,
-    FoldConfig,
+    DoorGripConfig, DrawerConfig, DrawnAcrossConfig, DrawnConfig, DropLeafConfig, DropSupportConfig, ExtensionConfig,
+    FlankConfig, FoldConfig,
     DrawnArmConfig, FootingConfig, HingeConfig, HungPartsConfig, InCaseConfig,
     LeverConfig, LiftArmConfig, MirrorConfig, PinConfig, PivotConfig,
     BoxFlapConfig, OnLidConfig, ScreenConfig, SeatPairConfig, SlidingPaneConfig, SwivelConfig,

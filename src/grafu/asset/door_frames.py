@@ -54,12 +54,14 @@ def with_door_frames(
 
     A frame is open before the doors that stand in it. It holds several that fill it, or one that reaches one of its
     ends, or doors that the input states to open, which it does not of the frame. What is called the frame of a door may
-    hold leaves that no name tells: these fill it, and reach one of its ends.
+    also hold one door that reaches none of its ends, where it has a threshold, and leaves that no name tells: these
+    fill it, and reach one of its ends.
     """
     doors = [part for part in parts if part.label is PartLabel.DOOR]
     nameless = [part for part in parts if part.label is PartLabel.UNKNOWN]
     frames = {door.id for door in doors if len(doors) > 1 and _is_frame(door, doors, config)}
-    frames |= {door.id for door in doors if "frame" in spoken(door.source.name) and _is_open(door, nameless, config)}
+    called = [door for door in doors if "frame" in spoken(door.source.name)]
+    frames |= {door.id for door in called if _is_open(door, nameless, config) or _has_threshold(door, doors, config)}
     notes = [f"{p.source.name} stands around doors: taken for their frame" for p in parts if p.id in frames]
     return tuple(
         replace(part, label=PartLabel.FACE_FRAME, labelled_by="shape") if part.id in frames else part for part in parts
@@ -68,31 +70,36 @@ def with_door_frames(
 
 def _is_frame(door: Part, doors: Sequence[Part], config: FramedDoorsConfig) -> bool:
     box, thin = door.box, door.box.thin_axis
-    around = box.grown(config.spare * float(box.size.max()))
-    whole = [other for other in doors if other is not door and not is_piece(other.source.name)]
-    within = [other for other in whole if around.contains(other.box.corners()).all()]
-    if not within:
-        return False
-    rays = RayCaster(door.mesh)
-    leaves = [leaf for leaf in within if _is_open_before(rays, leaf.box, thin, box, config)]
+    leaves = _leaves_in(door, doors, config)
     if any(is_opening(leaf.source.name) for leaf in leaves) and not is_opening(door.source.name):
         return True
     outer = [leaf.box for leaf in leaves if not any(_lies_in(leaf, other, thin) for other in leaves)]
     return _fill([*outer], box, thin, config) if len(outer) > 1 else any(_ends_in(leaf, box, config) for leaf in outer)
 
 
+def _has_threshold(frame: Part, doors: Sequence[Part], config: FramedDoorsConfig) -> bool:
+    """Whether a door fills what is called the frame of one: a "door frame", which a "frame door" is not."""
+    leaves = _leaves_in(frame, doors, config) if spoken(frame.source.name)[-1] == "frame" else []
+    return any(_fill([leaf.box], frame.box, frame.box.thin_axis, config) for leaf in leaves)
+
+
 def _is_open(frame: Part, nameless: Sequence[Part], config: FramedDoorsConfig) -> bool:
     """Whether parts that no name tells stand in a frame, fill it together, and reach one of its ends."""
     box, thin = frame.box, frame.box.thin_axis
-    around = box.grown(config.spare * float(box.size.max()))
-    rays = RayCaster(frame.mesh)
-    within = [part.box for part in nameless if around.contains(part.box.corners()).all()]
-    leaves = [leaf for leaf in within if _is_open_before(rays, leaf, thin, box, config)]
+    leaves = [leaf.box for leaf in _leaves_in(frame, nameless, config)]
     return bool(leaves) and _fill(leaves, box, thin, config) and _ends_in(Box.enclosing(leaves), box, config)
 
 
-def _is_open_before(rays: RayCaster, leaf: Box, thin: int, frame: Box, config: FramedDoorsConfig) -> bool:
-    return covered_ratio(rays, leaf, thin, _RAYS, frame.diagonal) <= config.open
+def _leaves_in(frame: Part, parts: Sequence[Part], config: FramedDoorsConfig) -> list[Part]:
+    """Returns what stands in a frame, and what that does not cover; pieces of doors are no leaves."""
+    box = frame.box
+    around = box.grown(config.spare * float(box.size.max()))
+    whole = [part for part in parts if part is not frame and not is_piece(part.source.name)]
+    within = [part for part in whole if around.contains(part.box.corners()).all()]
+    if not within:
+        return []
+    rays = RayCaster(frame.mesh)
+    return [p for p in within if covered_ratio(rays, p.box, box.thin_axis, _RAYS, box.diagonal) <= config.open]
 
 
 def _lies_in(leaf: Part, other: Part, thin: int) -> bool:

@@ -17,6 +17,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_positive, require_ratios
 from grafu.geometry.raycast import RayCaster, covered_ratio
 from grafu.graph.edges import Slide
+from grafu.joints.door_grips import grasped_side, hinged_side
 from grafu.joints.framed_leaves import SOURCE, FramedLeaves, nearer_to_back, relabelled, turning_leaf
 from grafu.joints.motion_choice import Side
 from grafu.joints.plan import JointRequest, RealizationPlan
@@ -67,9 +68,10 @@ class BuildingDoorConfig:
     touch: float = 0.002
     """What reaches into the outline of a leaf by so much at most (fraction of the height of the whole) touches it."""
     small: float = 0.3
-    """Greatest side of a handle or lock (fraction of its leaf's height)."""
+    """Greatest side of what a leaf without a name is grasped by (fraction of the leaf's height)."""
     aside: float = 0.2
-    """A handle or lock is this far to one side of its leaf's middle at least (fraction of the leaf's width)."""
+    """It is this far to one side of its leaf's middle at least (fraction of the leaf's width); so is a leaf that
+    slides before its frame beyond that."""
     garage: float = 1.7
     """A single leaf that is so wide hangs from its upper edge, as of a garage (m): no side hinges would carry it."""
     near: float = 0.15
@@ -126,16 +128,21 @@ def with_building_doors(
 ) -> RealizationPlan:
     """Returns the plan in which the leaves of a door in its frame turn; the plan itself for any other piece.
 
-    A leaf that the plan slides keeps its motion. What is on a leaf goes with it. Where some leaves are called doors,
-    the others stay.
+    A leaf that the plan slides keeps its motion, and a single one that nothing is grasped at the edge at which the plan
+    hangs it. What is on a leaf goes with it. Where some leaves are called doors, the others stay.
     """
     found = building_door(asset, config)
     if found is None:
         return plan
-    sliding = {r.moving: r for r in plan.joints if r.kind.slides}
+    predicted = {r.moving: r for r in plan.joints}
 
     def request(leaf: Part, on_it: Sequence[Part]) -> JointRequest | None:
-        return None if found.is_fixed(leaf) else sliding.get(leaf.id) or _request(leaf, on_it, found, asset, config)
+        planned = predicted.get(leaf.id)
+        if found.is_fixed(leaf):
+            return None
+        if planned is not None and planned.kind.slides:
+            return planned
+        return _request(leaf, on_it, found, planned, asset, config)
 
     return found.with_joints(plan, asset, request)
 
@@ -231,7 +238,12 @@ def _within(box: Box, other: Box) -> bool:
 
 
 def _request(
-    leaf: Part, on_it: Sequence[Part], door: FramedLeaves, asset: Asset, config: BuildingDoorConfig
+    leaf: Part,
+    on_it: Sequence[Part],
+    door: FramedLeaves,
+    predicted: JointRequest | None,
+    asset: Asset,
+    config: BuildingDoorConfig,
 ) -> JointRequest:
     frame, leaves = door.frame, door.leaves
     attached = tuple(part.id for part in on_it)
@@ -246,15 +258,17 @@ def _request(
     above = [
         k for k, other in enumerate(leaves) if abs(other.box.center[_WIDTH] - leaf.box.center[_WIDTH]) <= config.touch
     ]
-    side = _hinge_side(leaf, door, [part for k in above for part in door.on_leaf[k]], config)
+    side = _hinge_side(leaf, door, [part for k in above for part in door.on_leaf[k]], predicted, config)
     whole = Box.enclosing(part.box for part in (frame, *door.inner_frames))  # the casing before it is part of it
     return turning_leaf(leaf, on_it, asset, side, _opens_backwards(leaf, whole, on_it, config))
 
 
-def _hinge_side(leaf: Part, door: FramedLeaves, on_it: Sequence[Part], config: BuildingDoorConfig) -> Side:
+def _hinge_side(
+    leaf: Part, door: FramedLeaves, on_it: Sequence[Part], predicted: JointRequest | None, config: BuildingDoorConfig
+) -> Side:
     """Returns the edge about which a leaf turns: away from its handle; without one that which can hang on something."""
-    held = None if _grasped(leaf, on_it, config) else door.held_side(leaf, config.near, config.level)
-    return held or hinged_side(leaf, door.leaves, on_it, config)
+    held = None if grasped_side(leaf, on_it) else door.held_side(leaf, config.near, config.level)
+    return held or hinged_side(leaf, door.leaves, on_it, predicted)
 
 
 def _opens_backwards(leaf: Part, frame: Box, on_it: Sequence[Part], config: BuildingDoorConfig) -> bool:
@@ -280,20 +294,3 @@ def is_on_leaf(part: Part, leaf: Part, config: BuildingDoorConfig) -> bool:
         return False
     room = width * np.array([config.threshold, config.before, config.threshold])
     return bool(np.all(part.box.low >= leaf.box.low - room) and np.all(part.box.high <= leaf.box.high + room))
-
-
-def hinged_side(leaf: Part, leaves: Sequence[Part], on_it: Sequence[Part], config: BuildingDoorConfig) -> Side:
-    """Returns the edge away from handles and locks; without these the outer edge of several leaves, else the left."""
-    aside = _grasped(leaf, on_it, config)
-    if not aside:
-        middle = float(np.mean([one.box.center[_WIDTH] for one in leaves]))
-        aside = middle - float(leaf.box.center[_WIDTH])
-    return Side.RIGHT if aside < 0 else Side.LEFT
-
-
-def _grasped(leaf: Part, on_it: Sequence[Part], config: BuildingDoorConfig) -> float:
-    """Returns on which side of a leaf's middle its handles and locks are: below 0 at its left; 0 where none tells."""
-    box = leaf.box
-    small = [part.box for part in on_it if part.box.size.max() <= config.small * box.size[_UP]]
-    offsets = (float(one.center[_WIDTH] - box.center[_WIDTH]) for one in small)
-    return float(sum(np.sign(offset) for offset in offsets if abs(offset) >= config.aside * box.size[_WIDTH]))

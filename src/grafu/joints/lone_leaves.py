@@ -6,7 +6,8 @@ import numpy as np
 
 from grafu.asset.part import Asset, Part
 from grafu.geometry.box import Box
-from grafu.joints.building_doors import BuildingDoorConfig, hinged_side, is_on_leaf
+from grafu.joints.building_doors import BuildingDoorConfig, is_on_leaf
+from grafu.joints.door_grips import hinged_side
 from grafu.joints.framed_leaves import relabelled, turning_leaf
 from grafu.joints.plan import RealizationPlan
 from grafu.vocabulary import PartLabel
@@ -54,7 +55,7 @@ def with_lone_leaf(
         return plan
     on_leaf = _on_each(leaves, asset.parts)
     requests = tuple(
-        turning_leaf(leaf, on_it, asset, hinged_side(leaf, leaves, on_it, config), opens_backwards=False)
+        turning_leaf(leaf, on_it, asset, hinged_side(leaf, leaves, on_it), opens_backwards=False)
         for leaf, on_it in zip(leaves, on_leaf, strict=True)
     )
     parts = {part.id for part in asset.parts}
