@@ -92,3 +92,23 @@ def test_on_the_link_of_the_body_of_a_robot_one_drawer_of_another_link_tells_a_c
     parts = [replace(p, source=PartSource(p.source.name, link=links[p.id])) for p in (CASE, INNER, *boards)]
     found = labels(replace(scene(*parts), kind=kind))
     assert found == {"drawer_box": PartLabel.MISC if holds else PartLabel.DRAWER, "drawer_0": PartLabel.DRAWER}
+
+
+UPPER = hollow("drawer_top", (-0.3, -0.25, 0.6), (0.3, 0.25, 0.9))
+SIDE_BY_SIDE = [
+    hollow(f"drawer_{k + 2}", (x, -0.22, 0.63), (x + 0.265, 0.2, 0.85), 0.01, front=True, lid=False)
+    for k, x in enumerate((-0.27, 0.005))
+]
+
+
+@pytest.mark.parametrize(("link", "holds"), [("", True), ("body", True), ("slide", False)])
+def test_beside_the_largest_case_another_may_hold_drawers(link, holds):
+    """In a robot it is on the link of the body: what has a link of its own, with trays in it, is a drawer."""
+    boards = [box(f"board_{k}", (0.3 + 0.02 * k, -0.25, 0.0), (0.32 + 0.02 * k, 0.25, 0.9)) for k in range(3)]
+    parts = [CASE, *TRAYS, UPPER, *SIDE_BY_SIDE, *boards]
+    if link:
+        links = {p.id: "body" for p in (CASE, *boards)} | {p.id: p.id for p in TRAYS} | {"drawer_top": link}
+        links |= {p.id: link if link == "slide" else p.id for p in SIDE_BY_SIDE}
+        parts = [replace(p, source=PartSource(p.source.name, link=links[p.id])) for p in parts]
+    cases = {name for name, label in labels(replace(scene(*parts), kind="urdf")).items() if label is PartLabel.MISC}
+    assert cases == ({"drawer_box", "drawer_top"} if holds else {"drawer_box"})

@@ -3,12 +3,13 @@
 What is called a drawer and holds drawers is a case, too, such as the bottom of a refrigerator.
 """
 
+from collections.abc import Sequence
 from typing import final
 
 import numpy as np
 
 from grafu.asset.body_link import body_link
-from grafu.asset.part import Asset
+from grafu.asset.part import Asset, Part
 from grafu.dataclass import dataclass
 from grafu.geometry.box import Box
 from grafu.geometry.config_checks import require_ratios
@@ -35,23 +36,33 @@ class NamedCaseConfig:
 
 
 def with_case_label(asset: Asset, config: NamedCaseConfig = NamedCaseConfig()) -> Asset:
-    """Returns the asset in which a part that holds drawers is none, whatever its name; else itself.
+    """Returns the asset in which parts that hold drawers are none, whatever their names; else itself.
 
-    Where every part is called a drawer, it holds all others: something has to stay, without it none of them could move.
-    Else it holds two at least, or, on the link of the body of a robot, one of another link.
+    Where every part is called a drawer, the largest holds all others: something has to stay, without it none of them
+    could move. Else a case holds two at least, or, on the link of the body of a robot, one of another link. Beside the
+    largest one there may be others, such as that of the trays in a refrigerator; those of a robot are on that link.
     """
     parts = [part for part in asset.parts if part.label is not PartLabel.HANDLE]
     drawers = [part for part in parts if part.label is PartLabel.DRAWER and part.labelled_by == "name"]
     if len(drawers) < 2:
         return asset
-    body, case = body_link(asset), max(drawers, key=lambda part: float(np.prod(part.box.size)))
-    held = [part for part in drawers if part is not case and _is_in(part.box, case.box, config)]
+    body, largest = body_link(asset), max(drawers, key=lambda part: float(np.prod(part.box.size)))
+    held = {case.id: [p for p in drawers if p is not case and _is_in(p.box, case.box, config)] for case in drawers}
     if len(drawers) == len(parts):
-        is_case = len(held) == len(drawers) - 1
+        cases = [largest.id] if len(held[largest.id]) == len(drawers) - 1 else []
     else:
-        is_of_body = bool(body) and case.source.link == body
-        is_case = len(held) > 1 or (is_of_body and any(part.source.link != body for part in held))
-    return relabelled(asset, {case.id: PartLabel.MISC}) if is_case else asset
+        cases = [c.id for c in drawers if _holds_enough(c, held[c.id], body) and (c is largest or _stays(c, body))]
+    return relabelled(asset, dict.fromkeys(cases, PartLabel.MISC)) if cases else asset
+
+
+def _holds_enough(case: Part, held: Sequence[Part], body: str) -> bool:
+    apart = [part for part in held if part.source.link != body]
+    return len(held) > 1 or (bool(body) and case.source.link == body and bool(apart))
+
+
+def _stays(case: Part, body: str) -> bool:
+    """Whether no link of its own tells that a part moves."""
+    return not body or case.source.link == body
 
 
 def _is_in(drawer: Box, case: Box, config: NamedCaseConfig) -> bool:
