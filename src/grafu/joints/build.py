@@ -198,11 +198,10 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     scene, lap = _at_rest(request, scene, search.axis, search.reach, config)
     search = (drawer_search(request, scene, config) or search) if lap else search
     clearances = lap
-    ratio = search.free_ratio()
-    if ratio < 1.0:
+    if (ratio := search.free_ratio()) < 1.0:
         cleared = make_clearance(scene, _path(request, scene, search.axis, search.reach), config)
         again = drawer_search(request, cleared.scene, config)
-        if again is not None and again.free_ratio() > ratio:
+        if again is not None and _is_freer(again, search, ratio):
             search, scene, clearances = again, cleared.scene, (*lap, *cleared.clearances)
     placement = _guided(search, gallery)
     found = (placement, scene, clearances) if placement else _with_play(search, gallery, clearances)
@@ -213,6 +212,11 @@ def _build_drawer(request: JointRequest, scene: Scene, gallery: Gallery, config:
     if found is None:
         return _skipped(request, search.free_ratio(), scene, config)
     return _built(request, found, request.reference or search.wanted)
+
+
+def _is_freer(again: DrawerSearch, search: DrawerSearch, ratio: float) -> bool:
+    """Whether a drawer slides farther than `ratio`, as before, or meets less at rest: a rail beside it may be left."""
+    return again.free_ratio() > ratio or set(again.met_at_rest()) < set(search.met_at_rest())
 
 
 def _guided(search: DrawerSearch, gallery: Gallery) -> Placement | None:
@@ -227,6 +231,7 @@ def _with_play(search: DrawerSearch, gallery: Gallery, clearances: tuple[Clearan
     request, scene, config = search.request, search.scene, search.config
     if config.trim:
         walls = [o.id for o in scene.static_obstacles.near(search.mesh.box, config.clearance.beside)]
+        walls += [o.id for o in scene.static_hardware.near(search.mesh.box, 0.0)]  # of a neighbour without a gap
         path = _path(request, scene, search.axis, search.reach)
         cleared, trimmed = trim(scene, path, walls, config, touching=True)
         again = drawer_search(request, cleared, config) if trimmed else None

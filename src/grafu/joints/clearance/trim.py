@@ -151,6 +151,7 @@ def trim(
 ) -> tuple[Scene, list[Clearance]]:
     """Returns the scene with the moving part's pieces pressed back where they cut into static pieces.
 
+    `ids` are those of static parts, and of static hardware that is installed: the rails of a drawer right beside.
     With `touching`, also where they merely touch: a drawer without any play leaves no room for rails. With `at_back`,
     the back of a door by more than its other sides.
     """
@@ -162,7 +163,8 @@ def trim(
     back = _back_of(part, path) if at_back else None
     limits = _Limits(most, hidden, front, back, config.max_back_trim, thinnest, config.kept)
     play = config.clearance.play * config.depth * scene.extent
-    boxes = [part_boxes(scene.parts[name].mesh, path.axes) for name in ids]
+    hardware = {visual.name: visual for owner, visual in scene.hardware if not owner}
+    boxes = [part_boxes((scene.parts.get(name) or hardware[name]).mesh, path.axes) for name in ids]
     theirs = np.concatenate([np.zeros((0, 2, 3)), *boxes])
     near = config.clearance.touching * play if touching else 0.0
     depth = 0.0
