@@ -35,6 +35,12 @@ def test_a_door_that_tells_nothing_follows_the_one_above_it():
     assert agreed((door("low", 0.0), 0.2), (door("up", 0.61), 0.51)) == {"low": RIGHT, "up": RIGHT}
 
 
+def test_a_column_that_tells_nothing_hangs_on_the_right():
+    assert agreed((door("low", 0.0), 0.53), (door("up", 0.61), 0.52)) == {"low": RIGHT, "up": RIGHT}
+    assert agreed((door("low", 0.0), 0.53), (door("up", 0.61), 0.6)) == {"low": LEFT, "up": LEFT}
+    assert agreed((door("alone", 0.0), 0.53)) == {"alone": LEFT}
+
+
 def test_doors_that_are_sure_keep_their_sides():
     assert agreed((door("low", 0.0), 0.97), (door("up", 0.61), 0.03)) == {"low": LEFT, "up": RIGHT}
 
@@ -64,9 +70,11 @@ def test_unsure_doors_follow_the_surest_whatever_the_order(alone):
     assert all(np.array_equal(a, factors[k]) for k, a in agreed_borders(doors[::-1], seen).items())
     sureness = [max(left, 1.0 - left) for left in alone]
     assume(sorted(sureness)[-1] > sorted(sureness)[-2])
-    leading = LEFT if alone[int(np.argmax(sureness))] > 0.5 else RIGHT
+    assume(abs(max(sureness) - min(1.0 - s for s in sureness) - CONFIG.tied) > 1e-6)
+    is_tied = max(sureness) - min(1.0 - s for s in sureness) < CONFIG.tied
+    leading = LEFT if alone[int(np.argmax(sureness))] > 0.5 and not is_tied else RIGHT
     for k, left in enumerate(alone):
-        follows = sureness[k] < CONFIG.unsure and sureness[k] < max(sureness)
+        follows = sureness[k] < CONFIG.unsure and (is_tied or sureness[k] < max(sureness))
         own = LEFT if left >= 0.5 else RIGHT
         chosen = int(np.argmax(seen[f"d{k}"] * factors.get(f"d{k}", 1.0)))
         assert chosen == (leading if follows else own)

@@ -18,8 +18,8 @@ def agreed_borders(
 ) -> dict[str, Scalars]:
     """Returns 1 for each of the four borders that an unsure door of a column may take, and 0 for the side it does not.
 
-    `borders` are the probabilities of the four borders, each door seen for itself. The unsure door follows the surest
-    one of its column.
+    `borders` are the probabilities of the four borders, each door seen for itself; doors look to -Y. The unsure door
+    follows the surest one of its column; where that tells nothing either, the column hangs on the right.
     """
     found: dict[str, Scalars] = {}
     for column in _columns([door for door in doors if door.box.thin_axis != 2], config):
@@ -27,9 +27,10 @@ def agreed_borders(
         alone = np.array([borders[door.id][list(side)] for door, side in zip(column, sides, strict=True)])
         alone = np.maximum(alone, _LEAST) / np.maximum(alone, _LEAST).sum(axis=1, keepdims=True)
         surest = int(np.argmax(alone.max(axis=1)))
-        other = 1 - int(np.argmax(alone[surest]))
+        is_tied = float(np.ptp(alone[surest])) <= config.tied
+        other = 0 if is_tied else 1 - int(np.argmax(alone[surest]))
         for k, (door, side) in enumerate(zip(column, sides, strict=True)):
-            if k != surest and alone[k].max() < config.unsure:
+            if (k != surest or is_tied) and alone[k].max() < config.unsure:
                 found[door.id] = np.ones(4)
                 found[door.id][side[other]] = 0.0
     return found

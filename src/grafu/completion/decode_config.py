@@ -31,6 +31,9 @@ class ColumnConfig(ShortRepr):
     unsure: float = 0.75
     """A door whose likelier side is less likely than this, of both sides, takes that of the surest one of its column.
     Of 56 such pairs of doors of synthetic furniture 54 hang on one side (900 pieces)."""
+    tied: float = 0.1
+    """A column whose surest door does not prefer a side by more than this, of both sides, hangs on the right: so are
+    refrigerators delivered, which often have a grip across the whole width."""
     aligned: float = 0.05
     """How far their sides, and their planes, are apart at most (fraction of the width)."""
     between: float = 0.25
