@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grafu.geometry import shells
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.shells import shell_numbers
+from grafu.geometry.shells import _given_to_most, shell_numbers
 from strategies import cabinet_specs, made
 
 UNIT = Box(np.zeros(3), np.ones(3))
@@ -106,3 +107,54 @@ def test_equal_meshes_are_sorted_into_shells_once():
     moved = TriangleMesh(mesh.vertices + [0.0, 0.0, 1e-3] * (np.arange(16)[:, None] >= 8), mesh.faces)
     assert shell_numbers(moved) is not shell_numbers(mesh)
     assert shell_numbers(mesh, cube(4)).max() == 2
+
+
+def given_plainly(at: np.ndarray, edge: np.ndarray, is_cap: np.ndarray) -> np.ndarray:
+    """One cap after the other, as `_given_to_most` states it."""
+    given = np.arange(len(is_cap))
+    for cap in np.flatnonzero(is_cap):
+        around = at[np.isin(edge, edge[at == cap]) & ~is_cap[at]]
+        given[cap] = np.bincount(around).argmax() if len(around) else cap
+    return given
+
+
+@given(st.data())
+def test_caps_go_where_one_after_the_other_would(data):
+    shells = data.draw(st.lists(st.booleans(), min_size=1, max_size=8))
+    sides = data.draw(st.lists(st.tuples(st.integers(0, len(shells) - 1), st.integers(0, 9)), max_size=40))
+    at, edge = np.array(sides, dtype=np.int64).reshape(-1, 2).T
+    is_cap = np.array(shells)
+    assert np.array_equal(_given_to_most(at, edge, is_cap), given_plainly(at, edge, is_cap))
+
+
+def several_bodies(count: int) -> list[TriangleMesh]:
+    """Meshes of one to three boxes each, some of which touch, one without faces among them."""
+    rng = np.random.default_rng(count)
+    bodies = []
+    for _ in range(count):
+        corners = rng.integers(0, 3, (int(rng.integers(1, 4)), 3)).astype(float)
+        bodies.append(merge_meshes([TriangleMesh.box_mesh(Box(low, low + 1.0)) for low in corners]))
+    return [*bodies, TriangleMesh(np.zeros((1, 3)), np.zeros((0, 3), np.int64)), *bodies[:1]]
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 9])
+def test_numbers_are_the_same_whether_large_meshes_are_numbered_by_themselves_or_not(count, monkeypatch):
+    monkeypatch.setattr(shells, "_LARGE", 20)
+    meshes = several_bodies(count)
+    assert np.array_equal(shell_numbers(*meshes), shells._numbers_of(meshes))
+
+
+def test_a_large_mesh_is_numbered_once_whatever_is_beside_it(monkeypatch):
+    large = merge_meshes([TriangleMesh.box_mesh(Box(np.full(3, 1.0 * k), np.full(3, k + 0.5))) for k in range(200)])
+    small = TriangleMesh.box_mesh(Box(np.zeros(3), np.full(3, 0.123)))
+    asked, number = list[int](), shells._numbers_of
+
+    def noted(meshes):
+        asked.extend(len(mesh.faces) for mesh in meshes)
+        return number(meshes)
+
+    monkeypatch.setattr(shells, "_numbers_of", noted)
+    alone, beside = shell_numbers(large), shell_numbers(small, large)
+    assert beside.tolist() == [0] * 12 + (alone + 1).tolist()
+    assert shell_numbers(large, small, large).max() == 400
+    assert asked == [2400, 12]

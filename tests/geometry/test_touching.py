@@ -1,5 +1,7 @@
 """The quick road to contacts against the plain one: the distance of all triangles."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,7 +11,7 @@ from grafu.geometry.box import Box
 from grafu.geometry.budget import Budget
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
-from grafu.geometry.touching import near_pairs, touching_pairs
+from grafu.geometry.touching import batches, near_pairs, touching_pairs
 from grafu.geometry.transform import from_rotation, rotation_matrix
 from grafu.synth.samples import KINDS
 
@@ -119,3 +121,24 @@ def test_boxes_in_a_row_are_swept_along_it_whichever_way_it_runs(axis):
     with Budget(room=5_000_000).in_force():
         found = near_pairs([Box(low, high) for low, high in ends], 0.001)
     assert found == [(k, k + 1) for k in range(999)]
+
+
+def test_boxes_that_all_overlap_along_each_axis_are_looked_at_in_batches(monkeypatch):
+    """Of boxes on a sphere each overlaps hundreds along X, Y and Z: only pairs that are near are kept."""
+    monkeypatch.setattr("grafu.geometry.touching._AT_ONCE", 10_000)
+    points = np.random.default_rng(2).normal(size=(1500, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    gaps = np.abs(points[:, None] - points[None]).max(axis=2) - 0.02
+    expected = [(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= 0.001, 1))]
+    with Budget(room=3_000_000).in_force():
+        found = near_pairs([Box(p - 0.01, p + 0.01) for p in points], 0.001)
+    assert found == expected
+    assert len(found) > 100
+
+
+@pytest.mark.parametrize("counts", [(), (0,), (3, 3, 3), (0, 9, 0, 0), (1, 20, 2, 7, 0)])
+def test_batches_hold_all_and_no_more_than_fits_but_for_one(counts):
+    rows = batches(np.array(counts, dtype=np.int64), 7)
+    assert [rows[0][0], rows[-1][1]] == [0, len(counts)]
+    assert all(end == start for (_, end), (start, _) in pairwise(rows))
+    assert all(sum(counts[a:b]) <= 7 or b == a + 1 for a, b in rows)

@@ -8,9 +8,10 @@ import pytest
 from grafu.articulation.articulated_object import ArticulatedObject
 from grafu.geometry.arrays import vec3
 from grafu.geometry.axis import Axis
+from grafu.joints import order
 from grafu.joints.config import RealizationConfig
 from grafu.joints.nesting import bodies_of
-from grafu.joints.order import BuiltJoint, order_joints
+from grafu.joints.order import BuiltJoint, Meetings, OpeningOrder, order_joints, stand_aside
 from grafu.joints.plan import JointRequest
 from grafu.metrics.collision import CollisionConfig, collision_shares
 from grafu.scene.scene import Scene
@@ -92,8 +93,8 @@ def test_order_is_never_circular():
                 del order[name]
 
 
-def stacked(opens: float):
-    """The order of a lid, which opens by so many degrees, and the seat below it, which would open further."""
+def stack(opens: float) -> tuple[list[BuiltJoint], Scene]:
+    """A lid, which opens by so many degrees, and the seat below it, which would open further."""
     pan = box("pan", (0.0, 0.0, 0.0), (0.4, 0.45, 0.4))
     seat = box("seat", (0.0, 0.0, 0.402), (0.4, 0.45, 0.42))
     lid = box("lid", (0.0, 0.0, 0.422), (0.4, 0.45, 0.44))
@@ -103,7 +104,31 @@ def stacked(opens: float):
     upper = {"lid": np.radians(opens), "seat": np.radians(90.0)}
     met = {"lid": (), "seat": ("lid",)}
     built = [BuiltJoint(n, pin.rotation, float(upper[n]), float(upper[n]), met[n]) for n in ("lid", "seat")]
-    return order_joints(built, moving, RealizationConfig())["seat"]
+    return built, moving
+
+
+def stacked(opens: float) -> OpeningOrder:
+    """The order of the seat."""
+    built, moving = stack(opens)
+    return order_joints(built, Meetings(moving), RealizationConfig())["seat"]
+
+
+def test_joints_that_were_swept_past_each_other_are_not_swept_again(monkeypatch):
+    asked, sweeps = list[str](), order._is_free_of
+    monkeypatch.setattr(order, "_is_free_of", lambda joint, *rest: asked.append(joint.moving) or sweeps(joint, *rest))
+    (lid, seat), moving = stack(80.0)
+    meetings, config = Meetings(moving), RealizationConfig()
+
+    def ordered(*joints: BuiltJoint) -> dict[str, OpeningOrder]:
+        return stand_aside(order_joints(joints, meetings, config), joints, meetings, config)
+
+    first, before = ordered(lid, seat), len(asked)
+    assert ordered(lid, seat) == first
+    assert len(asked) == before > 0
+    wider = replace(lid, upper=lid.upper + 0.1)
+    assert ordered(wider, seat) == stand_aside(
+        order_joints([wider, seat], Meetings(moving), config), [wider, seat], Meetings(moving), config
+    )
 
 
 def test_a_seat_opens_after_its_lid_and_as_far_as_that():

@@ -4,14 +4,17 @@ from dataclasses import replace
 
 import pytest
 
+from clocks import Clock
 from grafu.asset.part import Asset, Part
 from grafu.completion.static_guesses import StaticGuessConfig
+from grafu.geometry.budget import UNLIMITED, Budget, present_budget, require_time
 from grafu.graph.completion import Decision, GraphCompletion
 from grafu.graph.edges import Attached, Rail
 from grafu.graph.edit import relabelled, with_edges
 from grafu.graph.parse import parse_graph
 from grafu.joints.motion_choice import MotionChoice, Moves
 from grafu.joints.report import Installed
+from grafu.pipeline import joint_stages
 from grafu.pipeline.colliding_guesses import blocked_guesses, colliding_guesses
 from grafu.pipeline.functionalize import Functionalized, functionalize
 from grafu.pipeline.motion_source import MotionSource
@@ -53,11 +56,12 @@ def chest() -> list[Part]:
     return parts
 
 
-def made(parts: list[Part], **motions: MotionChoice) -> Functionalized:
+def made(parts: list[Part], budget: Budget = UNLIMITED, **motions: MotionChoice) -> Functionalized:
     """Returns nameless parts as the network makes them work."""
     nameless = tuple(replace(part, label=PartLabel.UNKNOWN, labelled_by="none") for part in parts)
     config = PipelineConfig(Settings(motions=motions))
-    return functionalize(Asset("made", "", "made", nameless), MotionSource.AUTO, builtin_gallery(), config)
+    whole = Asset("made", "", "made", nameless)
+    return functionalize(whole, MotionSource.AUTO, builtin_gallery(), config, budget=budget)
 
 
 @pytest.fixture(scope="module", name="seat")
@@ -145,3 +149,24 @@ def test_a_guess_that_nothing_lets_move_is_doubted(reason, handle, is_doubted):
     assert bool(found) is is_doubted
     assert all(r.reason is Reason.UNLIKELY and r.why.endswith(", but nothing lets it") for r in found)
     assert not tuple(blocked_guesses(completion, [Refusal("drawer", reason, "nothing lets it")], {"drawer"}))
+
+
+def test_joints_stay_where_there_is_no_time_to_build_them_without_those_that_collide(monkeypatch):
+    """What was built is delivered: the second turn, in which a guess stays, must not cost all joints theirs."""
+    clock, turns = Clock(), list[int]()
+
+    def slow_the_second_time(*given):
+        turns.append(len(given))
+        if len(turns) == 2:
+            clock.now = present_budget().deadline
+            require_time()
+        return build(*given)
+
+    build = joint_stages.realize
+    monkeypatch.setattr(joint_stages, "realize", slow_the_second_time)
+    monkeypatch.setattr(joint_stages, "colliding_guesses", lambda made, joints, settled: [(joints[0].moving, "cuts")])
+    monkeypatch.setattr(joint_stages, "with_static", lambda completion, doubtful: completion)
+    found = made(chest(), budget=Budget.lasting(1e6, clock=clock))
+    assert len(turns) == 2
+    assert len(found.object.joints) == 3
+    assert found.notes == ("guesses that cut into other parts still move: no time was left for 3 joints",)

@@ -121,3 +121,22 @@ def test_more_parts_than_the_network_holds_are_left_to_the_rule(asset: Asset) ->
         f"motions come from the rule: the network's forward pass over {len(bare.parts)} parts"
     )
     assert {joint.child for joint in found.object.joints} == {DOOR, DRAWER}
+
+
+def test_a_joint_that_took_more_than_its_fraction_is_built_in_what_the_others_left(
+    asset: Asset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock, tries = Clock(), list[str]()
+
+    def slow_at_first(request, *rest):
+        tries.append(request.moving)
+        if tries == [DOOR]:
+            clock.now = present_budget().deadline
+        return build(request, *rest)
+
+    build = build_all.build_joint
+    monkeypatch.setattr(build_all, "build_joint", slow_at_first)
+    found = run(asset, Budget.lasting(120.0, clock=clock))
+    assert tries == [DOOR, DRAWER, DOOR]
+    assert {joint.child for joint in found.object.joints} == {DOOR, DRAWER}
+    assert not too_complex(found)

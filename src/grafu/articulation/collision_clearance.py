@@ -10,6 +10,7 @@ from typing import final
 import numpy as np
 
 from grafu.articulation.articulated_object import ArticulatedObject, Joint
+from grafu.articulation.collision_paths import JointPath, ShapeRows
 from grafu.articulation.collision_shapes import CollisionShape, ShapeBody, corners_of, extent_of
 from grafu.articulation.kinematics import REST, link_poses
 from grafu.articulation.sweep import ratios_of_range, rest_to_full, values_before
@@ -64,27 +65,6 @@ DEFAULT_CLEARANCE_CONFIG = ShapeClearanceConfig()
 
 @final
 @dataclass(frozen=True, slots=True)
-class _JointPath:
-    """One joint's path from rest to full.
-
-    `Ts_object_carried` are the poses of each link that moves with it, (poses, 4, 4); `T_object_still` is where every
-    other link stands meanwhile, links at rest left out; `Ts_object_coupled` are the poses of links that it does not
-    carry and that move as well, for they are coupled.
-    """
-
-    Ts_object_carried: Mapping[str, np.ndarray]
-    T_object_still: Mapping[str, Mat4]
-    Ts_object_coupled: Mapping[str, np.ndarray]
-
-    def pose_of_other(self, link: str, pose: int) -> Mat4:
-        """Returns the pose of a link that is not carried."""
-        if link in self.Ts_object_coupled:
-            return np.asarray(self.Ts_object_coupled[link][pose])
-        return self.T_object_still.get(link, REST)
-
-
-@final
-@dataclass(frozen=True, slots=True)
 class _Conflict:
     """Two bodies that meet, and the pose of the second against the first in each pose where they do.
 
@@ -110,7 +90,8 @@ def cleared(
     motions = [_motion(articulated, joint, config) for joint in articulated.moving_joints]
     settled: frozenset[ShapeBody] = frozenset()
     for left in reversed(range(config.rounds)):
-        conflicts = [found for motion in motions for found in _conflicts(motion, bodies, settled, articulated.root)]
+        rows = ShapeRows.of(bodies)
+        conflicts = [found for motion in motions for found in _conflicts(motion, rows, settled, articulated.root)]
         if not conflicts:
             break
         settled = frozenset(bodies)
@@ -118,7 +99,7 @@ def cleared(
     return {link: tuple(body.shape for body in bodies if body.link == link) for link in shapes}
 
 
-def _motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearanceConfig) -> _JointPath:
+def _motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearanceConfig) -> JointPath:
     """Returns the path of a joint: what hangs on it moves as one body with its child, unless joints are coupled."""
     if any(articulated.leader_of(other) is articulated.leader_of(joint) for other in _others(articulated, joint)):
         return _coupled_motion(articulated, joint, config)
@@ -128,14 +109,14 @@ def _motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearance
     Ts = np.stack([T_object_parent @ joint.motion(float(value)) @ T_child_object for value in values])
     carried = _carried(articulated, joint)
     still = {link: T for link, T in start.items() if link not in carried and T is not REST}
-    return _JointPath({link: Ts @ start[link] for link in carried}, still, {})
+    return JointPath({link: Ts @ start[link] for link in carried}, still, {})
 
 
 def _others(articulated: ArticulatedObject, joint: Joint) -> list[Joint]:
     return [other for other in articulated.moving_joints if other is not joint]
 
 
-def _coupled_motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearanceConfig) -> _JointPath:
+def _coupled_motion(articulated: ArticulatedObject, joint: Joint, config: ShapeClearanceConfig) -> JointPath:
     """Returns the path of a joint that moves together with others."""
     values = rest_to_full(articulated, joint.id, config.poses, config.crowding)
     frames = [link_poses(articulated, at) for at in values]
@@ -143,7 +124,7 @@ def _coupled_motion(articulated: ArticulatedObject, joint: Joint, config: ShapeC
     carried = _carried(articulated, joint)
     others = {link: Ts_link for link, Ts_link in Ts.items() if link not in carried}
     moved = {link: Ts_link for link, Ts_link in others.items() if not np.allclose(Ts_link, REST)}
-    return _JointPath({link: Ts[link] for link in carried}, {}, moved)
+    return JointPath({link: Ts[link] for link in carried}, {}, moved)
 
 
 def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
@@ -155,15 +136,12 @@ def _carried(articulated: ArticulatedObject, joint: Joint) -> set[str]:
     return found
 
 
-def _conflicts(
-    motion: _JointPath, bodies: list[ShapeBody], settled: frozenset[ShapeBody], root: str
-) -> Iterator[_Conflict]:
+def _conflicts(motion: JointPath, rows: ShapeRows, settled: frozenset[ShapeBody], root: str) -> Iterator[_Conflict]:
     """Yields the pairs that meet along one joint's path, except those of which both are settled: they were tested."""
-    moving = [body for body in bodies if body.link in motion.Ts_object_carried]
-    still = [body for body in bodies if body.link not in motion.Ts_object_carried]
+    moving, still, meetings = rows.near(motion)
     met: dict[tuple[ShapeBody, ShapeBody], list[Mat4]] = {}
     require_time()
-    for pose, a, b in _near(motion, moving, still):
+    for pose, a, b in meetings:
         require_time()
         body, other = moving[a], still[b]
         if body in settled and other in settled:
@@ -176,31 +154,6 @@ def _conflicts(
             met.setdefault((body, other), []).append(invert(T_object_body) @ T_object_other)
     for (body, other), Ts in met.items():
         yield _Conflict(body, other, other.link != root, tuple(Ts))
-
-
-def _near(motion: _JointPath, moving: list[ShapeBody], still: list[ShapeBody]) -> np.ndarray:
-    """Returns the rows (pose, moving body, still body) in which the bounds of the two overlap, in that order."""
-    if not moving or not still:
-        return np.zeros((0, 3), dtype=np.int64)
-    a = np.stack([body.bounds_at(motion.Ts_object_carried[body.link]) for body in moving], axis=1)[:, :, None]
-    low, high = a[..., 0, :].min(axis=(0, 1, 2)), a[..., 1, :].max(axis=(0, 1, 2))  # of the whole motion
-    others = [_bounds_of_other(motion, body) for body in still]
-    swept = np.array([(at[..., 0, :].min(axis=0), at[..., 1, :].max(axis=0)) if at.ndim > 2 else at for at in others])
-    near = np.flatnonzero(np.all((swept[:, 0] <= high) & (swept[:, 1] >= low), axis=1))
-    if not len(near):
-        return np.zeros((0, 3), dtype=np.int64)
-    b = np.stack([np.broadcast_to(others[k], (len(a), 2, 3)) for k in near], axis=1)[:, None]
-    rows = np.argwhere(np.all((a[..., 0, :] <= b[..., 1, :]) & (b[..., 0, :] <= a[..., 1, :]), axis=-1))
-    rows[:, 2] = near[rows[:, 2]]
-    return rows
-
-
-def _bounds_of_other(motion: _JointPath, body: ShapeBody) -> np.ndarray:
-    """Returns the bounds of a body that is not carried, (2, 3), or in each pose, (poses, 2, 3)."""
-    if body.link in motion.Ts_object_coupled:
-        return body.bounds_at(motion.Ts_object_coupled[body.link])
-    T = motion.T_object_still.get(body.link)
-    return body.bounds if T is None else body.bounds_at(T[None])[0]
 
 
 def _resolved(

@@ -91,12 +91,20 @@ class Facing:
     def _normals(self) -> Points:
         return self._mesh.face_normals
 
+    @cached_property
+    def _ends(self) -> tuple[Points, Points]:
+        """The lowest and highest corners of the boxes around the surfaces."""
+        boxes = [mesh.box for mesh in self._meshes]
+        return np.reshape([b.low for b in boxes], (-1, 3)), np.reshape([b.high for b in boxes], (-1, 3))
+
     def near(self, box: Box) -> RayCaster:
         """Returns the faces whose boxes meet a box, for rays of which nothing is asked beyond it.
 
         It may return more: all, where these are prepared, or what is near so many places takes longer than they do.
         """
-        looked_at = [mesh for mesh in self._meshes if mesh.box.overlaps(box)]
+        lows, highs = self._ends
+        meets = np.all((lows <= box.high) & (highs >= box.low), axis=1)
+        looked_at = [self._meshes[k] for k in np.flatnonzero(meets).tolist()]
         self._left -= sum(len(mesh.faces) for mesh in looked_at) // _LOOKED_AT
         if "caster" in self.__dict__ or self._left <= 0:
             return self.caster

@@ -54,12 +54,12 @@ def _corner_normals(surface: Surface, crease_angle: float) -> CornerNormals:
     mesh = surface.mesh
     if surface.normals is not None:
         return CornerNormals(_mended(surface.normals, mesh), np.asarray(mesh.faces))
-    groups, corner_group = _smooth_groups(mesh, crease_angle)
-    weights = _corner_angles(mesh).ravel()
-    flat = np.repeat(mesh.face_normals, 3, axis=0) * weights[:, None]
-    summed = np.column_stack([np.bincount(corner_group, flat[:, k], groups) for k in range(3)])
+    flat = mesh.face_normals  # once: a large mesh does not keep them
+    groups, corner_group = _smooth_groups(mesh, flat, crease_angle)
+    weights, flat = _corner_angles(mesh).ravel(), np.repeat(flat, 3, axis=0)
+    summed = np.column_stack([np.bincount(corner_group, flat[:, k] * weights, groups) for k in range(3)])
     fallback = np.zeros((groups, 3))
-    fallback[corner_group] = np.repeat(mesh.face_normals, 3, axis=0)
+    fallback[corner_group] = flat
     return CornerNormals(_unit(summed, fallback), corner_group.reshape(-1, 3))
 
 
@@ -84,13 +84,13 @@ def _corner_angles(mesh: TriangleMesh) -> np.ndarray:
     return np.arctan2(across, np.einsum("fkd,fkd->fk", ahead, back))
 
 
-def _smooth_groups(mesh: TriangleMesh, crease_angle: float) -> tuple[int, Indices]:
+def _smooth_groups(mesh: TriangleMesh, normals: np.ndarray, crease_angle: float) -> tuple[int, Indices]:
     """Returns how many groups of corners share a normal, and the group of each corner (face by face)."""
     position = welded(mesh.vertices)[mesh.faces]
     start, end = position.ravel(), np.roll(position, -1, axis=1).ravel()
     low, high = np.minimum(start, end), np.maximum(start, end)
     order = np.argsort(low * (len(mesh.vertices) + 1) + high, kind="stable")
-    links = [_joined_corners(order, low, high, lag, mesh.face_normals, crease_angle) for lag in (1, 2, 3)]
+    links = [_joined_corners(order, low, high, lag, normals, crease_angle) for lag in (1, 2, 3)]
     a, b = (np.concatenate([link[k] for link in links]) for k in range(2))
     # a corner belongs to one position only: the two ends of an edge are joined each with its own partner
     first, second = _partners(a, b, start)

@@ -121,6 +121,12 @@ def without(numbers: Int[np.ndarray, " _"], others: Int[np.ndarray, " _"] | Sequ
     return numbers[~np.isin(numbers, others)]
 
 
+def counters(counts: Indices) -> Int[np.ndarray, " _"]:
+    """Returns 0..count-1 for each count, one after the other."""
+    starts = np.repeat(np.cumsum(counts) - counts, counts)
+    return np.arange(len(starts)) - starts
+
+
 def first_of_each(keys: Integer[np.ndarray, " n"]) -> tuple[Int[np.ndarray, " m"], Indices]:
     """Returns where each distinct key comes first, by rising keys, and for each key the number of its like.
 

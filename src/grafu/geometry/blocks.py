@@ -11,7 +11,7 @@ from weakref import finalize
 import fcl
 import numpy as np
 
-from grafu.geometry.arrays import Mat3, Points, Vec3
+from grafu.geometry.arrays import Mat3, Points, Vec3, renumbered
 from grafu.geometry.bvh import MeshTree, model_of, next_number
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.shapes import Float, Int
@@ -38,8 +38,8 @@ class MeshBlocks:
     def tree(self, block: int) -> MeshTree:
         """Returns the BVH of a block, built when first asked for."""
         if block not in self._made:
-            corners, used = np.unique(self._corners[self.faces[block]], return_inverse=True)
-            self._made[block] = TriangleMesh(self._vertices[corners], used.reshape(-1, 3))
+            corners, used = renumbered(self._corners[self.faces[block]], len(self._vertices))
+            self._made[block] = TriangleMesh(self._vertices[corners], used)
         return model_of(self._made[block])
 
 

@@ -101,10 +101,13 @@ class Box(ArrayValue):
     def overlaps(self, other: "Box", margin: float = 0.0) -> bool:
         """Whether the two, one grown by `margin`, share a point."""
         # Plain numbers, as above: boxes are compared by the hundred thousand, too.
-        low, high, their_low, their_high = (at.tolist() for at in (self.low, self.high, other.low, other.high))
-        return all(
-            a - d <= margin and c - b <= margin for a, b, c, d in zip(low, high, their_low, their_high, strict=True)
-        )
+        a, b, c = self.low.tolist()
+        u, v, w = other.high.tolist()
+        if a - u > margin or b - v > margin or c - w > margin:
+            return False
+        a, b, c = self.high.tolist()
+        u, v, w = other.low.tolist()
+        return bool(u - a <= margin and v - b <= margin and w - c <= margin)
 
     def shared_volume(self, other: "Box") -> float:
         """Returns the volume that lies in both, cubic metres."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from grafu.geometry.arrays import Indices, frozen_array
+from grafu.geometry.arrays import Indices, counters, distinct, frozen_array
 from grafu.geometry.components import OF_PIECE, cells_of, edge_numbers, first_alike, linked
 from grafu.geometry.mesh import TriangleMesh, merge_meshes
 from grafu.geometry.remembered import RememberedByContent
@@ -12,7 +12,10 @@ from grafu.shapes import Bool, Int
 
 _REMEMBERED = 3_000_000  # faces whose numbers are kept by content: one stage after another asks for them. 24 MB
 _by_content: RememberedByContent[Indices] = RememberedByContent(_REMEMBERED)
+_LARGE = 2000  # faces: numbers of larger meshes are kept by themselves, and found again whatever is beside them
 _FLAT = 1e-6  # how far normals of one plane differ
+_OfFaces = Int[np.ndarray, " _"]
+_Sides = Int[np.ndarray, " sides"]
 _Edges = Int[np.ndarray, "n 3"]
 _Mask = Bool[np.ndarray, " n"]
 _OfEdges = Int[np.ndarray, " e"]
@@ -25,6 +28,23 @@ def shell_numbers(*meshes: TriangleMesh) -> Indices:
     Vertices within a millionth of the mesh's largest side are one. Faces belong together across edges that exactly two
     of them share, so bodies that have a corner or an edge in common are two shells; faces drawn twice count once.
     """
+    apart = [mesh for mesh in meshes if len(mesh.faces) > _LARGE] if len(meshes) > 1 else []
+    if not apart:
+        return _known_numbers(meshes)
+    small = [mesh for mesh in meshes if len(mesh.faces) <= _LARGE]
+    ends = np.cumsum([len(mesh.faces) for mesh in small])
+    parts = iter(np.split(_known_numbers(small), ends[:-1]) if small else ())
+    found, count = [], 0
+    for mesh in meshes:
+        own = _known_numbers([mesh]) if len(mesh.faces) > _LARGE else next(parts)
+        own = own - own.min() if len(own) else own  # those of a mesh follow on those of the mesh before
+        found.append(own + count)
+        count += int(own.max()) + 1 if len(own) else 0
+    return frozen_array(np.concatenate(found), np.int64)
+
+
+def _known_numbers(meshes: Sequence[TriangleMesh]) -> _OfFaces:
+    """Returns the same of meshes whose numbers are kept together."""
     faces = sum(len(mesh.faces) for mesh in meshes)
     if not faces:
         return np.zeros(0, np.int64)
@@ -76,9 +96,23 @@ def _with_caps(
     turned = np.abs(np.einsum("nk,nk->n", mesh.face_normals, mesh.face_normals[begins][shell]))
     np.logical_and.at(is_cap, shell, turned > 1 - _FLAT)
     is_cap &= bordered
-    at, edge = np.repeat(shell, 3)[loose.ravel()], edges[loose]
-    given = np.arange(len(is_cap))
-    for cap in np.flatnonzero(is_cap):
-        around = at[np.isin(edge, edge[at == cap]) & ~is_cap[at]]
-        given[cap] = np.bincount(around).argmax() if len(around) else cap
-    return given[shell]
+    return _given_to_most(np.repeat(shell, 3)[loose.ravel()], edges[loose], is_cap)[shell]
+
+
+def _given_to_most(at: _Sides, edge: _Sides, is_cap: _Mask) -> Indices:
+    """Returns for each shell itself, for each cap the other shell that has the most sides at its edges.
+
+    `at` and `edge` are the shell and the edge of each side of a face. Of several the first is taken.
+    """
+    count, given = len(is_cap), np.arange(len(is_cap))
+    caps, others = is_cap[at], ~is_cap[at]
+    rims = distinct(edge[caps] * count + at[caps])
+    sides = edge[others]
+    order = np.argsort(sides, kind="stable")
+    starts, ends = (np.searchsorted(sides[order], rims // count, side=side) for side in ("left", "right"))
+    met = at[others][order[np.repeat(starts, ends - starts) + counters(ends - starts)]]
+    pairs, number = np.unique(np.repeat(rims % count, ends - starts) * count + met, return_counts=True)
+    best = np.lexsort((pairs, -number, pairs // count))
+    cap, first = np.unique(pairs[best] // count, return_index=True)
+    given[cap] = pairs[best][first] % count
+    return given

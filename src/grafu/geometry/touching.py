@@ -12,9 +12,9 @@ from typing import final
 import numpy as np
 
 from grafu.dataclass import dataclass
-from grafu.geometry.arrays import Indices, Mask, Points, cross
+from grafu.geometry.arrays import Indices, Mask, Points, counters, cross
 from grafu.geometry.box import Box
-from grafu.geometry.budget import require_room
+from grafu.geometry.budget import require_room, require_time
 from grafu.geometry.intersection import MeshCollider
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 
@@ -26,8 +26,9 @@ _FEW = 100
 _MOST_FACES = 1000  # a mesh of more is rarely boards, and looking costs more than the triangles' own distance
 _MOST_PAIRS = 20_000  # of rectangles and corners between two meshes, likewise
 _EXACT = 1e-9  # metres by which a corner may miss its rectangle
-_LOOKED_AT = 200  # bytes of a pair that is looked at: its numbers and the corners of two boxes
+_AT_ONCE = 200_000  # pairs that are looked at at once: 200 bytes each, their numbers and the corners of two boxes
 _MOST_LOOKED_AT = 100_000  # pairs along X from which on the other axes are tried, too
+_FOUND = 32  # bytes of a pair that is found, as two numbers, and once more while batches are put together
 _JOINED = 800  # bytes of a pair that is found, until it is an edge of a graph
 
 
@@ -43,26 +44,50 @@ def near_pairs(boxes: list[Box], margin: float) -> list[tuple[int, int]]:
         return []
     first, second = near_ends(np.array([b.low for b in boxes]), np.array([b.high for b in boxes]), margin)
     require_room(len(first), _JOINED, f"the contacts of {len(boxes):,} parts")
-    found = np.sort(np.stack([first, second], axis=1), axis=1)
-    return sorted((int(i), int(j)) for i, j in found)
+    low, high = np.minimum(first, second), np.maximum(first, second)
+    order = np.lexsort((high, low))
+    return list(zip(low[order].tolist(), high[order].tolist(), strict=True))
 
 
 def near_ends(low: Points, high: Points, margin: float) -> tuple[np.ndarray, np.ndarray]:
     """Returns the indices of the first and of the second box of each such pair, in no order, from the boxes' ends.
 
+    Pairs are looked at in batches: only those that are near take memory.
+
     Raises:
-        TooComplex: if so many boxes overlap that their pairs do not fit into the budget.
+        TooComplex: if so many boxes overlap that their pairs do not fit into the budget, or time ends.
     """
     order, counts = _swept(low, high, margin, 0)
     if counts.sum() > _MOST_LOOKED_AT:  # a row along Y, or a stack, overlaps along X: another axis parts it
         others = ((order, counts), *(_swept(low, high, margin, axis) for axis in (1, 2)))
         order, counts = min(others, key=lambda found: int(found[1].sum()))
-    require_room(int(counts.sum()), _LOOKED_AT, f"looking at the neighbours of {len(low):,} parts")
-    first = np.repeat(np.arange(len(order)), counts)
-    second = first + 1 + counters(counts)
-    a, b = order[first], order[second]
-    near = np.all(np.maximum(low[a] - high[b], low[b] - high[a]) <= margin, axis=1)
-    return a[near], b[near]
+    found, total = [], 0
+    for start, end in batches(counts, _AT_ONCE):
+        first = np.repeat(np.arange(start, end), counts[start:end])
+        second = first + 1 + counters(counts[start:end])
+        a, b = order[first], order[second]
+        near = np.all(np.maximum(low[a] - high[b], low[b] - high[a]) <= margin, axis=1)
+        found.append((a[near], b[near]))
+        total += len(found[-1][0])
+        require_time()
+        require_room(total, _FOUND, f"the neighbours of {len(low):,} parts")
+    if len(found) == 1:
+        return found[0]
+    return np.concatenate([ends[0] for ends in found]), np.concatenate([ends[1] for ends in found])
+
+
+def batches(counts: Indices, most: int) -> list[tuple[int, int]]:
+    """Returns the first and the end of rows of things whose counts add up to `most` at most, or which are one thing.
+
+    There is one row at least, which may be empty.
+    """
+    before = np.concatenate([[0], np.cumsum(counts)])
+    rows, start = [], 0
+    while start < len(counts):
+        end = max(int(np.searchsorted(before, before[start] + most, side="right")) - 1, start + 1)
+        rows.append((start, end))
+        start = end
+    return rows or [(0, 0)]
 
 
 def _swept(low: Points, high: Points, margin: float, axis: int) -> tuple[Indices, Indices]:
@@ -74,28 +99,40 @@ def _swept(low: Points, high: Points, margin: float, axis: int) -> tuple[Indices
 
 def touching_pairs(meshes: Sequence[TriangleMesh], pairs: Pairs, tolerance: float) -> list[tuple[int, int]]:
     """Returns those of the pairs of meshes whose surfaces come within `tolerance` metres, in order."""
-    if not pairs:
-        return []
-    flats = _flats([mesh.triangles for mesh in meshes])
-    found, settled = _near_flats(flats, [mesh.box for mesh in meshes], np.array(pairs), tolerance)
-    parts: dict[int, _Triangles] = {}
-
-    def part(k: int) -> _Triangles:
-        if k not in parts:
-            parts[k] = _Triangles(meshes[k])
-        return parts[k]
-
-    return [
-        (a, b)
-        for (a, b), near, sure in zip(pairs, found.tolist(), settled.tolist(), strict=True)
-        if near or (not sure and _touch(part(a), part(b), tolerance))
-    ]
+    return TouchingMeshes(meshes, tolerance).among(pairs)
 
 
-def counters(counts: Indices) -> np.ndarray:
-    """Returns 0..count-1 for each count, one after the other."""
-    starts = np.repeat(np.cumsum(counts) - counts, counts)
-    return np.arange(len(starts)) - starts
+@final
+class TouchingMeshes:
+    """Meshes, prepared once to be asked again and again which of them come within `tolerance` metres; not a value."""
+
+    def __init__(self, meshes: Sequence[TriangleMesh], tolerance: float) -> None:
+        self._meshes, self._tolerance = meshes, tolerance
+        self._parts: dict[int, _Triangles] = {}
+
+    @cached_property
+    def _flat(self) -> "_Flats":
+        return _flats([mesh.triangles for mesh in self._meshes])
+
+    @cached_property
+    def _boxes(self) -> list[Box]:
+        return [mesh.box for mesh in self._meshes]
+
+    def among(self, pairs: Pairs) -> list[tuple[int, int]]:
+        """Returns those of the pairs whose surfaces come so near, in order."""
+        if not pairs:
+            return []
+        found, settled = _near_flats(self._flat, self._boxes, np.array(pairs), self._tolerance)
+        return [
+            (a, b)
+            for (a, b), near, sure in zip(pairs, found.tolist(), settled.tolist(), strict=True)
+            if near or (not sure and _touch(self._part(a), self._part(b), self._tolerance))
+        ]
+
+    def _part(self, k: int) -> "_Triangles":
+        if k not in self._parts:
+            self._parts[k] = _Triangles(self._meshes[k])
+        return self._parts[k]
 
 
 @final

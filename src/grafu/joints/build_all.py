@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from grafu.geometry.budget import present_budget, within
+from grafu.geometry.budget import has_time, present_budget, within
 from grafu.geometry.config_checks import at_scale
 from grafu.joints.build import Built, build_joint
 from grafu.joints.config import RealizationConfig
@@ -96,7 +96,25 @@ def build_fairly(
 def _build_all(
     requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Outcomes:
-    """Returns the joints built, those that were not, and the scene with all hardware."""
+    """Returns the joints built, those that were not, and the scene with all hardware.
+
+    What takes more than its fraction of the time is tried again at the end, in what the others left: small parts first,
+    as they take least.
+    """
+    built, skipped, scene = _build_each(requests, scene, gallery, config, cache)
+    late = {skip.part for skip in skipped if skip.reason is Reason.TOO_COMPLEX}
+    again = [request for request in requests if request.moving in late]
+    if not again or not has_time():
+        return built, skipped, scene
+    again.sort(key=lambda request: len(scene.moving_mesh(request.moving).faces))
+    more, lost, scene = _build_each(again, scene, gallery, config, cache)
+    return [*built, *more], [*(skip for skip in skipped if skip.part not in late), *lost], scene
+
+
+def _build_each(
+    requests: Sequence[JointRequest], scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
+) -> Outcomes:
+    """Returns the same of joints that are built in turn, each within its fraction of the time."""
     built: list[Built] = []
     skipped: list[Refusal] = []
     for k, request in enumerate(requests):
@@ -127,6 +145,10 @@ def _built(
     request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Built | Refusal:
     """Returns one joint, or why it could not be built; where all that it reads is the same, it is not built again."""
+    if (
+        not cache.keeps
+    ):  # the scene goes on with what is known of it: as a change of the old one it would be listed anew
+        return build_joint(request, scene, gallery, config)
 
     def work(noted: Scene) -> tuple[Built | Refusal, SceneChange | None]:
         outcome = build_joint(request, noted, gallery, config)

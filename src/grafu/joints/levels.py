@@ -23,7 +23,7 @@ from grafu.joints.coupled import Coupled
 from grafu.joints.fold_track import NO_TRACK, with_track
 from grafu.joints.measuring import Figures, Measured, measure_all
 from grafu.joints.nesting import above, brought_back, riding, seen_from
-from grafu.joints.order import BuiltJoint, OpeningOrder, order_joints, stand_aside
+from grafu.joints.order import BuiltJoint, Meetings, OpeningOrder, order_joints, stand_aside
 from grafu.joints.plan import JointRequest, MotionRole
 from grafu.joints.wide_doors import OrderedJoints, with_wide_doors
 from grafu.processes.cache import Cache
@@ -97,15 +97,16 @@ class Builder:
     def _level(self, requests: Sequence[JointRequest], scene: Scene) -> Measured:
         """Returns the joints of one body that were built, ordered and measured in its view."""
         built, failed, scene = build_fairly(requests, scene, self.gallery, self.config, self.cache)
-        order = partial(self._orders, scene)
+        order = partial(self._orders, scene, Meetings(scene))
         usual = OrderedJoints(tuple(built), order(built))
         wider = partial(with_wide_doors, usual, scene, self.gallery.at_scale(scene.metre), order, self.config)
         made = within(self.config.wide_doors.time, wider, lambda _: usual)
         measured = measure_all(made.built, made.orders, scene, self.config, self.cache)
         return replace(measured, skipped=(*failed, *measured.skipped))
 
-    def _orders(self, scene: Scene, built: Sequence[Built]) -> Mapping[str, OpeningOrder]:
-        order = partial(self.cache.value, "order", _orders, tuple(built), scene, self.config)
+    def _orders(self, scene: Scene, meetings: Meetings, built: Sequence[Built]) -> Mapping[str, OpeningOrder]:
+        work = partial(_orders, meetings)
+        order = partial(self.cache.value, "order", work, tuple(built), scene, self.config)
         return within(self.config.time.ordering, order, partial(_without_order, built))
 
     def _with_nested(self, levels: Levels, request: JointRequest) -> Levels:
@@ -238,9 +239,9 @@ def _joined(levels: Levels, moving: str, coupling: Coupling, upper: float) -> Le
     return replace(levels, orders=orders, couplings=couplings)
 
 
-def _orders(built: Sequence[Built], scene: Scene, config: RealizationConfig) -> dict[str, OpeningOrder]:
+def _orders(meetings: Meetings, built: Sequence[Built], _: Scene, config: RealizationConfig) -> dict[str, OpeningOrder]:
     movings = [_built_joint(b, config.hinge.usual_opening) for b in built]
-    return stand_aside(order_joints(movings, scene, config), movings, scene, config)
+    return stand_aside(order_joints(movings, meetings, config), movings, meetings, config)
 
 
 def _built_joint(built: Built, wide: float) -> BuiltJoint:

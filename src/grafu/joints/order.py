@@ -50,7 +50,66 @@ class OpeningOrder:
     note: str = ""
 
 
-def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig) -> dict[str, OpeningOrder]:
+@final
+class Meetings:
+    """What was found of each two joints of a scene at some openings, each worked out once; not a value.
+
+    It holds for the joints of one scene as long as they differ in nothing but how far they open.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self._boxes: dict[tuple[str, float], Box] = {}
+        self._beside: dict[tuple[str, float, str, float], float] = {}
+        self._until: dict[tuple[str, float, str], float] = {}
+        self._free: dict[tuple[str, float, str, float], bool] = {}
+
+    def path_box(self, joint: BuiltJoint, reach: float) -> Box:
+        """Returns the box around the path of a joint up to `reach`."""
+        key = joint.moving, reach
+        if key not in self._boxes:
+            require_time()
+            self._boxes[key] = swept_box(self.scene.moving_mesh(joint.moving).box, joint.motion, reach)
+        return self._boxes[key]
+
+    def beside_open(self, joint: BuiltJoint, other: BuiltJoint, config: RealizationConfig) -> float:
+        """Returns how far a moving body opens before it meets a neighbour that stands open: a seat, against its lid."""
+        key = joint.moving, joint.upper, other.moving, other.upper
+        if key not in self._beside:
+            self._beside[key] = _beside_open(joint, other, self.scene, config)
+        return self._beside[key]
+
+    def until(self, joint: BuiltJoint, name: str, config: RealizationConfig) -> float:
+        """Returns how far a moving body opens before it meets a neighbour that stays closed."""
+        key = joint.moving, joint.upper, name
+        if key not in self._until:
+            self._until[key] = _until(joint, self.scene.moving_mesh(name), self.scene, config)
+        return self._until[key]
+
+    def leaves_free(
+        self,
+        door: BuiltJoint,
+        upper: float,
+        reaches: Mapping[str, float],
+        joints: Sequence[BuiltJoint],
+        config: RealizationConfig,
+    ) -> bool:
+        """Whether no body that opens up to its reach hits a door that stands open by `upper`."""
+        scene, obstacle = self.scene, list[Obstacle]()
+        for other in (joint for joint in joints if joint is not door):
+            key = door.moving, upper, other.moving, reaches[other.moving]
+            if key not in self._free:
+                obstacle = obstacle or [_open(door, upper, scene)]
+                reach, met = key[3], in_the_way(obstacle, self.path_box(other, key[3]))
+                self._free[key] = not met or _is_free_of(other, reach, obstacle[0], scene, config)
+            if not self._free[key]:
+                return False
+        return True
+
+
+def order_joints(
+    joints: Sequence[BuiltJoint], meetings: Meetings, config: RealizationConfig
+) -> dict[str, OpeningOrder]:
     """Returns for each moving body the moving bodies that must be open first, and its opening."""
     by_id = {joint.moving: joint for joint in joints}
     orders: dict[str, OpeningOrder] = {}
@@ -60,10 +119,10 @@ def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: Realization
         for name in joint.in_way:
             other = by_id.get(name)
             waits_for_us = joint.moving in all_before(name, waits)
-            beyond = 0.0 if other is None or waits_for_us else _beside_open(joint, other, scene, config)
+            beyond = 0.0 if other is None or waits_for_us else meetings.beside_open(joint, other, config)
             until = joint.upper
             if beyond < config.restricted * joint.upper:
-                until = _until(joint, scene.moving_mesh(name), scene, config)
+                until = meetings.until(joint, name, config)
             waits_for = beyond >= config.restricted * joint.upper or (
                 beyond >= config.waits * joint.upper and until <= config.waits * beyond
             )
@@ -75,55 +134,21 @@ def order_joints(joints: Sequence[BuiltJoint], scene: Scene, config: Realization
 
 
 def stand_aside(
-    orders: Mapping[str, OpeningOrder], joints: Sequence[BuiltJoint], scene: Scene, config: RealizationConfig
+    orders: Mapping[str, OpeningOrder], joints: Sequence[BuiltJoint], meetings: Meetings, config: RealizationConfig
 ) -> dict[str, OpeningOrder]:
     """Returns the orders in which doors open no wider than leaves their open neighbours free, if they must.
 
     A door that blocks another however little it opens, down to its `least`, opens as wide as before.
     """
-    paths = _PathBoxes(scene)
     settled = {m.moving: orders[m.moving].upper for m in joints}
     reaches = settled | {m.moving: min(settled[m.moving], m.least) for m in joints}  # of doors to come: what they keep
     for door in joints:
         widest, least = settled[door.moving], reaches[door.moving]
         ratios = _RATIOS if least < widest else ()
         uppers = (least + ratio * (widest - least) for ratio in ratios)
-        found = (upper for upper in uppers if _leaves_free(door, upper, reaches, joints, paths, config))
+        found = (upper for upper in uppers if meetings.leaves_free(door, upper, reaches, joints, config))
         reaches[door.moving] = next(found, widest)
     return {name: replace(order, upper=reaches[name]) for name, order in orders.items()}
-
-
-@final
-class _PathBoxes:
-    """The boxes around the paths of joints, each worked out once; not a value."""
-
-    def __init__(self, scene: Scene) -> None:
-        self.scene = scene
-        self._boxes: dict[tuple[str, float], Box] = {}
-
-    def box(self, joint: BuiltJoint, reach: float) -> Box:
-        """Returns the box around the path of a joint up to `reach`."""
-        key = joint.moving, reach
-        if key not in self._boxes:
-            require_time()
-            self._boxes[key] = swept_box(self.scene.moving_mesh(joint.moving).box, joint.motion, reach)
-        return self._boxes[key]
-
-
-def _leaves_free(
-    door: BuiltJoint,
-    upper: float,
-    reaches: Mapping[str, float],
-    joints: Sequence[BuiltJoint],
-    paths: _PathBoxes,
-    config: RealizationConfig,
-) -> bool:
-    """Whether no body hits a door that stands open by `upper`."""
-    scene = paths.scene
-    obstacle = _open(door, upper, scene)
-    others = [(other, reaches[other.moving]) for other in joints if other is not door]
-    near = [(other, reach) for other, reach in others if in_the_way([obstacle], paths.box(other, reach))]
-    return all(_is_free_of(other, reach, obstacle, scene, config) for other, reach in near)
 
 
 def _open(other: BuiltJoint, upper: float, scene: Scene) -> Obstacle:

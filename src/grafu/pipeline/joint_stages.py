@@ -33,7 +33,7 @@ from grafu.pipeline.shown_by_shape import shown_by_shape
 from grafu.pipeline.stages import Stages, nothing_before_joints, without_joints
 from grafu.pipeline.turned_doors import turned_doors
 from grafu.processes.cache import Cache
-from grafu.refusal import Refusal
+from grafu.refusal import Reason, Refusal
 from grafu.templates.template import Gallery
 
 
@@ -106,7 +106,7 @@ class JointStages:
             return made
         settled = {*self.motions, *(name for fold in self.folds for name in fold.leaves)}
         doubtful = tuple(colliding_guesses(made.completion, made.realized.report.installed, settled))
-        made = self.built(with_static(made.completion, doubtful)) if doubtful else made
+        made = self._still(made, with_static(made.completion, doubtful)) if doubtful else made
         report = made.realized.report
         blocked = {refusal.part: refusal for refusal in blocked_guesses(made.completion, report.skipped, settled)}
         if not blocked:
@@ -114,6 +114,16 @@ class JointStages:
         outcomes = (blocked.get(o.part, o) if isinstance(o, Refusal) else o for o in report.outcomes)
         realized = replace(made.realized, report=replace(report, outcomes=tuple(outcomes)))
         return made._replace(completion=with_static(made.completion, tuple(blocked.values())), realized=realized)
+
+    def _still(self, made: BuiltJoints, completion: GraphCompletion) -> BuiltJoints:
+        """Returns the joints of a completion in which less moves; those that were made where time ends meanwhile."""
+        before, tried = self.stages.given_up(), self.built(completion)
+        lost = _too_complex(tried) - _too_complex(made)
+        if not lost:
+            return tried
+        self.stages.take_back(before)
+        self.stages.left_out(f"guesses that cut into other parts still move: no time was left for {len(lost)} joints")
+        return made
 
     def built(self, completion: GraphCompletion) -> BuiltJoints:
         """Returns the joints of a completion."""
@@ -137,3 +147,8 @@ class JointStages:
         build = partial(realize, plan, grown, self.gallery.preferring(settings.hinge), joints, self.cache)
         body, realized = without_idle(body, stages.timed("realize", build, partial(without_joints, plan, grown)))
         return BuiltJoints(completion, plan, turning, body, realized)
+
+
+def _too_complex(made: BuiltJoints) -> set[str]:
+    """Returns the parts whose joints there was no time for."""
+    return {refusal.part for refusal in made.realized.report.skipped if refusal.reason is Reason.TOO_COMPLEX}

@@ -128,6 +128,10 @@ class Stages:
         """Whether something else was done instead of a stage."""
         return name in self._given_up
 
+    def left_out(self, note: str) -> None:
+        """Notes what was not done, and why."""
+        self.notes.append(note)
+
     def given_up(self) -> tuple[tuple[str, ...], frozenset[str]]:
         """Returns the notes and the stages that were given up so far, for `take_back`."""
         return tuple(self.notes), frozenset(self._given_up)

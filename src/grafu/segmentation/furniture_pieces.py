@@ -17,7 +17,7 @@ from grafu.geometry.components import linked
 from grafu.geometry.config_checks import require_positive
 from grafu.geometry.mesh import TriangleMesh, triangle_bounds
 from grafu.geometry.shells import shell_numbers
-from grafu.geometry.touching import near_pairs, touching_pairs
+from grafu.geometry.touching import near_ends, near_pairs, touching_pairs
 
 FLOOR_OR_WALL: Final = -1
 ALONE: Final = -2
@@ -131,9 +131,11 @@ def _place(box: Box) -> tuple[float, ...]:
 
 def without_room(shells: SceneShells, config: FurnitureConfig, by_boxes: bool = False) -> Groups:
     """Returns the shells that touch, in groups, floors and walls left out; `by_boxes`: those whose boxes do."""
-    pairs = near_pairs([mesh.box for mesh in shells.meshes], config.touch)
-    found = pairs if by_boxes else touching_pairs(shells.meshes, pairs, config.touch)
-    touching = np.array(found, dtype=np.int64).reshape(-1, 2)
+    if by_boxes:
+        touching = np.stack(near_ends(shells.low, shells.high, config.touch), axis=1)
+    else:
+        pairs = near_pairs([mesh.box for mesh in shells.meshes], config.touch)
+        touching = np.array(touching_pairs(shells.meshes, pairs, config.touch), dtype=np.int64).reshape(-1, 2)
     room = _plates_of_room(shells, config)
     while True:
         groups = _groups(touching, ~room)

@@ -14,7 +14,7 @@ from grafu.geometry.arrays import Indices
 from grafu.geometry.box import Box
 from grafu.geometry.mesh import TriangleMesh
 from grafu.geometry.shells import shell_numbers
-from grafu.geometry.touching import touching_pairs
+from grafu.geometry.touching import TouchingMeshes
 from grafu.segmentation.candidates import candidates, framed, merged
 from grafu.segmentation.config import SegmentationConfig
 from grafu.segmentation.fronts import fronts_among
@@ -111,6 +111,7 @@ class _Contacts:
         self._meshes, self._reach, self._config = meshes, config.touch * size, config
         self._low = np.array([mesh.box.low for mesh in meshes])
         self._high = np.array([mesh.box.high for mesh in meshes])
+        self._touching = TouchingMeshes(meshes, self._reach)
         self._touched: dict[int, set[int]] = {}
 
     def hanging_together(self, front: _Front, may: MaskOfObjects) -> Group:
@@ -185,10 +186,10 @@ class _Contacts:
     def _of(self, k: int) -> set[int]:
         if k not in self._touched:
             gaps = np.maximum(self._low - self._high[k], self._low[k] - self._high).max(axis=1)
-            near = [k, *(other for other in np.flatnonzero(gaps <= self._reach).tolist() if other != k)]
-            pairs = [(0, at) for at in range(1, len(near))]
-            found = touching_pairs([self._meshes[other] for other in near], pairs, self._reach)
-            self._touched[k] = {near[at] for _, at in found}
+            near = {other for other in np.flatnonzero(gaps <= self._reach).tolist() if other != k}
+            known = {other for other in near if other in self._touched}
+            found = self._touching.among([(k, other) for other in sorted(near - known)])
+            self._touched[k] = {other for _, other in found} | {o for o in known if k in self._touched[o]}
         return self._touched[k]
 
 

@@ -14,7 +14,7 @@ from grafu.dataclass import dataclass
 from grafu.geometry.arrays import Mask, distinct, without
 from grafu.geometry.components import linked
 from grafu.geometry.config_checks import require_positive
-from grafu.geometry.touching import near_pairs
+from grafu.geometry.touching import near_ends
 from grafu.segmentation.furniture_pieces import (
     FurnitureConfig,
     Groups,
@@ -114,9 +114,7 @@ def _parted(shells: SceneShells, group: np.ndarray, config: ApartConfig) -> Grou
     """Returns what touches among some shells, in groups."""
     if not len(group):
         return []
-    pairs = near_pairs([shells.meshes[k].box for k in group.tolist()], config.touch)
-    ends = np.array(pairs, dtype=np.int64).reshape(-1, 2)
-    label = linked(len(group), ends[:, 0], ends[:, 1])
+    label = linked(len(group), *near_ends(shells.low[group], shells.high[group], config.touch))
     return [group[label == k] for k in distinct(label)]
 
 
