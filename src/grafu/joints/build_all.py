@@ -145,9 +145,7 @@ def _built(
     request: JointRequest, scene: Scene, gallery: Gallery, config: RealizationConfig, cache: Cache
 ) -> Built | Refusal:
     """Returns one joint, or why it could not be built; where all that it reads is the same, it is not built again."""
-    if (
-        not cache.keeps
-    ):  # the scene goes on with what is known of it: as a change of the old one it would be listed anew
+    if not cache.keeps:  # a change of the old scene would be listed anew; this one goes on with what is known of it
         return build_joint(request, scene, gallery, config)
 
     def work(noted: Scene) -> tuple[Built | Refusal, SceneChange | None]:
