@@ -68,10 +68,10 @@ class BuildingDoorConfig:
     touch: float = 0.002
     """What reaches into the outline of a leaf by so much at most (fraction of the height of the whole) touches it."""
     small: float = 0.3
-    """Greatest side of what a leaf without a name is grasped by (fraction of the leaf's height)."""
+    """Greatest side of what is on a nameless leaf without a frame (fraction of the leaf's height)."""
     aside: float = 0.2
-    """It is this far to one side of its leaf's middle at least (fraction of the leaf's width); so is a leaf that
-    slides before its frame beyond that."""
+    """Its handle is this far to one side of the leaf's middle at least (fraction of the leaf's width); a leaf that
+    stands out of its frame by as much slides."""
     garage: float = 1.7
     """A single leaf that is so wide hangs from its upper edge, as of a garage (m): no side hinges would carry it."""
     near: float = 0.15
@@ -128,8 +128,8 @@ def with_building_doors(
 ) -> RealizationPlan:
     """Returns the plan in which the leaves of a door in its frame turn; the plan itself for any other piece.
 
-    A leaf that the plan slides keeps its motion, and a single one that nothing is grasped at the edge at which the plan
-    hangs it. What is on a leaf goes with it. Where some leaves are called doors, the others stay.
+    A leaf that the plan slides keeps its motion. A single leaf without handles turns about the edge that the plan has.
+    What is on a leaf goes with it. Where some leaves are called doors, the others stay.
     """
     found = building_door(asset, config)
     if found is None:
